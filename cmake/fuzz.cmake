@@ -46,5 +46,5 @@ target_link_libraries(fuzz_seeds PRIVATE zoneplate_fuzzed)
 # The default target builds the fuzz targets alone. The shared library would not even link: clang's sanitizers are part of
 # a program, never of a library.
 list(TRANSFORM isas PREPEND zoneplate_ OUTPUT_VARIABLE kernels)
-set_target_properties(zoneplate zoneplate_objects zoneplate_shared ${kernels} zoneplate_cli zoneplate_program
+set_target_properties(zoneplate zoneplate_objects zoneplate_readers zoneplate_shared ${kernels} zoneplate_cli zoneplate_program
                       PROPERTIES EXCLUDE_FROM_ALL ON)

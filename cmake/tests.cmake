@@ -8,6 +8,7 @@ file(GLOB appetite_sources CONFIGURE_DEPENDS fuzz/appetite*.cpp)
 add_executable(fuzz_appetite ${appetite_sources})
 target_link_libraries(fuzz_appetite PRIVATE zoneplate_flags ${fmt} z)
 target_compile_options(fuzz_appetite PRIVATE ${built_quickly})
+set_target_properties(fuzz_appetite PROPERTIES UNITY_BUILD OFF) # each source has functions of its own to append bytes
 
 add_executable(zoneplate_tests ${test_sources} ${whole_tests})
 find_library(meshoptimizer_library meshoptimizer REQUIRED) # packs what tests unpack
@@ -20,10 +21,9 @@ set(laborious shade/environment/prepared_environment shade/surface/shading shade
 list(TRANSFORM laborious REPLACE "(.+)" "src/zoneplate/\\1_test.cpp")
 list(APPEND laborious tests/motion_test.cpp tests/layers_test.cpp tests/words_test.cpp)
 set_source_files_properties(${laborious} PROPERTIES SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "${built_quickly}")
-target_compile_definitions(zoneplate_tests PRIVATE ZONEPLATE_SOURCE_DIR="${CMAKE_CURRENT_SOURCE_DIR}"
-                           ZONEPLATE_PROGRAM="$<TARGET_FILE:zoneplate_program>"
-                           ZONEPLATE_APPETITE="$<TARGET_FILE:fuzz_appetite>")
+add_paths_for_tests("$<TARGET_FILE:zoneplate_program>" "$<TARGET_FILE:fuzz_appetite>")
 add_dependencies(zoneplate_tests zoneplate_program fuzz_appetite)
+compile_folders_together(zoneplate_tests)
 target_precompile_headers(zoneplate_tests PRIVATE ${common_headers} <gtest/gtest.h>)
 gtest_discover_tests(zoneplate_tests DISCOVERY_MODE PRE_TEST TEST_FILTER "-*DISABLED_*"
                      PROPERTIES ENVIRONMENT "XDG_CACHE_HOME=${CMAKE_CURRENT_BINARY_DIR}/cache")

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "measured_run.h"
+#include "zoneplate/base/paths_for_test.h"
 #include "zoneplate/report/json_for_test.h"
 
 namespace zoneplate {
@@ -58,7 +59,7 @@ class Appetite : public testing::Test {
 
   /// Has the inputs written, those that `choice` tells fuzz_appetite, and reads the list of them.
   std::vector<Input> make_inputs(const std::string& choice) const {
-    const std::string command = "'" ZONEPLATE_APPETITE "' '" + (place / "in").string() + "' " + choice;
+    const std::string command = "'" + std::string(appetite_program) + "' '" + (place / "in").string() + "' " + choice;
     EXPECT_EQ(std::system(command.c_str()), 0);
     std::vector<Input> inputs;
     std::ifstream index(place / "in/index.jsonl");

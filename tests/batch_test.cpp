@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "zoneplate/base/paths_for_test.h"
 #include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/report/json_for_test.h"
 
@@ -27,8 +28,8 @@ class BatchRun : public zoneplate::ProgramTest {
  protected:
   // The exit code; stdout's lines are left in `lines`, stderr in `complaint`.
   int run(const std::string& arguments) {
-    const std::string command =
-        "cd '" + place.string() + "' && '" ZONEPLATE_PROGRAM "' " + arguments + " >out.txt 2>err.txt </dev/null";
+    const std::string command = "cd '" + place.string() + "' && '" + zoneplate::program_file + "' " + arguments +
+                                " >out.txt 2>err.txt </dev/null";
     const int status = std::system(command.c_str());
     lines.clear();
     std::istringstream out(text_of(place / "out.txt"));

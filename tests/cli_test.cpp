@@ -12,6 +12,7 @@
 #include <sstream>
 #include <thread>
 
+#include "zoneplate/base/paths_for_test.h"
 #include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/report/json_for_test.h"
 
@@ -38,7 +39,7 @@ class Cli : public zoneplate::ProgramTest {
   // Starts the program with stdout to `out` (a path) and stderr to a file.
   pid_t start(Words words, const std::string& out, const Words& environment = {}) const {
     const std::string err = (place / "stderr").string(), work = (place / "work").string();
-    words.insert(words.begin(), ZONEPLATE_PROGRAM);
+    words.insert(words.begin(), zoneplate::program_file);
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
@@ -47,7 +48,7 @@ class Cli : public zoneplate::ProgramTest {
     for (const std::string& setting : environment) ::putenv(const_cast<char*>(setting.c_str()));
     ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
     ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
-    if (::chdir(work.c_str()) == 0) ::execv(ZONEPLATE_PROGRAM, arguments.data());
+    if (::chdir(work.c_str()) == 0) ::execv(zoneplate::program_file, arguments.data());
     ::_exit(127);
   }
 

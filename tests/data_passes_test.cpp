@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <set>
 
+#include "zoneplate/base/paths_for_test.h"
 #include "zoneplate/codec/exr.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/image/transfer.h"
@@ -28,7 +29,7 @@ class DataPasses : public testing::Test {
   ~DataPasses() override { fs::remove_all(place_); }
 
   int run(const std::string& words) const {
-    return std::system(("cd " + place_.string() + " && " ZONEPLATE_PROGRAM " " + words + " 2> complaint").c_str());
+    return std::system(("cd " + place_.string() + " && " + program_file + " " + words + " 2> complaint").c_str());
   }
   Bytes file(const std::string& name) const {
     const FileBytes bytes((place_ / name).string());

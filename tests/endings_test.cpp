@@ -19,6 +19,7 @@
 #include <sstream>
 #include <thread>
 
+#include "zoneplate/base/paths_for_test.h"
 #include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/report/json_for_test.h"
 
@@ -34,7 +35,7 @@ class Endings : public zoneplate::ProgramTest {
  protected:
   // Starts the program, after `prepare` in the new process; stdout and stderr go to files.
   pid_t start(Words words, const std::function<void()>& prepare = {}) const {
-    words.insert(words.begin(), ZONEPLATE_PROGRAM);
+    words.insert(words.begin(), zoneplate::program_file);
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
@@ -46,7 +47,7 @@ class Endings : public zoneplate::ProgramTest {
     ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
     for (int fd = 3; fd < 64; ++fd) ::close(fd);
     if (prepare) prepare();
-    if (::chdir(place.c_str()) == 0) ::execv(ZONEPLATE_PROGRAM, arguments.data());
+    if (::chdir(place.c_str()) == 0) ::execv(zoneplate::program_file, arguments.data());
     ::_exit(127);
   }
   // The exit code, or 1000 and the signal.

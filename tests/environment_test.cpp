@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "zoneplate/base/paths_for_test.h"
 #include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/cli/render/environment_file.h"
 #include "zoneplate/codec/exr_encode.h"
@@ -105,8 +106,8 @@ TEST_F(EnvironmentImages, AreFilteredOnceAndKept) {
   fs::remove_all(place / "cache");
   std::string all = "cd '" + place.string() + "'";
   for (const char* name : {"r1.png", "r2.png", "r3.png", "r4.png"})
-    all += std::string(name[1] == '1' ? " && {" : " &") +
-           " '" ZONEPLATE_PROGRAM "' teapot --size 80x60 --quiet --hdri-file sky.exr -o " + name;
+    all += std::string(name[1] == '1' ? " && {" : " &") + " '" + std::string(program_file) +
+           "' teapot --size 80x60 --quiet --hdri-file sky.exr -o " + name;
   ASSERT_EQ(std::system((all + " & wait; }").c_str()), 0);
   for (const char* name : {"r1.png", "r2.png", "r3.png", "r4.png"})
     EXPECT_EQ(text_of(place / name), text_of(place / "none.png")) << name;

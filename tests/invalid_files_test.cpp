@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "zoneplate/base/paths_for_test.h"
 #include "zoneplate/base/shared_files_for_test.h"
 #include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/png.h"
@@ -34,7 +35,7 @@ struct Result {
 };
 
 Result run(std::vector<std::string> words, const fs::path& err) {
-  std::string program = ZONEPLATE_PROGRAM;
+  std::string program = zoneplate::program_file;
   std::vector<char*> arguments{program.data()};
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -44,7 +45,7 @@ Result run(std::vector<std::string> words, const fs::path& err) {
   if (child == 0) {
     ::dup2(::open("/dev/null", O_WRONLY), STDOUT_FILENO);
     ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
-    ::execv(ZONEPLATE_PROGRAM, arguments.data());
+    ::execv(zoneplate::program_file, arguments.data());
     ::_exit(127);
   }
   int status = 0;

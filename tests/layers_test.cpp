@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -12,13 +13,16 @@
 #include <regex>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "zoneplate/base/paths_for_test.h"
 
 namespace {
 
 namespace fs = std::filesystem;
-const fs::path source = fs::path(ZONEPLATE_SOURCE_DIR) / "src/zoneplate";
-const fs::path public_headers = fs::path(ZONEPLATE_SOURCE_DIR) / "include/zoneplate";
+const fs::path source = fs::path(zoneplate::source_root) / "src/zoneplate";
+const fs::path public_headers = fs::path(zoneplate::source_root) / "include/zoneplate";
 constexpr std::size_t max_files_per_folder = 40;
 
 std::vector<std::string> lines_of(const fs::path& path) {
@@ -123,13 +127,40 @@ TEST(Layers, NoFolderIsCrowded) {
   for (const std::string& room : rooms()) EXPECT_TRUE(files.contains(source / room)) << room << " is listed and empty";
 }
 
-/// Removes comments, the contents of literals, and preprocessor lines.
+/// The end of the comment, literal or preprocessor line that begins at a character of C++; `at` if none begins there.
+std::size_t end_of_noise(const std::string& text, std::size_t at) {
+  const auto after = [&](std::string_view end, std::size_t from) {
+    const std::size_t found = text.find(end, from);
+    return found == std::string::npos ? text.size() : found + end.size();
+  };
+  const char before = at > 0 ? text[at - 1] : '\n';
+  if (text.compare(at, 2, "//") == 0) return std::min(text.find('\n', at), text.size());
+  if (text.compare(at, 2, "/*") == 0) return after("*/", at + 2);
+  if (text[at] == '#' && before == '\n') {
+    std::size_t end = at;
+    do end = after("\n", end);
+    while (end >= 2 && end < text.size() && text[end - 2] == '\\');
+    return end;
+  }
+  if (text[at] == '"' && before == 'R') return after(")" + text.substr(at + 1, text.find('(', at) - at - 1) + "\"", at);
+  const bool is_digit_separator = text[at] == '\'' && std::isxdigit(static_cast<unsigned char>(before));
+  if ((text[at] != '"' && text[at] != '\'') || is_digit_separator) return at;
+  std::size_t end = at + 1;
+  while (end < text.size() && text[end] != text[at]) end += text[end] == '\\' ? 2 : 1;
+  return std::min(end + 1, text.size());
+}
+
+/// Removes comments, literals and preprocessor lines.
 std::string code_of(const fs::path& file) {
   std::ifstream stream(path_of(file));
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  static const std::regex noise(
-      R"re(//[^\n]*|/\*[^]*?\*/|R"(\w*)\([^]*?\)\1"|"(?:\\.|[^"\\\n])*"|'(?:\\.|[^'\\\n])+'|(?:^|\n)[ \t]*#(?:\\\n|[^\n])*)re");
-  return std::regex_replace(text, noise, " ");
+  std::string code;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = end_of_noise(text, at);
+    code += end == at ? text[at++] : ' ';
+    at = std::max(at, end);
+  }
+  return code;
 }
 
 /// The qualified names of the classes, structures and enumerations that a file defines outside functions and unnamed

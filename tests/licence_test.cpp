@@ -9,6 +9,8 @@
 #include <set>
 #include <string>
 
+#include "zoneplate/base/paths_for_test.h"
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -29,7 +31,7 @@ TEST(Licence, EverySourceNamesItInItsFirstLine) {
     // REUSE-IgnoreEnd
     return 1;
   };
-  const fs::path root = ZONEPLATE_SOURCE_DIR;
+  const fs::path root = zoneplate::source_root;
   int files = check(root / "CMakeLists.txt");
   for (const char* folder : {"bench", "cmake", "examples", "fuzz", "include", "packaging", "python", "src", "tests"})
     if (fs::exists(root / folder))
@@ -39,7 +41,7 @@ TEST(Licence, EverySourceNamesItInItsFirstLine) {
 
 // REUSE.toml: each file that it names exists, and LICENSES has the text of each licence and of no other.
 TEST(Licence, EachLicenceHasItsText) {
-  const fs::path root = ZONEPLATE_SOURCE_DIR;
+  const fs::path root = zoneplate::source_root;
   std::ifstream stream(root / "REUSE.toml");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   std::set<std::string> named, present;

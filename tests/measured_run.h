@@ -16,6 +16,8 @@
 #include <thread>
 #include <vector>
 
+#include "zoneplate/base/paths_for_test.h"
+
 namespace zoneplate {
 
 /// How a run of the built program ended and what it took.
@@ -63,7 +65,7 @@ inline std::uint64_t proportional_bytes_of(pid_t process) {
 /// children, after `most_seconds`.
 inline MeasuredRun run_measured(std::vector<std::string> words, const std::filesystem::path& folder,
                                 double most_seconds) {
-  words.insert(words.begin(), ZONEPLATE_PROGRAM);
+  words.insert(words.begin(), program_file);
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);
@@ -75,7 +77,7 @@ inline MeasuredRun run_measured(std::vector<std::string> words, const std::files
     ::dup2(::open("/dev/null", O_RDONLY), STDIN_FILENO);
     ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
     ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
-    if (::chdir(in.c_str()) == 0) ::execv(ZONEPLATE_PROGRAM, arguments.data());
+    if (::chdir(in.c_str()) == 0) ::execv(program_file, arguments.data());
     ::_exit(127);
   }
   ::setpgid(child, child);  // whichever of the two comes first

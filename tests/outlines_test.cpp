@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "zoneplate/antialias/methods.h"
+#include "zoneplate/base/paths_for_test.h"
 #include "zoneplate/base/shared_files_for_test.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/formats/gltf/maker_for_test.h"
@@ -155,7 +156,7 @@ GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedOutlines);
 
 TEST_P(SharedOutlines, AgreeWithOtherRenderers) {
   const Scenario& scenario = GetParam();
-  const fs::path data = fs::path(ZONEPLATE_SOURCE_DIR) / "../shared/data";
+  const fs::path data = fs::path(source_root) / "../shared/data";
   const fs::path model = data / "models/gltf" / scenario.model,
                  pictures = data / "goldens-calibration/images" / scenario.name;
 

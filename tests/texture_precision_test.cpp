@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "zoneplate/antialias/methods.h"
+#include "zoneplate/base/paths_for_test.h"
 #include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/formats/load.h"
@@ -49,8 +50,7 @@ class TexturePrecision : public testing::Test {
   /// The red values of a picture of the strip.
   std::vector<float> reds(const std::string& material) const {
     write_strip(material);
-    const std::string command = "cd " + place_.string() +
-                                " && " ZONEPLATE_PROGRAM
+    const std::string command = "cd " + place_.string() + " && " + program_file +
                                 " m.obj -o a.pfm --size 1280x160 --camera-azimuth-angle 0 --camera-elevation-angle 0";
     EXPECT_EQ(std::system(command.c_str()), 0);
     const FileBytes file((place_ / "a.pfm").string());

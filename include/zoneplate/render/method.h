@@ -11,6 +11,7 @@
 #include "zoneplate/base/spec.h"
 #include "zoneplate/raster/types/sampling.h"
 #include "zoneplate/render/frame.h"
+#include "zoneplate/scene/camera.h"
 #include "zoneplate/signal/samples.h"
 
 namespace zoneplate {
@@ -82,6 +83,14 @@ struct Request {
   bool writes_display8 = false;
   /// The next frame's FrameContext::previous has the data planes of this frame.
   bool keeps_planes = false;
+  /// How many frames of a still scene the method needs until its image has settled (Renderer::render_still). More than
+  /// 1: the method keeps history, so that an image depends on all frames since the last cut.
+  int settling_frames = 1;
+
+  /// True if an image depends on earlier frames.
+  bool has_history() const { return settling_frames > 1; }
+  /// A `halo` that contains the whole image, for methods with history: motion may bring any pixel into a crop.
+  static constexpr int whole_image = 1 << 20;
 };
 
 /// The position of a frame in its sequence, and the data of the frame before it.
@@ -96,6 +105,8 @@ struct FrameContext {
   /// The data planes of the previous frame if its request had `keeps_planes`; otherwise, and for the first frame, null.
   /// They are valid until the method has resolved and post-processed this frame.
   const Frame* previous = nullptr;
+  Camera camera;       ///< of this frame, without jitter
+  Camera last_camera;  ///< of the previous frame; for the first frame, `camera`
 };
 
 /// The state of an antialiasing method over sequences of frames. A method overrides the steps that it changes.

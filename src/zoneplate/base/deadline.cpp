@@ -31,25 +31,25 @@ class Deadline {
 };
 
 namespace {
-thread_local const Deadline* current = nullptr;
+thread_local const Deadline* deadline_of_thread = nullptr;
 }
 
-const Deadline* current_deadline() { return current; }
+const Deadline* current_deadline() { return deadline_of_thread; }
 
-const Deadline* exchange_deadline(const Deadline* deadline) { return std::exchange(current, deadline); }
+const Deadline* exchange_deadline(const Deadline* deadline) { return std::exchange(deadline_of_thread, deadline); }
 
 void with_deadline(double seconds, ErrorKind kind, const std::string& message, const std::function<void()>& body) {
   constexpr double longest = 1e9;  // seconds; the range of the clock's type is about 300 years
-  const Deadline deadline(std::min(seconds, longest), kind, message, current);
+  const Deadline deadline(std::min(seconds, longest), kind, message, deadline_of_thread);
   struct Restore {
     const Deadline* outer;
-    ~Restore() { current = outer; }
+    ~Restore() { deadline_of_thread = outer; }
   } const restore{exchange_deadline(&deadline)};
   body();
 }
 
 void check_deadline() {
-  if (current) current->check();
+  if (deadline_of_thread) deadline_of_thread->check();
 }
 
 }  // namespace zoneplate

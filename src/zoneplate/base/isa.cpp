@@ -7,13 +7,13 @@
 namespace zoneplate {
 namespace {
 
-thread_local Isa current = best_isa();
+thread_local Isa isa_of_thread = best_isa();
 
 }  // namespace
 
-Isa current_isa() { return current; }
+Isa current_isa() { return isa_of_thread; }
 
-Isa exchange_isa(Isa isa) { return std::exchange(current, isa); }
+Isa exchange_isa(Isa isa) { return std::exchange(isa_of_thread, isa); }
 
 std::span<const Isa> supported_isas() {
 #if defined(__x86_64__)

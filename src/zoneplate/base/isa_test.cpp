@@ -12,6 +12,7 @@
 #include <string>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/base/paths_for_test.h"
 
 namespace zoneplate {
 
@@ -63,7 +64,7 @@ TEST(Isa, TheInnermostWithIsaHoldsAndItsEndBringsTheOuterOneBack) {
 /// options, parameters or objects contains an instruction set. Only the command, which parses `--isa`, names the type.
 TEST(Isa, NoSourceOfTheLibraryTakesATableForAnIsaOfItsOwn) {
   namespace fs = std::filesystem;
-  const fs::path root = fs::path(ZONEPLATE_SOURCE_DIR) / "src/zoneplate";
+  const fs::path root = fs::path(source_root) / "src/zoneplate";
   const std::regex own_choice(R"(best_isa\(\)|Kernels::of\([^)]|PerIsa<\w+>::(?!scalar|HWY_NAMESPACE)\w)"),
       type(R"(\bIsa\b)");
   for (const auto& entry : fs::recursive_directory_iterator(root)) {

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "zoneplate/base/paths_for_test.h"
+
 namespace zoneplate {
 
 // Third-party models and images are not part of the sources. If they are present in `../shared`, parametrised tests use
@@ -13,7 +15,7 @@ namespace zoneplate {
 
 /// The existing ones of the named files in a folder of `../shared`.
 inline std::vector<std::string> shared_files(const std::string& folder, std::vector<std::string> names) {
-  const std::filesystem::path root = std::filesystem::path(ZONEPLATE_SOURCE_DIR) / "../shared" / folder;
+  const std::filesystem::path root = std::filesystem::path(source_root) / "../shared" / folder;
   for (std::string& name : names) name = (root / name).string();
   std::erase_if(names, [](const std::string& path) { return !std::filesystem::exists(path); });
   return names;
@@ -22,7 +24,7 @@ inline std::vector<std::string> shared_files(const std::string& folder, std::vec
 /// All files in a folder of `../shared` and its subfolders with one of these endings, sorted by name.
 inline std::vector<std::string> shared_files_ending(const std::string& folder,
                                                     const std::vector<std::string>& endings) {
-  const std::filesystem::path root = std::filesystem::path(ZONEPLATE_SOURCE_DIR) / "../shared" / folder;
+  const std::filesystem::path root = std::filesystem::path(source_root) / "../shared" / folder;
   std::vector<std::string> out;
   if (!std::filesystem::exists(root)) return out;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(root))

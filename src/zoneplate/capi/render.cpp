@@ -170,7 +170,7 @@ std::unique_ptr<zoneplate_image> render_image(zoneplate_scene& scene, const zone
   const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
   Renderer renderer(prepared.lit(make_lighting(prepared.scene(), lighting)), std::move(method));
   RenderedImage image =
-      renderer.render(camera != nullptr ? camera_of(camera) : find_camera(scene, nullptr, aspect), settings);
+      renderer.render_still(camera != nullptr ? camera_of(camera) : find_camera(scene, nullptr, aspect), settings);
 
   const bool has_alpha = options.display.is_transparent || options.display.background.w < 1;
   std::unique_ptr<zoneplate_image> out;

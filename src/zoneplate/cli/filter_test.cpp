@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "zoneplate/base/paths_for_test.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/os/file.h"
 
@@ -25,7 +26,7 @@ class FilterVerb : public testing::Test {
 
   /// Runs the program in the folder; returns its exit code and stores its output.
   int run(const std::string& arguments) {
-    const std::string command = "cd '" + folder_.string() + "' && '" ZONEPLATE_PROGRAM "' " + arguments + " 2>&1";
+    const std::string command = "cd '" + folder_.string() + "' && '" + program_file + "' " + arguments + " 2>&1";
     std::FILE* pipe = ::popen(command.c_str(), "r");
     std::array<char, 4096> part{};
     output_.clear();

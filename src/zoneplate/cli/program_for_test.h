@@ -13,6 +13,8 @@
 #include <string>
 #include <string_view>
 
+#include "zoneplate/base/paths_for_test.h"
+
 namespace zoneplate {
 
 /// The bytes of a file; empty if it does not exist.
@@ -43,7 +45,7 @@ class ProgramTest : public testing::Test {
 
   /// Runs the program in that folder, with arguments in shell syntax.
   ProgramAnswer run(const std::string& arguments) const {
-    const std::string command = "cd '" + place.string() + "' && '" ZONEPLATE_PROGRAM "' " + arguments + " 2>&1";
+    const std::string command = "cd '" + place.string() + "' && '" + program_file + "' " + arguments + " 2>&1";
     std::FILE* pipe = ::popen(command.c_str(), "r");
     ProgramAnswer answer;
     std::array<char, 4096> part{};

@@ -16,8 +16,8 @@
 namespace zoneplate {
 namespace {
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float quiet_nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float plus_infinity = std::numeric_limits<float>::infinity();
 
 /// The definition, in extended precision.
 long double true_encode(long double x) {
@@ -39,12 +39,12 @@ TEST(Transfer, FollowsTheDefinition) {
 }
 
 TEST(Transfer, ClampsWhatLiesOutside) {
-  for (const float x : {-1.0f, -0.0f, nan, -infinity}) {
+  for (const float x : {-1.0f, -0.0f, quiet_nan, -plus_infinity}) {
     EXPECT_EQ(encode_srgb(x), 0);
     EXPECT_EQ(decode_srgb(x), 0);
     EXPECT_EQ(encode_srgb8(x), 0);
   }
-  for (const float x : {1.5f, infinity}) {
+  for (const float x : {1.5f, plus_infinity}) {
     EXPECT_EQ(encode_srgb(x), 1);
     EXPECT_EQ(decode_srgb(x), 1);
     EXPECT_EQ(encode_srgb8(x), 255);
@@ -96,7 +96,7 @@ TEST(Transfer, QuantizesByRounding) {
     const auto word = static_cast<std::uint16_t>(257 * code);
     EXPECT_EQ(quantize16(image)(0, 0).r, word);
   }
-  const DisplayImage odd(1, 1, {nan, infinity, -1, 2});
+  const DisplayImage odd(1, 1, {quiet_nan, plus_infinity, -1, 2});
   EXPECT_EQ(quantize8(odd)(0, 0), (Rgba8{0, 255, 0, 255}));
   EXPECT_EQ(quantize16(odd)(0, 0), (Rgba16{0, 65535, 0, 65535}));
 }
@@ -121,7 +121,11 @@ TEST(Transfer, EveryInstructionSetGivesTheSameBits) {
       std::vector<float> in(n);
       for (std::uint32_t i = 0; i < n; ++i) {
         const float u = unit_float(hash(i, n));
-        in[i] = i % 17 == 3 ? nan : i % 17 == 5 ? infinity : i % 3 == 0 ? u * 2 - 0.5f : i % 3 == 1 ? u : u * 0.01f;
+        in[i] = i % 17 == 3   ? quiet_nan
+                : i % 17 == 5 ? plus_infinity
+                : i % 3 == 0  ? u * 2 - 0.5f
+                : i % 3 == 1  ? u
+                              : u * 0.01f;
       }
       std::vector<float> expected(n), found(n);
       TransferKernels::scalar.encode(in.data(), expected.data(), n);

@@ -11,7 +11,7 @@
 namespace zoneplate::metrics {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 /// A number whose logarithm is uniform over 2^-40 .. 2^40.
 double some_number(std::uint32_t i) {
@@ -46,8 +46,8 @@ TEST(Logarithms, ToTenAndTwo) {
   EXPECT_NEAR(decimal_log(1000), 3, 1e-15);
   EXPECT_NEAR(binary_log(1024), 10, 4e-15);
   EXPECT_EQ(decimal_log(1), 0);
-  EXPECT_EQ(decimal_log(0), -infinity);
-  EXPECT_EQ(decimal_log(infinity), infinity);
+  EXPECT_EQ(decimal_log(0), -unbounded);
+  EXPECT_EQ(decimal_log(unbounded), unbounded);
 }
 
 }  // namespace

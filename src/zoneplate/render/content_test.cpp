@@ -15,23 +15,23 @@
 namespace zoneplate {
 namespace {
 
-constexpr int width = 160, height = 120;
+constexpr int content_width = 160, content_height = 120;
 
 /// Triangles that face an orthographic camera whose image has a unit a pixel; (0, 0) is the image's top-left corner
 /// and y goes down.
 Scene flat_scene(std::vector<float3> corners, Material material = {}) {
   Mesh mesh;
   for (std::uint32_t i = 0; const float3 p : corners) {
-    mesh.position.push_back({p.x - width / 2.0f, height / 2.0f - p.y, p.z});
+    mesh.position.push_back({p.x - content_width / 2.0f, content_height / 2.0f - p.y, p.z});
     mesh.index.push_back(i++);
   }
   Scene scene = facing_scene(std::move(mesh), std::move(material));
-  scene.cameras[0].half_height = height / 2.0f;
+  scene.cameras[0].half_height = content_height / 2.0f;
   return scene;
 }
 
 Frame frame_of(const Scene& scene, const Camera& camera, const Request& request, RenderCounts* counts = nullptr) {
-  return render(PreparedScene(scene), camera, request, {.width = width, .height = height}, counts);
+  return render(PreparedScene(scene), camera, request, {.width = content_width, .height = content_height}, counts);
 }
 
 Camera camera_of(const Scene& scene) {
@@ -57,8 +57,8 @@ TEST(EdgeDistances, AreThoseOfTheTriangleByHand) {
   EXPECT_EQ(counts.shaded, 0u);
   EXPECT_GT(counts.geometric, 3000u);
   int inside = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < content_height; ++y)
+    for (int x = 0; x < content_width; ++x) {
       double nearest = 1e9;
       bool is_along_row = false, is_inside = true;
       for (int k = 0; k < 3; ++k) {
@@ -95,10 +95,10 @@ TEST(EdgeDistances, ATriangleThroughTheEyesPlaneHasItsEdges) {
   const Frame frame = frame_of(scene, camera, request_for(Content::EdgeDistances));
   int checked = 0;
   for (int y = 70; y < 115; ++y)
-    for (int x = 1; x < width - 1; ++x) {
+    for (int x = 1; x < content_width - 1; ++x) {
       // Of the two pixels about a side of the road, that on it stores how far the side is.
       const double below = (y + 0.5 - 60) / 60, side = 80 + 2 * below * 60;
-      if (side > width - 2 || x != static_cast<int>(side - 0.5)) continue;
+      if (side > content_width - 2 || x != static_cast<int>(side - 0.5)) continue;
       ASSERT_NEAR(frame.edge_distance(x, y).x, side - (x + 0.5), 2e-3) << x << "," << y;
       ++checked;
     }
@@ -112,9 +112,9 @@ TEST(EdgeDistances, AlphaHasAnEdgeWhereItFallsToTheCutoff) {
   material.alpha_cutoff = 1 - 80.3f / 160;
   Scene scene = flat_scene({{0, 0, 0}, {160, 0, 0}, {160, 120, 0}, {0, 0, 0}, {160, 120, 0}, {0, 120, 0}}, material);
   for (const float3 p : scene.meshes[0].position)
-    scene.meshes[0].color.push_back({1, 1, 1, 1 - (p.x + width / 2.0f) / width});
+    scene.meshes[0].color.push_back({1, 1, 1, 1 - (p.x + content_width / 2.0f) / content_width});
   const Frame frame = frame_of(scene, scene.cameras[0], request_for(Content::EdgeDistances));
-  for (int y = 3; y < height - 3; ++y)
+  for (int y = 3; y < content_height - 3; ++y)
     for (int x = 78; x < 83; ++x) {
       // The diagonal between the two triangles is an edge too.
       const float centre = static_cast<float>(x) + 0.5f;

@@ -286,6 +286,7 @@ class CpuBackend : public Backend {
  private:
   RasterMemory memory_;
   SceneShadows shadows_;
+  LastVisibility last_visibility_;
 };
 
 Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_camera, const Request& request,
@@ -354,7 +355,10 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
   if (target.reversed_depth) find_distances(clip_from_camera, frame);
   if (has_data && request.planes.any_point_plane()) {
     frame.instance = request.planes.object_id ? frame.object_id : std::move(frame.object_id);
-    add_surface_points({prepared.shared_scene(), camera}, request.planes, options, frame);
+    const Moment now{prepared.shared_scene(), camera};
+    add_surface_points(now, request.planes, options, frame);
+    if (request.planes.was_visible)
+      last_visibility_.find(options.last ? *options.last : now, prepared.textures(), options, frame);
   }
   for (std::uint32_t& id : frame.object_id.values())
     if (id != Frame::no_id) id = static_cast<std::uint32_t>(scene.instances[id].object);

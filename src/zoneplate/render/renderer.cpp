@@ -75,7 +75,7 @@ void Renderer::set_scene(PreparedScene scene) { scene_ = std::move(scene); }
 
 void Renderer::recycle(Rgba8Image image) { backend_->recycle(std::move(image)); }
 
-void Renderer::begin_frame(const RenderSettings& settings) {
+void Renderer::begin_frame(const Camera& camera, const RenderSettings& settings) {
   const RenderOptions& o = settings.options;
   if (o.width != width_ || o.height != height_ || !is_same(o.crop, crop_)) index_ = 0;
   width_ = o.width, height_ = o.height, crop_ = o.crop;
@@ -84,7 +84,9 @@ void Renderer::begin_frame(const RenderSettings& settings) {
               .index = index_,
               .is_first = index_ == 0,
               .jitter = jitter_[static_cast<std::size_t>(index_ % jitter_period)],
-              .previous = previous_ ? &*previous_ : nullptr};
+              .previous = previous_ ? &*previous_ : nullptr,
+              .camera = camera,
+              .last_camera = index_ == 0 ? camera : camera_};
 }
 
 Request Renderer::request_for(const RenderSettings& settings) {
@@ -175,6 +177,7 @@ void Renderer::end_frame(const Camera& camera, bool keeps_moment, const Request&
                          Frame& data) {
   moment_.reset();
   if (keeps_moment) moment_ = {scene_.shared_scene(), camera};
+  camera_ = camera, settling_frames_ = request.settling_frames;
   previous_.reset();
   if (request.keeps_planes && are_planes_requested)
     previous_ = data;
@@ -184,7 +187,7 @@ void Renderer::end_frame(const Camera& camera, bool keeps_moment, const Request&
 }
 
 RenderedImage Renderer::render(const Camera& camera, const RenderSettings& settings) {
-  begin_frame(settings);
+  begin_frame(camera, settings);
   const Request request = request_for(settings);
   const RenderOptions options = frame_options(settings, request);
 
@@ -211,10 +214,29 @@ RenderedImage Renderer::render(const Camera& camera, const RenderSettings& setti
   return out;
 }
 
+RenderedImage Renderer::render_still(const Camera& camera, const RenderSettings& settings) {
+  begin_sequence();
+  RenderedImage image = render(camera, settings);
+  RenderCounts counts = image.counts;
+  for (int i = 1; i < settling_frames_; ++i) {
+    recycle(std::move(image.display));
+    image = render(camera, settings);
+    add(counts, image.counts);
+    counts.resolve_ms += image.counts.resolve_ms, counts.display_ms += image.counts.display_ms;
+    counts.filter_ms += image.counts.filter_ms;
+  }
+  image.counts = counts;
+  return image;
+}
+
 RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int)>& moment,
                                     const RenderSettings& settings) {
-  begin_frame(settings);
+  SceneView view = moment(0);
+  begin_frame(view.camera, settings);
   Request request = request_for(settings);
+  if (request.has_history())
+    throw Error(ErrorKind::Usage,
+                "motion blur is the mean of several moments, and the method keeps one history for all");
   request.writes_display8 = false;
   const RenderOptions options = frame_options(settings, request);
 
@@ -223,7 +245,7 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
   Rounds rounds;
   Camera camera;
   for (int i = 0; i < count; ++i) {
-    SceneView view = moment(i);
+    if (i > 0) view = moment(i);
     scene_ = std::move(view.scene), camera = std::move(view.camera);
     rounds = render_rounds(camera, request, options, out.counts);
     const Stopwatch watch;

@@ -14,7 +14,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr int width = 96, height = 72;
+constexpr int frame_width = 96, frame_height = 72;
 constexpr float aspect = 4.0f / 3;
 
 PreparedScene prepared(const std::string& name) {
@@ -29,7 +29,7 @@ Camera camera_of(const PreparedScene& prepared) {
 }
 
 RenderSettings settings_for(ImageForm form, Planes planes = {}) {
-  return {.options = {.width = width, .height = height}, .planes = planes, .form = form};
+  return {.options = {.width = frame_width, .height = frame_height}, .planes = planes, .form = form};
 }
 
 constexpr Planes all_data{.depth = true,
@@ -57,7 +57,7 @@ void expect_same_data(const Frame& a, const Frame& b) {
 
 /// The camera moved to its right by a number of pixels.
 Camera moved_right(Camera camera, float pixels) {
-  const float world_per_pixel = 2 * camera.half_height / height;
+  const float world_per_pixel = 2 * camera.half_height / frame_height;
   camera.world_from_camera = camera.world_from_camera * translation({pixels * world_per_pixel, 0, 0});
   return camera;
 }
@@ -163,8 +163,8 @@ TEST(Renderer, FramesOfAStillSceneAccumulateToTheirMean) {
     single.push_back(render(scene, camera, request, settings.options).color);
   }
   int inside = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < frame_height; ++y)
+    for (int x = 0; x < frame_width; ++x) {
       Linear sum{0, 0, 0, 0};
       for (const LinearImage& image : single) sum = sum + image(x, y) * 0.25f;
       if (sum.a == 1) inside += std::abs(sum.g - last(x, y).g) < 1e-5f;
@@ -178,7 +178,7 @@ TEST(Renderer, AnotherSizeBeginsASequence) {
   Renderer renderer(scene, std::make_unique<Accumulation>());
   RenderSettings settings = settings_for(ImageForm::Linear);
   renderer.render(camera_of(scene), settings);
-  settings.options.width = width / 2;
+  settings.options.width = frame_width / 2;
   renderer.render(camera_of(scene), settings);
   settings.options.crop = Crop{1, 2, 20, 20};
   renderer.render(camera_of(scene), settings);
@@ -301,7 +301,7 @@ TEST(DataOnly, NothingIsShaded) {
   for (const char* name : {"teapot:divisions=6", "city", "fillblend", "cyclic", "foliage", "wires"}) {
     const PreparedScene scene = prepared(name);
     const Camera camera = camera_of(scene);
-    const RenderOptions options{.width = width, .height = height};
+    const RenderOptions options{.width = frame_width, .height = frame_height};
     for (const Rate rate : {Rate::Surface, Rate::Sample})
       for (const SamplePattern& samples : {SamplePattern{SamplePosition{}}, standard_pattern(4), grid_pattern(5)}) {
         Request colored{.samples = samples, .rate = rate, .planes = all_data};
@@ -345,7 +345,7 @@ TEST(PreparedScene, CopiesShareWhatWasMade) {
   EXPECT_EQ(&later.textures(), &scene.textures());
   EXPECT_NE(&later.vertices(), &scene.vertices());
   for (const TextureImage& image : scene.scene().images) EXPECT_TRUE(image.pixels.empty());
-  const RenderOptions options{.width = width, .height = height};
+  const RenderOptions options{.width = frame_width, .height = frame_height};
   EXPECT_EQ(render(later, camera_of(scene), {}, options).color, render(scene, camera_of(scene), {}, options).color);
 }
 
@@ -360,13 +360,13 @@ LinearImage sphere_in_light(float3 light, bool is_image) {
     scene.images.push_back({.name = "grey", .pixels = Plane<float4>(8, 4, {2, 2, 2, 1})});
   }
   const PreparedScene prepared(std::move(scene));
-  return render(prepared, camera_of(prepared), {}, {.width = width, .height = height}).color;
+  return render(prepared, camera_of(prepared), {}, {.width = frame_width, .height = frame_height}).color;
 }
 
 TEST(PreparedScene, AnEnvironmentImageOfOneColourLightsAsThatColour) {
   const LinearImage plain = sphere_in_light({0.5f, 1, 0.25f}, false), image = sphere_in_light({0.5f, 1, 0.25f}, true);
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < frame_height; ++y)
+    for (int x = 0; x < frame_width; ++x) {
       ASSERT_NEAR(image(x, y).g, plain(x, y).g, 2e-4f) << x << ' ' << y;
       ASSERT_NEAR(image(x, y).b, plain(x, y).b, 1e-4f) << x << ' ' << y;
     }
@@ -386,7 +386,7 @@ TEST(Lights, InCameraSpaceTurnWithTheCamera) {
   const Camera camera = fit_camera(fixed, aspect, {});
   fixed.environment = turning.environment, fixed.ambient_light = turning.ambient_light;
   for (const Light& light : turning.lights) fixed.lights.push_back(in_world_space(light, camera.world_from_camera));
-  const RenderOptions options{.width = width, .height = height};
+  const RenderOptions options{.width = frame_width, .height = frame_height};
   const PreparedScene a(std::move(fixed)), b(std::move(turning));
   EXPECT_EQ(render(a, camera, {}, options).color, render(b, camera, {}, options).color);
   const Camera other = fit_camera(a.scene(), aspect, {.azimuth = 2});

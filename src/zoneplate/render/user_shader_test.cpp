@@ -7,7 +7,7 @@ namespace zoneplate {
 namespace {
 
 /// A triangle over the whole image whose colour is the place on the screen.
-struct Place {
+struct PlaceShader {
   struct Varyings {
     float x, y;
   };
@@ -35,13 +35,13 @@ struct WithBytes {
   float x;
   std::uint8_t color[4];
 };
-static_assert(holds_only_floats<Place::Varyings>() && holds_only_floats<Nested>());
+static_assert(holds_only_floats<PlaceShader::Varyings>() && holds_only_floats<Nested>());
 static_assert(!holds_only_floats<WithInt>() && !holds_only_floats<WithBytes>() && !holds_only_floats<double>());
 
 TEST(UserShader, GivesUsersShadersPerspectiveCorrectVaryingsAndSlopes) {
   const std::uint32_t indices[] = {0, 1, 2};
   const int size = 64;
-  const LinearImage image = draw(Place{}, indices, 3, size, size);
+  const LinearImage image = draw(PlaceShader{}, indices, 3, size, size);
   // 1 / w is affine on the screen; x and y are what was projected, so they are not affine: check 1/w's own weights.
   for (int y = 0; y < size; ++y)
     for (int x = 0; x < size; ++x) {

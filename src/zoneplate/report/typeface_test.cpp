@@ -8,11 +8,11 @@
 namespace zoneplate {
 namespace {
 
-constexpr Rgba8 paper{255, 255, 255, 255}, black{0, 0, 0, 255};
+constexpr Rgba8 white{255, 255, 255, 255}, black{0, 0, 0, 255};
 
 bool is_blank(const Rgba8Image& image) {
   for (const Rgba8 c : image.values())
-    if (c != paper) return false;
+    if (c != white) return false;
   return true;
 }
 
@@ -67,7 +67,7 @@ TEST(Typeface, KernsAndScales) {
 TEST(Typeface, DrawsCoverageInLinearLight) {
   const Typeface face(Typeface::Weight::Regular, 100);
   const auto ink_of = [&](std::string_view before) {
-    Rgba8Image picture(200, 140, paper);
+    Rgba8Image picture(200, 140, white);
     face.draw(picture, 20, 0, std::string(before) + "I", black);
     double sum = 0;
     for (const Rgba8 c : picture.values()) sum += 1 - decode_srgb8(c.r);
@@ -82,11 +82,11 @@ TEST(Typeface, DrawsCoverageInLinearLight) {
 TEST(Typeface, ShowsWhatIsNotUtf8AndClips) {
   const Typeface face(Typeface::Weight::Regular, 20);
   for (const std::string_view broken : {"\xff", "\xc3", "\xc0\x80", "\xed\xa0\x80", "\xf5\x80\x80\x80"}) {
-    Rgba8Image picture(120, 30, paper);
+    Rgba8Image picture(120, 30, white);
     face.draw(picture, 5, 0, broken, black);
     EXPECT_FALSE(is_blank(picture));
   }
-  Rgba8Image tiny(4, 4, paper);
+  Rgba8Image tiny(4, 4, white);
   face.draw(tiny, -10, -12, "Wide letters, mostly outside", black);  // clipped: the plane asserts the bounds
   EXPECT_FALSE(is_blank(tiny));
 }

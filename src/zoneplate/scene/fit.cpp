@@ -13,7 +13,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr std::size_t direction_count = 22, block = 1024;
+constexpr std::size_t direction_count = 22, block_size = 1024;
 using Directions = std::array<float3, direction_count>;
 using Reach = std::array<float, direction_count>;
 
@@ -74,7 +74,7 @@ float3 first_used_at(const Placed& placed, float3 direction, float reach, const 
   std::optional<float3> found;
   bool is_one = true;
   for (const std::size_t b : blocks)
-    for (std::size_t v = b * block; v < std::min((b + 1) * block, placed.size()); ++v) {
+    for (std::size_t v = b * block_size; v < std::min((b + 1) * block_size, placed.size()); ++v) {
       const float3 p = placed.point(v);
       if (placed.is_used[v] == 0 || dot(direction, p) != reach) continue;
       is_one = is_one && found.value_or(p) == p;
@@ -86,9 +86,9 @@ float3 first_used_at(const Placed& placed, float3 direction, float reach, const 
 }
 
 void add_instance(const Placed& placed, const Directions& directions, Farthest& all) {
-  std::vector<Reach> found((placed.size() + block - 1) / block);
-  parallel_ranges(placed.size(), block, [&](std::size_t begin, std::size_t end) {
-    found[begin / block] = reach_of(placed, begin, end, directions);
+  std::vector<Reach> found((placed.size() + block_size - 1) / block_size);
+  parallel_ranges(placed.size(), block_size, [&](std::size_t begin, std::size_t end) {
+    found[begin / block_size] = reach_of(placed, begin, end, directions);
   });
   for (std::size_t d = 0; d < direction_count; ++d) {
     float reach = -std::numeric_limits<float>::infinity();

@@ -10,7 +10,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr std::size_t block = 1 << 15;
+constexpr std::size_t range_size = 1 << 15;
 
 /// The floats of the vectors of vertices [begin, end).
 template <class V>
@@ -48,15 +48,16 @@ void make_zero(Mesh& m, std::size_t i) {
 }  // namespace
 
 std::uint64_t drop_not_finite(Mesh& m) {
-  std::vector<char> is_clean((m.position.size() + block - 1) / block);
-  parallel_ranges(m.position.size(), block,
-                  [&](std::size_t begin, std::size_t end) { is_clean[begin / block] = all_finite(m, begin, end); });
+  std::vector<char> is_clean((m.position.size() + range_size - 1) / range_size);
+  parallel_ranges(m.position.size(), range_size, [&](std::size_t begin, std::size_t end) {
+    is_clean[begin / range_size] = all_finite(m, begin, end);
+  });
   if (std::find(is_clean.begin(), is_clean.end(), 0) == is_clean.end()) return 0;
 
   std::vector<bool> is_bad(m.position.size());
   serial_ranges(m.position.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      if (!is_clean[i / block] && !all_finite(m, i, i + 1)) is_bad[i] = true, make_zero(m, i);
+      if (!is_clean[i / range_size] && !all_finite(m, i, i + 1)) is_bad[i] = true, make_zero(m, i);
   });
   const auto corners = static_cast<std::size_t>(m.vertices_per_primitive());
   std::size_t kept = 0;

@@ -42,8 +42,7 @@ Trial rendered(const TrialSetup& stage, const std::string& method, int turns) {
     const double used_before = processor_ms();
     const Stopwatch watch;
     if (!renderer) renderer.emplace(stage.scene, upscale::make_method(method));
-    renderer->begin_sequence();
-    RenderedImage image = renderer->render(stage.camera, stage.settings);
+    RenderedImage image = renderer->render_still(stage.camera, stage.settings);
     const double ms = watch.ms();
     if (turn == 0 || ms < trial.least_ms()) trial.counts = image.counts;
     trial.frame_ms.push_back(ms);

@@ -50,7 +50,7 @@ LinearImage shoot(const Scene& scene, const std::string& method, const RenderOpt
   light_unlit(lit);
   Renderer renderer(PreparedScene(std::move(lit), mips), upscale::make_method(method));
   RenderedImage image =
-      renderer.render(camera_of(scene, options.width, options.height), {.options = options, .form = ImageForm::Linear});
+      renderer.render_still(camera_of(scene, options.width, options.height), {.options = options, .form = ImageForm::Linear});
   if (counts) *counts = image.counts;
   LinearImage light = std::move(image.linear);
   const float background = decode_srgb(background_code);

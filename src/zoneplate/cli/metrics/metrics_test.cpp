@@ -12,6 +12,7 @@
 #include <map>
 #include <vector>
 
+#include "zoneplate/base/paths_for_test.h"
 #include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/metrics/flip/magma.h"
@@ -73,7 +74,8 @@ TEST_F(MetricsVerb, ThresholdsDecide) {
 
 TEST_F(MetricsVerb, ReadsEveryFormatThatRenderWrites) {
   for (const char* name : {"a.png", "a.webp", "a.jpg", "a.pfm", "a.exr"}) {
-    const std::string command = "'" ZONEPLATE_PROGRAM "' render triangles --size 32x32 -o '" + at(name) + "' 2>&1";
+    const std::string command =
+        "'" + std::string(program_file) + "' render triangles --size 32x32 -o '" + at(name) + "' 2>&1";
     ASSERT_EQ(std::system(command.c_str()), 0);
     EXPECT_EQ(run(std::string("a.png ") + name + " --metric psnr --threshold 30").code, 0) << name;
   }
@@ -193,7 +195,7 @@ TEST_F(Regression, EveryImageIsJudgedByItself) {
   EXPECT_TRUE(contains(report, "<img alt=\"Error map of a/shot8.png\" src=\"data:image/png;base64,"));
   EXPECT_FALSE(contains(report, "http"));
   if (std::system("xmllint --version >/dev/null 2>&1") == 0) {
-    const std::string schema = ZONEPLATE_SOURCE_DIR "/tests/junit.xsd";
+    const std::string schema = source_root + std::string("/tests/junit.xsd");
     EXPECT_EQ(std::system(("xmllint --noout --schema '" + schema + "' '" + at("j.xml") + "' 2>/dev/null").c_str()), 0);
   }
 }

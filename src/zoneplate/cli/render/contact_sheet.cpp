@@ -70,7 +70,7 @@ std::vector<std::uint8_t> render_cell(RenderArgs render, ItemSender& sender) {
   const Camera camera = choose_camera(scene, render.view, aspect);
   set_look(render, scene);
   Renderer renderer(PreparedScene(std::move(scene)), upscale::make_method(render.method));
-  const Rgba8Image picture = renderer.render(camera, settings_of(render, "")).display;
+  const Rgba8Image picture = renderer.render_still(camera, settings_of(render, "")).display;
   const auto* first = reinterpret_cast<const std::uint8_t*>(picture.values().data());
   return {first, first + picture.values().size_bytes()};
 }

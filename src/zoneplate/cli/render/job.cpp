@@ -74,7 +74,7 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   RenderedImage image;
   {
     Renderer renderer(scene_->lit(make_lighting(scene, args.lighting)), std::move(method));
-    image = renderer.render(camera, settings_of(args, args.named_output()));
+    image = renderer.render_still(camera, settings_of(args, args.named_output()));
   }
   const Rendered picture = finish_picture(args, std::move(image), scene, args.named_output(), summary);
   if (summary.counts.triangles_set_up == 0) summary.warnings.push_back(emptiness(args, summary.counts));

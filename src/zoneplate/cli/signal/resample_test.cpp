@@ -2,6 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "zoneplate/base/paths_for_test.h"
 #include "zoneplate/cli/signal/load.h"
 #include "zoneplate/cli/signal/signal.h"
 #include "zoneplate/cli/signal/signal_for_test.h"
@@ -112,8 +113,8 @@ TEST_F(SignalResample, ShowsBothAndRefuses) {
 
 TEST_F(SignalResample, ReadsAndWritesPipes) {
   out(run_signal_resample, {"bricks:size=32", "--size", "1", "--kernel", "nearest", "-o", at("in.png")});
-  const std::string command = "'" ZONEPLATE_PROGRAM "' signal resample - --size 0.5 --json -o - < '" + at("in.png") +
-                              "' > '" + at("piped.png") + "' 2> '" + at("numbers.json") + "'";
+  const std::string command = "'" + std::string(program_file) + "' signal resample - --size 0.5 --json -o - < '" +
+                              at("in.png") + "' > '" + at("piped.png") + "' 2> '" + at("numbers.json") + "'";
   ASSERT_EQ(std::system(command.c_str()), 0);
   out(run_signal_resample, {at("in.png"), "--size", "0.5", "-o", at("plain.png")});
   EXPECT_EQ(text("piped.png"), text("plain.png"));

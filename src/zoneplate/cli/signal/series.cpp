@@ -16,7 +16,7 @@ namespace zoneplate::cli {
 namespace {
 
 constexpr int greatest_term = 9999;
-constexpr int steps = 2000;  // points of a curve over one period
+constexpr int steps_of_period = 2000;  // points of a curve over one period
 
 struct SeriesArgs : SignalArgs {
   std::vector<int> terms = {1, 3, 5, 15};
@@ -56,13 +56,14 @@ Plot sums_plot(Wave wave, const SeriesArgs& args) {
             .y = {"value", -1.3, 1.3},
             .curves = {}};
   Curve whole{"the wave", {}, Curve::Mark::Line, Curve::grey};
-  for (int i = 0; i <= steps; ++i)
-    whole.points.emplace_back(static_cast<double>(i) / steps, wave_value(wave, static_cast<double>(i) / steps));
+  for (int i = 0; i <= steps_of_period; ++i)
+    whole.points.emplace_back(static_cast<double>(i) / steps_of_period,
+                              wave_value(wave, static_cast<double>(i) / steps_of_period));
   plot.curves.push_back(whole);
   for (std::size_t k = 0; k < args.terms.size(); ++k) {
     Curve curve{fmt::format("harmonics to {}", args.terms[k]), {}, Curve::Mark::Line, static_cast<int>(k)};
-    for (int i = 0; i <= steps; ++i) {
-      const double x = static_cast<double>(i) / steps;
+    for (int i = 0; i <= steps_of_period; ++i) {
+      const double x = static_cast<double>(i) / steps_of_period;
       curve.points.emplace_back(x, partial_sum(wave, args.terms[k], x));
     }
     plot.curves.push_back(std::move(curve));

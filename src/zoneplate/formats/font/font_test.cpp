@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/formats/font/font.h"
+#include "zoneplate/base/paths_for_test.h"
 
 #include <gtest/gtest.h>
 
@@ -45,8 +46,7 @@ TEST(Font, RefusesOtherFiles) {
     return std::string("no error");
   };
   EXPECT_EQ(message("/none.ttf"), "/none.ttf: no such file");
-  EXPECT_EQ(message(std::string(ZONEPLATE_SOURCE_DIR) + "/README.md"),
-            std::string(ZONEPLATE_SOURCE_DIR) + "/README.md: not a font");
+  EXPECT_EQ(message(std::string(source_root) + "/README.md"), std::string(source_root) + "/README.md: not a font");
 }
 
 TEST(Font, DecodesUtf8) {

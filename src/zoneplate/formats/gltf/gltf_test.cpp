@@ -12,7 +12,7 @@
 namespace zoneplate {
 namespace {
 
-void expect_near(float3 a, float3 b) {
+void expect_close(float3 a, float3 b) {
   EXPECT_NEAR(a.x, b.x, 1e-6f);
   EXPECT_NEAR(a.y, b.y, 1e-6f);
   EXPECT_NEAR(a.z, b.z, 1e-6f);
@@ -40,7 +40,7 @@ TEST(Gltf, NodesComposeFromTheRootDown) {
   ASSERT_EQ(s.instances.size(), 1u);
   EXPECT_EQ(s.objects, std::vector<std::string>{"leaf"});
   // (1,0,0) is translated to (2,1,1), scaled to (4,-3,1), rotated by 90 degrees to (3,4,1), and translated to (13,4,1).
-  expect_near(transform_point(s.instances[0].world_from_object, {1, 0, 0}), {13, 4, 1});
+  expect_close(transform_point(s.instances[0].world_from_object, {1, 0, 0}), {13, 4, 1});
   EXPECT_LT(determinant3(s.instances[0].world_from_object), 0);
 }
 
@@ -137,8 +137,8 @@ TEST(Gltf, CamerasLookAlongMinusZOfTheirNode) {
   m.nodes = R"({"camera":0,"rotation":[0,0.70710678,0,0.70710678],"scale":[-3,2,5]})";
   m.rest = R"(,"cameras":[{"type":"perspective","perspective":{"yfov":0.5,"znear":0.1}}])";
   const float4x4 world = load(m).cameras.at(0).world_from_camera;
-  expect_near(transform_vector(world, {0, 0, -1}), {-1, 0, 0});
-  expect_near(transform_vector(world, {0, 1, 0}), {0, 1, 0});
+  expect_close(transform_vector(world, {0, 0, -1}), {-1, 0, 0});
+  expect_close(transform_vector(world, {0, 1, 0}), {0, 1, 0});
   EXPECT_NEAR(determinant3(world), 1, 1e-6f);
 }
 
@@ -175,7 +175,7 @@ TEST(Gltf, Lights) {
   EXPECT_EQ(s.lights[0].kind, LightKind::Directional);
   EXPECT_EQ(s.lights[0].color, (float3{1, 0.5f, 0}));
   EXPECT_EQ(s.lights[0].intensity, 3);
-  expect_near(s.lights[0].direction, {0, 1, 0});  // -Z rotated by 90 degrees about X
+  expect_close(s.lights[0].direction, {0, 1, 0});  // -Z rotated by 90 degrees about X
   EXPECT_TRUE(std::isinf(s.lights[0].range));
   EXPECT_EQ(s.lights[1].kind, LightKind::Point);
   EXPECT_EQ(s.lights[1].position, (float3{1, 2, 3}));

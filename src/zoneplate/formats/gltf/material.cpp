@@ -189,7 +189,7 @@ EncodedImage read_image(GltfFile& file, std::size_t i) {
     out.data = file.load_uri(json, uri);
     if (name.empty() && !uri.starts_with("data:")) name = uri;
   }
-  out.place = json.place() + (name.empty() ? "" : " " + quoted(name));
+  out.place = json.place() + (name.empty() ? "" : " " + zoneplate::quoted(name));
   out.name = name.empty() ? "image " + std::to_string(i) : name;
 
   // The limits are checked here, one image after the other, so that the result is independent of the threads.

@@ -17,7 +17,7 @@
 namespace zoneplate {
 namespace {
 
-std::vector<std::uint8_t> bytes_of(const Scene& scene) {
+std::vector<std::uint8_t> fields_of(const Scene& scene) {
   std::vector<std::uint8_t> out;
   write_scene(scene, [&](const void* data, std::size_t size) {
     const auto* at = static_cast<const std::uint8_t*>(data);
@@ -36,7 +36,7 @@ TEST(Sandbox, GivesTheSameScenesAndErrors) {
     const LoadOptions plain{.limits = {}, .format = format, .choice = {}};
     LoadOptions boxed = plain;
     boxed.is_sandboxed = true;
-    EXPECT_EQ(bytes_of(load_scene(path, boxed)), bytes_of(load_scene(path, plain))) << format;
+    EXPECT_EQ(fields_of(load_scene(path, boxed)), fields_of(load_scene(path, plain))) << format;
     const std::string broken = file.write({bytes.begin(), bytes.begin() + 20});
     std::string said[2];
     for (const LoadOptions& options : {plain, boxed}) try {
@@ -77,7 +77,7 @@ TEST(Sandbox, ReadsExrTextures) {
   const std::string model = (folder / "a.obj").string();
   const Scene plain = load_scene(model), boxed = load_scene(model, {.is_sandboxed = true});
   ASSERT_EQ(boxed.images.size(), 1u);
-  EXPECT_EQ(bytes_of(boxed), bytes_of(plain));
+  EXPECT_EQ(fields_of(boxed), fields_of(plain));
   EXPECT_EQ(boxed.warnings, std::vector<std::string>{});
   std::filesystem::remove_all(folder);
 }

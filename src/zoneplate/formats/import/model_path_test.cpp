@@ -14,7 +14,7 @@ namespace zoneplate {
 namespace {
 
 using Paths = std::vector<std::string>;
-const Paths everything = {"/"};
+const Paths any_path = {"/"};
 
 std::string text_of(const std::optional<std::vector<std::uint8_t>>& bytes) {
   return bytes ? std::string(bytes->begin(), bytes->end()) : "nothing";
@@ -64,8 +64,8 @@ TEST(GltfUri, StaysInTheFolder) {
   EXPECT_FALSE(find_path(model, ".", {}));
   EXPECT_FALSE(find_path(model, "", {}));
   EXPECT_FALSE(find_path(model, "in.bin%00.png", {}));
-  EXPECT_FALSE(find_path(model, "in.bin%00.png", everything));
-  EXPECT_TRUE(find_path(model, "../out.bin", everything));
+  EXPECT_FALSE(find_path(model, "in.bin%00.png", any_path));
+  EXPECT_TRUE(find_path(model, "../out.bin", any_path));
   EXPECT_TRUE(find_path(model, "../out.bin", Paths{folder.path("out.bin")}));
   EXPECT_FALSE(find_path(model, "../out.bin", Paths{folder.path("model2"), folder.path("not there")}));
   EXPECT_TRUE(find_path(model, "../model2/x", Paths{folder.path("model2")}));
@@ -122,7 +122,7 @@ TEST(GltfUri, WhatIsOpenedIsCheckedAgain) {
   EXPECT_EQ(refusal({}), in + ": cannot be read: No such file or directory");
   std::filesystem::create_symlink(out, in);
   EXPECT_EQ(refusal({}), in + ": leads out of the model's folder");
-  EXPECT_EQ(refusal(everything), "3 bytes");
+  EXPECT_EQ(refusal(any_path), "3 bytes");
   std::filesystem::remove(in);
   ASSERT_EQ(::mkfifo(in.c_str(), 0600), 0);
   EXPECT_EQ(refusal({}), in + ": is not a regular file");

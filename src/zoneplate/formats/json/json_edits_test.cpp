@@ -8,7 +8,7 @@
 namespace zoneplate {
 namespace {
 
-JsonValue parse(const std::string& text) {
+JsonValue parse_root(const std::string& text) {
   ImportBudget budget("file", {});
   return parse_json({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, budget);
 }
@@ -16,7 +16,7 @@ JsonValue parse(const std::string& text) {
 JsonValue number(double x) { return {.kind = JsonValue::Kind::Number, .number = x}; }
 
 TEST(JsonEdits, PointersFollowObjectsAndLists) {
-  JsonValue root = parse(R"({"a":[{"b":1},{"b":2,"c/d":3,"e~f":4}],"":5})");
+  JsonValue root = parse_root(R"({"a":[{"b":1},{"b":2,"c/d":3,"e~f":4}],"":5})");
   EXPECT_EQ(find_at(root, ""), &root);
   EXPECT_EQ(find_at(root, "/a/1/b")->number, 2);
   EXPECT_EQ(find_at(root, "/a/1/c~1d")->number, 3);
@@ -27,7 +27,7 @@ TEST(JsonEdits, PointersFollowObjectsAndLists) {
 }
 
 TEST(JsonEdits, ChangesAreTakenBack) {
-  JsonValue root = parse(R"({"a":[{"b":1}]})");
+  JsonValue root = parse_root(R"({"a":[{"b":1}]})");
   JsonEdits edits(root);
   EXPECT_TRUE(edits.set("/a/0/b", number(7)));
   EXPECT_TRUE(edits.set("/a/0/new", number(8)));

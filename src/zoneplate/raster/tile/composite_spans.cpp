@@ -8,8 +8,6 @@
 namespace zoneplate {
 namespace {
 
-constexpr Linear8 transparent_black{};
-
 /// first_fragment: by pixel; past the last fragment where a pixel has none.
 void index_fragments(OpaqueFragments& opaque) {
   const std::vector<Fragment>& fragments = opaque.fragments;
@@ -122,8 +120,7 @@ void SpanCompositor::shade_spans(const Strip& strip) {
       if (layer == first_layer) stack.clear();
       setup.resolve.composite_under(color, i * FragmentBatch::group, setup.min_transmittance, stack);
       if (++layer < done.end) continue;
-      Linear8 all =
-          strip.opaque.span_primitive[done.span] == no_primitive ? transparent_black : strip.colors.base[done.span];
+      Linear8 all = strip.opaque.span_primitive[done.span] == no_primitive ? Linear8{} : strip.colors.base[done.span];
       setup.resolve.over(stack, all);
       setup.resolve.resolve_samples(all, setup.weights.data(), strip.job.pass.count, setup.weight_sum,
                                     strip.colors.color[done.span]);

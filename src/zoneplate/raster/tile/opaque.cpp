@@ -7,8 +7,6 @@
 namespace zoneplate {
 namespace {
 
-constexpr Linear8 transparent_black{};
-
 /// One run of shade_opaque.
 class OpaqueShading {
  public:
@@ -92,7 +90,7 @@ void OpaqueShading::find_spans_of(int block) {
     const std::int32_t owner = opaque_.span_primitive[pixel / 8];
     const bool is_span = owner != mixed_primitives && is_whole;
     if (owner == no_primitive) {
-      colors_.color[pixel / 8] = transparent_black;
+      colors_.color[pixel / 8] = Linear8{};
     } else if (is_span && target_.is_per_sample) {
       add_sample_spans(pixel, owner);
     } else if (is_span) {
@@ -100,7 +98,7 @@ void OpaqueShading::find_spans_of(int block) {
     } else if (lists_) {
       list_span(row);
     } else {
-      colors_.color[pixel / 8] = transparent_black;
+      colors_.color[pixel / 8] = Linear8{};
       for (int i = std::max(x, job_.drawn.left); i < std::min(x + 8, job_.drawn.right); ++i)
         add_pixel(job_, visibility_, static_cast<std::uint32_t>(y * tile_size + i), opaque_.fragments);
     }

@@ -9,7 +9,7 @@ namespace zoneplate {
 namespace {
 
 const Linear red = {1, 0, 0, 1}, green = {0, 1, 0, 1};
-const std::vector<TestTriangle> two = {full_tile(0.5f, red), full_tile(0.4f, green)};
+const std::vector<TestTriangle> two_opaque = {full_tile(0.5f, red), full_tile(0.4f, green)};
 
 // The left 20 columns belong to triangle 0, the next 20 to triangle 1, of column 40 samples 0 and 1 to triangle 1, and
 // nothing covers the rest.
@@ -22,7 +22,7 @@ Linear color_at(const TileColors& colors, int x, int y) {
 }
 
 TEST(OpaqueStage, ShadesOncePerSurfaceAndPixel) {
-  const TileScene scene(two, standard_pattern(4));
+  const TileScene scene(two_opaque, standard_pattern(4));
   TileBuffers b(*scene.setup);
   begin_with_visibility(b, owner_of_columns);
   shade_opaque(b.job, b.visibility, b.batcher, b.opaque, b.colors);
@@ -39,7 +39,7 @@ TEST(OpaqueStage, ShadesOncePerSurfaceAndPixel) {
 TEST(OpaqueStage, ShadesEverySampleAtRateSample) {
   Target target;
   target.is_per_sample = true;
-  const TileScene scene(two, standard_pattern(4), {}, target);
+  const TileScene scene(two_opaque, standard_pattern(4), {}, target);
   TileBuffers b(*scene.setup);
   begin_with_visibility(b, owner_of_columns);
   shade_opaque(b.job, b.visibility, b.batcher, b.opaque, b.colors);
@@ -49,7 +49,7 @@ TEST(OpaqueStage, ShadesEverySampleAtRateSample) {
 }
 
 TEST(OpaqueStage, FragmentsOfAPixelFollowTheirFirstSamples) {
-  const TileScene scene(two, standard_pattern(4));
+  const TileScene scene(two_opaque, standard_pattern(4));
   TileBuffers b(*scene.setup);
   begin_with_visibility(b, [](int s, int, int) { return s == 1 ? no_primitive : s == 0 ? 1 : 0; });
   std::vector<Fragment> fragments;
@@ -67,7 +67,7 @@ TEST(OpaqueStage, FragmentsOfAPixelFollowTheirFirstSamples) {
 TEST(OpaqueStage, WeightsApplyToSamples) {
   Target target;
   target.weights = {1, 2, 3, 10};
-  const TileScene scene(two, standard_pattern(4), {}, target);
+  const TileScene scene(two_opaque, standard_pattern(4), {}, target);
   TileBuffers b(*scene.setup);
   begin_with_visibility(b, [](int s, int, int) { return s == 3 ? 1 : 0; });
   shade_opaque(b.job, b.visibility, b.batcher, b.opaque, b.colors);

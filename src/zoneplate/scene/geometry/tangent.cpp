@@ -106,21 +106,21 @@ std::vector<Face> make_faces(const Mesh& mesh, std::span<const float2> uv) {
 }
 
 /// An edge of a face; `low` < `high` are its vertices.
-struct Edge {
+struct FaceEdge {
   std::uint32_t low, high, face;
   std::uint8_t corner;  ///< the corner at which it begins
   bool is_rising;       ///< directed from low to high
 };
 
-std::vector<Edge> list_edges(const std::vector<Face>& faces) {
-  std::vector<Edge> edges;
+std::vector<FaceEdge> list_face_edges(const std::vector<Face>& faces) {
+  std::vector<FaceEdge> edges;
   edges.reserve(3 * faces.size());
   for (std::uint32_t f = 0; f < faces.size(); ++f)
     for (std::uint8_t c = 0; c < 3 && !faces[f].is_degenerate; ++c) {
       const std::uint32_t a = faces[f].vertex[c], b = faces[f].vertex[(c + 1) % 3];
       edges.push_back({std::min(a, b), std::max(a, b), f, c, a < b});
     }
-  std::sort(edges.begin(), edges.end(), [](const Edge& x, const Edge& y) {
+  std::sort(edges.begin(), edges.end(), [](const FaceEdge& x, const FaceEdge& y) {
     return x.low != y.low ? x.low < y.low : x.high != y.high ? x.high < y.high : x.face < y.face;
   });
   return edges;
@@ -128,15 +128,15 @@ std::vector<Edge> list_edges(const std::vector<Face>& faces) {
 
 /// Connects each edge to the first later free edge with the same vertices and the opposite direction.
 void join_neighbours(std::vector<Face>& faces) {
-  const std::vector<Edge> edges = list_edges(faces);
+  const std::vector<FaceEdge> edges = list_face_edges(faces);
   std::array<std::size_t, 2> next{};  // for each direction, the position of the search, which never moves backwards
-  const auto is_free = [&](const Edge& e) { return faces[e.face].neighbour[e.corner] == none; };
+  const auto is_free = [&](const FaceEdge& e) { return faces[e.face].neighbour[e.corner] == none; };
   for (std::size_t i = 0; i < edges.size(); ++i) {
-    const Edge& edge = edges[i];
+    const FaceEdge& edge = edges[i];
     if (!is_free(edge)) continue;
     std::size_t& k = next[edge.is_rising ? 1 : 0];
     k = std::max(k, i + 1);
-    const auto is_same = [&](const Edge& e) { return e.low == edge.low && e.high == edge.high; };
+    const auto is_same = [&](const FaceEdge& e) { return e.low == edge.low && e.high == edge.high; };
     while (k < edges.size() && is_same(edges[k]) && (edges[k].is_rising == edge.is_rising || !is_free(edges[k]))) ++k;
     if (k == edges.size() || !is_same(edges[k])) continue;
     faces[edge.face].neighbour[edge.corner] = edges[k].face;

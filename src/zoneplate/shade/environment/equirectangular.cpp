@@ -9,12 +9,11 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/elementary.h"
+#include "zoneplate/math/elementary_constants.h"
 #include "zoneplate/shade/environment/radiance.h"
 
 namespace zoneplate {
 namespace {
-
-constexpr float pi = 3.14159265f;
 
 struct Angle {
   float sine, cosine;
@@ -64,8 +63,8 @@ float3 look_up(const Plane<float3>& light, float3 direction) {
     const auto inside = [&](int i) { return wraps ? (i + size) % size : std::clamp(i, 0, size - 1); };
     return Step{inside(first), inside(first + 1), p - static_cast<float>(first), {}};
   };
-  return between(light, step((atan2(d.z, d.x) + pi) / (2 * pi), light.width(), true),
-                 step(acos(d.y) / pi, light.height(), false));
+  return between(light, step((atan2(d.z, d.x) + elementary::pi) / (2 * elementary::pi), light.width(), true),
+                 step(acos(d.y) / elementary::pi, light.height(), false));
 }
 
 /// One face: the mean over the steps in each texel, weighted by their solid angles, in the order of the image.
@@ -73,8 +72,9 @@ void make_face(const Plane<float3>& light, const std::vector<Step>& columns, con
                int per_pixel, int face, CubeImage& cube) {
   const float3 axis = cube::point(face, 0, 0);
   // A face lies within the cone of cosine 1 / √3 about its axis; the diagonal of a pixel is a margin.
-  const float pixel =
-      std::max(2 * pi / static_cast<float>(light.width()), pi / static_cast<float>(light.height())) * 1.5f;
+  const float pixel = std::max(2 * elementary::pi / static_cast<float>(light.width()),
+                               elementary::pi / static_cast<float>(light.height())) *
+                      1.5f;
   const float least = 0.57f - pixel;
   const auto side = static_cast<float>(cube.side);
   const auto texels = static_cast<std::size_t>(cube.side) * static_cast<std::size_t>(cube.side);
@@ -128,10 +128,11 @@ int cube_side(int equirectangular_width) {
 CubeImage cube_of_equirectangular(const TexelImage& image, int side) {
   const Plane<float3> light = light_of(image);
   // Four steps along the width of a texel in the middle of a face, where texels are largest.
-  const float pixel = std::max(2 * pi / static_cast<float>(light.width()), pi / static_cast<float>(light.height()));
+  const float pixel = std::max(2 * elementary::pi / static_cast<float>(light.width()),
+                               elementary::pi / static_cast<float>(light.height()));
   const int per_pixel = std::max(1, static_cast<int>(pixel * 2 * static_cast<float>(side)) + 1);
-  const std::vector<Step> columns = make_steps(light.width(), per_pixel, 2 * pi, true);
-  const std::vector<Step> rows = make_steps(light.height(), per_pixel, pi, false);
+  const std::vector<Step> columns = make_steps(light.width(), per_pixel, 2 * elementary::pi, true);
+  const std::vector<Step> rows = make_steps(light.height(), per_pixel, elementary::pi, false);
   CubeImage cube{side, std::vector<float3>(static_cast<std::size_t>(cube::faces * side * side))};
   parallel_for(cube::faces,
                [&](std::size_t face) { make_face(light, columns, rows, per_pixel, static_cast<int>(face), cube); });

@@ -6,13 +6,12 @@
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/elementary.h"
+#include "zoneplate/math/elementary_constants.h"
 #include "zoneplate/shade/environment/equirectangular.h"
 #include "zoneplate/shade/environment/radiance.h"
 
 namespace zoneplate {
 namespace {
-
-constexpr float pi = 3.14159265f;
 
 /// A square or disc of the image: where it begins, its size in pixels, and whether it is turned by half a turn.
 struct Panel {
@@ -79,7 +78,7 @@ Spot spot_of_ball(const Panel& whole, float3 d) {
 
 Spot spot_of_angle(const Panel& whole, float3 d) {
   const float across = std::sqrt(d.x * d.x + d.y * d.y);
-  const float r = across > 0 ? acos(-d.z) / (pi * across) : 0.0f;
+  const float r = across > 0 ? acos(-d.z) / (elementary::pi * across) : 0.0f;
   return {whole, (d.x * r + 1) / 2, (1 - d.y * r) / 2};
 }
 

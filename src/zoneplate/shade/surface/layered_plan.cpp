@@ -9,8 +9,6 @@
 namespace zoneplate {
 namespace {
 
-bool is_black(float3 c) { return c.x == 0 && c.y == 0 && c.z == 0; }
-
 /// Reflects as an infinite index of refraction does, and keeps arithmetic finite.
 constexpr float infinite_ior = 1e6f;
 
@@ -26,7 +24,7 @@ bool has_layers(const Material& material) {
   if (material.layers == nullptr || material.model != ShadingModel::MetallicRoughness) return false;
   const MaterialLayers& m = *material.layers;
   return m.ior != 1.5f || m.specular != 1 || m.specular_texture.image >= 0 || m.specular_color != float3{1, 1, 1} ||
-         m.specular_color_texture.image >= 0 || m.glossiness || m.clearcoat > 0 || !is_black(m.sheen_color) ||
+         m.specular_color_texture.image >= 0 || m.glossiness || m.clearcoat > 0 || m.sheen_color != float3{} ||
          m.anisotropy > 0 || m.iridescence > 0 || m.transmission > 0 || m.diffuse_transmission > 0;
 }
 
@@ -41,7 +39,7 @@ bool uses_slot(const MaterialLayers& m, LayerSlotIndex slot) {
       return m.clearcoat > 0;
     case LayerSlotIndex::SheenColor:
     case LayerSlotIndex::SheenRoughness:
-      return !is_black(m.sheen_color);
+      return m.sheen_color != float3{};
     case LayerSlotIndex::Anisotropy:
       return m.anisotropy > 0;
     case LayerSlotIndex::Iridescence:
@@ -63,7 +61,7 @@ bool is_transmissive(const Material& material) { return has_layers(material) && 
 LayeredUniforms make_layered_uniforms(const MaterialLayers& m) {
   LayeredUniforms u;
   u.has_clearcoat = m.clearcoat > 0;
-  u.has_sheen = !is_black(m.sheen_color);
+  u.has_sheen = m.sheen_color != float3{};
   u.has_anisotropy = m.anisotropy > 0;
   u.has_iridescence = m.iridescence > 0;
   u.has_transmission = m.transmission > 0;

@@ -6,14 +6,9 @@
 
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/scene/light.h"
+#include "zoneplate/shade/surface/components.h"
 
 namespace zoneplate {
-namespace {
-
-void copy(float3 from, float (&to)[3]) { to[0] = from.x, to[1] = from.y, to[2] = from.z; }
-
-}  // namespace
-
 PreparedLight prepare(const Light& light) {
   PreparedLight p;
   p.is_directional = light.kind == LightKind::Directional;

@@ -7,13 +7,12 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/math/elementary.h"
+#include "zoneplate/shade/surface/components.h"
 #include "zoneplate/shade/surface/layered_plan.h"
 #include "zoneplate/shade/texture/texture_view.h"
 
 namespace zoneplate {
 namespace {
-
-bool is_black(float3 c) { return c.x == 0 && c.y == 0 && c.z == 0; }
 
 /// True if the slot's texture affects the material's colour.
 bool uses_slot(const Material& m, TextureSlotIndex slot) {
@@ -21,7 +20,7 @@ bool uses_slot(const Material& m, TextureSlotIndex slot) {
   if (m.model == ShadingModel::Unlit) return false;
   if (slot == TextureSlotIndex::Emissive) return true;  // an animation may change a black factor
   if (slot == TextureSlotIndex::Specular || slot == TextureSlotIndex::Exponent)
-    return m.model != ShadingModel::MetallicRoughness && !is_black(m.specular);
+    return m.model != ShadingModel::MetallicRoughness && m.specular != float3{};
   return slot != TextureSlotIndex::MetallicRoughness || m.model == ShadingModel::MetallicRoughness;
 }
 
@@ -51,8 +50,6 @@ TextureSlot make_slot(const TextureUse& use, const Texture* texture, const ViewU
   slot.is_mapped = !(slot.map == CoordinateMap{});
   return slot;
 }
-
-void copy(float3 from, float (&to)[3]) { to[0] = from.x, to[1] = from.y, to[2] = from.z; }
 
 void copy_factors(const Material& m, MaterialPlan& plan) {
   plan.model = m.model;
@@ -117,9 +114,9 @@ void decide(const ViewUniforms& s, const Material& m, MaterialPlan& plan) {
                                       [](const Light& light) { return light.kind != LightKind::Directional; });
   plan.is_lit = m.model != ShadingModel::Unlit;
   const bool uses_normal =
-      plan.is_lit && (has_lights || plan.layers != nullptr || (is_metallic && !is_black(s.environment)));
-  plan.has_specular = plan.is_lit && !is_metallic && has_lights && !is_black(m.specular);
-  plan.has_emissive = plan.is_lit && !is_black(m.emissive);
+      plan.is_lit && (has_lights || plan.layers != nullptr || (is_metallic && s.environment != float3{}));
+  plan.has_specular = plan.is_lit && !is_metallic && has_lights && m.specular != float3{};
+  plan.has_emissive = plan.is_lit && m.emissive != float3{};
   plan.needs_viewer = uses_normal && (is_metallic || plan.has_specular);
   TextureSlot &normal = plan.slot(TextureSlotIndex::Normal), &height = plan.slot(TextureSlotIndex::Height);
   if (!uses_normal) normal.texture = nullptr;

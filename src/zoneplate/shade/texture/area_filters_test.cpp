@@ -27,10 +27,10 @@ constexpr Kind area_kinds[] = {Kind::CatmullRom, Kind::BSpline, Kind::Mitchell, 
 float random(std::uint32_t i, std::uint32_t dimension) { return unit_float(hash(i, dimension, 77)); }
 
 /// Fragments whose coordinates and footprints differ; some are not finite.
-struct Points {
+struct AreaPoints {
   static constexpr int count = 64;
   alignas(64) float value[9][Taps::padded_capacity] = {};
-  Points() {
+  AreaPoints() {
     for (std::uint32_t i = 0; i < count; ++i) {
       value[0][i] = 6 * random(i, 0) - 3, value[1][i] = 6 * random(i, 1) - 3;
       for (std::uint32_t d = 2; d < 6; ++d)
@@ -47,12 +47,12 @@ struct Points {
   }
 };
 
-struct Values {
+struct AreaValues {
   alignas(64) float channel[4][Taps::padded_capacity] = {};
 };
 
-Values look(const Texture& texture, const SamplerState& state, const Footprint& footprint, int count, Isa isa) {
-  Values values;
+AreaValues look(const Texture& texture, const SamplerState& state, const Footprint& footprint, int count, Isa isa) {
+  AreaValues values;
   float* const out[4] = {values.channel[0], values.channel[1], values.channel[2], values.channel[3]};
   with_isa(isa, [&] { sample_area(texture, state, footprint, out, count); });
   return values;
@@ -62,7 +62,7 @@ SamplerState state_of(Kind kind, Wrap u = Wrap::Repeat, Wrap v = Wrap::Repeat, i
   return make_filtering({.wrap_u = u, .wrap_v = v}, 1, {kind, anisotropy});
 }
 
-Plane<float4> half_noise(int width, int height) {
+Plane<float4> exact_half_noise(int width, int height) {
   Plane<float4> image(width, height);
   for (std::uint32_t i = 0; i < image.values().size(); ++i) {
     const auto value = [&](std::uint32_t c) { return static_cast<float>(hash(i, c, 5) % 2048) * 0x1p-8f; };
@@ -74,47 +74,47 @@ Plane<float4> half_noise(int width, int height) {
 TEST(AreaFilters, EveryInstructionSetGivesTheSameBits) {
   const Texture textures[] = {
       Texture(noise(64, 32, 3), TexelMeaning::Color), Texture(noise(19, 44, 3), TexelMeaning::Values),
-      Texture(bright_noise(19, 44), TexelMeaning::Color), Texture(half_noise(32, 16), TexelMeaning::Color),
+      Texture(bright_noise(19, 44), TexelMeaning::Color), Texture(exact_half_noise(32, 16), TexelMeaning::Color),
       Texture(noise(1, 1, 3), TexelMeaning::Color)};
   constexpr Wrap wraps[] = {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp};
-  const Points points;
+  const AreaPoints points;
   for (const Texture& texture : textures)
     for (const Kind kind : area_kinds)
       for (int w = 0; w < 3; ++w) {
         const SamplerState state = state_of(kind, wraps[w], wraps[(w + 1) % 3], 4);
-        const Values expected = look(texture, state, points.footprint(), Points::count, Isa::Scalar);
+        const AreaValues expected = look(texture, state, points.footprint(), AreaPoints::count, Isa::Scalar);
         for (const Isa isa : supported_isas()) {
-          const Values values = look(texture, state, points.footprint(), Points::count, isa);
+          const AreaValues values = look(texture, state, points.footprint(), AreaPoints::count, isa);
           for (int c = 0; c < 4; ++c)
-            ASSERT_EQ(std::memcmp(values.channel[c], expected.channel[c], Points::count * sizeof(float)), 0)
+            ASSERT_EQ(std::memcmp(values.channel[c], expected.channel[c], AreaPoints::count * sizeof(float)), 0)
                 << name_of(isa) << " filter " << static_cast<int>(kind) << " wrap " << w;
         }
         for (int c = 0; c < 4; ++c)
-          for (int i = 0; i < Points::count; ++i) ASSERT_TRUE(std::isfinite(expected.channel[c][i]));
+          for (int i = 0; i < AreaPoints::count; ++i) ASSERT_TRUE(std::isfinite(expected.channel[c][i]));
       }
 }
 
 TEST(AreaFilters, GroupsThatRepeatTheirFootprintHaveIt) {
   const Texture texture(noise(64, 32, 3), TexelMeaning::Color);
-  Points points;
+  AreaPoints points;
   for (int d = 2; d < 6; ++d)
     for (int i = 8; i < 16; ++i) points.value[d][i] = points.value[d][7];
   const bool repeats[Taps::groups] = {false, true};
   for (const Kind kind : area_kinds) {
-    const Values expected = look(texture, state_of(kind), points.footprint(), 16, best_isa());
-    Points holes = points;
+    const AreaValues expected = look(texture, state_of(kind), points.footprint(), 16, best_isa());
+    AreaPoints holes = points;
     for (int d = 2; d < 6; ++d)
       for (int i = 8; i < 16; ++i) holes.value[d][i] = 1e9f;
     Footprint footprint = holes.footprint();
     footprint.repeats = repeats;
-    const Values values = look(texture, state_of(kind), footprint, 16, best_isa());
+    const AreaValues values = look(texture, state_of(kind), footprint, 16, best_isa());
     for (int c = 0; c < 4; ++c)
       ASSERT_EQ(std::memcmp(values.channel[c], expected.channel[c], 16 * sizeof(float)), 0) << static_cast<int>(kind);
   }
 }
 
 TEST(AreaFilters, ConstantTexturesStayConstantToTheBit) {
-  const Points points;
+  const AreaPoints points;
   for (const int code : {0, 1, 77, 200, 255}) {
     const auto byte = static_cast<std::uint8_t>(code);
     Rgba8Image codes(37, 20, Rgba8{byte, 9, 130, 251});
@@ -126,9 +126,9 @@ TEST(AreaFilters, ConstantTexturesStayConstantToTheBit) {
           sample(texture, {.magnify = TexelFilter::Nearest, .level = LevelFilter::None}, {0.5f, 0.5f}, {}, {});
       for (const Kind kind : area_kinds)
         for (const Wrap wrap : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp}) {
-          const Values values =
-              look(texture, state_of(kind, wrap, wrap), points.footprint(), Points::count, best_isa());
-          for (int i = 0; i < Points::count; ++i) {
+          const AreaValues values =
+              look(texture, state_of(kind, wrap, wrap), points.footprint(), AreaPoints::count, best_isa());
+          for (int i = 0; i < AreaPoints::count; ++i) {
             ASSERT_EQ(values.channel[0][i], expected.x) << static_cast<int>(kind) << " " << code << " " << i;
             ASSERT_EQ(values.channel[1][i], expected.y);
             ASSERT_EQ(values.channel[2][i], expected.z);

@@ -2,17 +2,9 @@
 #include "zoneplate/shade/texture/height_normals.h"
 
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/signal/border.h"
+#include "zoneplate/shade/texture/wrap_border.h"
 
 namespace zoneplate {
-namespace {
-
-Border border_of(Wrap wrap) {
-  return wrap == Wrap::Repeat ? Border::Wrap : wrap == Wrap::Mirror ? Border::Reflect : Border::Clamp;
-}
-
-}  // namespace
-
 Plane<float3> normals_of(const Plane<float>& heights, const HeightNormals& options) {
   constexpr std::size_t rows_per_range = 32;
   const int w = heights.width(), h = heights.height();

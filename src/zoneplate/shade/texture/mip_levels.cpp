@@ -10,14 +10,11 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/shade/texture/shrinking.h"
 #include "zoneplate/shade/texture/texel_values.h"
+#include "zoneplate/shade/texture/wrap_border.h"
 #include "zoneplate/signal/filter/resample.h"
 
 namespace zoneplate {
 namespace {
-
-Border border_of(Wrap wrap) {
-  return wrap == Wrap::Repeat ? Border::Wrap : wrap == Wrap::Mirror ? Border::Reflect : Border::Clamp;
-}
 
 /// Makes level l from the level before it, by a kernel with negative lobes.
 template <class Code>

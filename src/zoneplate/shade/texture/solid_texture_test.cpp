@@ -18,7 +18,7 @@ constexpr SolidPattern patterns[] = {SolidPattern::Noise, SolidPattern::Turbulen
                                      SolidPattern::Wood, SolidPattern::Rock};
 
 /// Fragments with the arrays of a batch.
-struct Points {
+struct Positions {
   static constexpr int count = 64;
   alignas(64) float position[3][count + 16] = {}, dx[3][count + 16] = {}, dy[3][count + 16] = {},
                                         out[3][count + 16] = {};
@@ -30,9 +30,9 @@ struct Points {
   }
 };
 
-Points random_points(float footprint) {
-  Points points;
-  for (std::uint32_t i = 0; i < Points::count; ++i)
+Positions random_points(float footprint) {
+  Positions points;
+  for (std::uint32_t i = 0; i < Positions::count; ++i)
     for (std::uint32_t c = 0; c < 3; ++c) {
       points.position[c][i] = 10 * (unit_float(hash(i, c)) - 0.5f);
       points.dx[c][i] = footprint * (unit_float(hash(i, c, 1)) - 0.5f);
@@ -45,18 +45,18 @@ TEST(SolidTexture, AllInstructionSetsEvaluateTheSameBits) {
   for (const SolidPattern pattern : patterns) {
     const SolidTexture texture{.pattern = pattern, .scale = 1.7f, .low = {0.1f, 0.2f, 0.3f}, .high = {0.9f, 0.4f, 1}};
     for (const float footprint : {0.0f, 0.05f, 0.4f, 3.0f}) {
-      Points expected = random_points(footprint);
+      Positions expected = random_points(footprint);
       expected.position[0][3] = std::numeric_limits<float>::infinity();
       expected.position[1][5] = 1e30f;
-      const Points input = expected;
+      const Positions input = expected;
       expected.evaluate(texture, SolidTextureKernels::scalar);
-      for (const float(&channel)[Points::count + 16] : expected.out)
-        for (int i = 0; i < Points::count; ++i) EXPECT_TRUE(channel[i] >= 0 && channel[i] <= 1) << channel[i];
+      for (const float(&channel)[Positions::count + 16] : expected.out)
+        for (int i = 0; i < Positions::count; ++i) EXPECT_TRUE(channel[i] >= 0 && channel[i] <= 1) << channel[i];
       for (const Isa isa : supported_isas()) {
-        Points points = input;
+        Positions points = input;
         points.evaluate(texture, SolidTextureKernels::of(isa));
         for (int c = 0; c < 3; ++c)
-          EXPECT_EQ(std::memcmp(points.out[c], expected.out[c], sizeof(float) * Points::count), 0) << name_of(isa);
+          EXPECT_EQ(std::memcmp(points.out[c], expected.out[c], sizeof(float) * Positions::count), 0) << name_of(isa);
       }
     }
   }
@@ -67,7 +67,7 @@ double mean_over_pixel(const SolidTexture& texture, const float (&position)[3], 
   constexpr int n = 64;
   double sum = 0;
   for (int row = 0; row < n; ++row) {
-    Points points;
+    Positions points;
     for (int i = 0; i < n; ++i) {
       points.position[0][i] = position[0] + size * ((static_cast<float>(i) + 0.5f) / n - 0.5f);
       points.position[1][i] = position[1];
@@ -83,17 +83,17 @@ TEST(SolidTexture, FilteringEqualsTheMeanOverThePixel) {
   // Root mean square over points, and the same error without a filter. Undistorted veins are waves along one axis, for
   // which the filter is exact.
   const auto error_of = [](const SolidTexture& texture, float size, bool is_filtered) {
-    Points points = random_points(0);
-    for (int i = 0; i < Points::count; ++i)
+    Positions points = random_points(0);
+    for (int i = 0; i < Positions::count; ++i)
       if (is_filtered) points.dx[0][i] = size, points.dy[2][i] = size;
     points.evaluate(texture, SolidTextureKernels::scalar);
     double squares = 0;
-    for (int i = 0; i < Points::count; ++i) {
+    for (int i = 0; i < Positions::count; ++i) {
       const float position[3] = {points.position[0][i], points.position[1][i], points.position[2][i]};
       const double difference = static_cast<double>(points.out[0][i]) - mean_over_pixel(texture, position, size);
       squares += difference * difference;
     }
-    return std::sqrt(squares / Points::count);
+    return std::sqrt(squares / Positions::count);
   };
   for (const float size : {0.3f, 0.9f, 2.0f})
     EXPECT_LT(error_of({.pattern = SolidPattern::Marble, .distortion = 0}, size, true), 1e-3);

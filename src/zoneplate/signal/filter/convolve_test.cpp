@@ -17,13 +17,13 @@ namespace {
 
 constexpr Border all_borders[] = {Border::Clamp, Border::Reflect, Border::Wrap, Border::Zero};
 
-Plane<float> noise_plane(int w, int h, std::uint32_t seed = 5) {
+Plane<float> seeded_plane(int w, int h, std::uint32_t seed = 5) {
   Plane<float> p(w, h);
   for (std::uint32_t i = 0; float& v : p.values()) v = unit_float(hash(i++, seed));
   return p;
 }
 
-LinearImage noise_image(int w, int h) {
+LinearImage seeded_image(int w, int h) {
   LinearImage p(w, h);
   for (std::uint32_t i = 0; Linear & v : p.values()) {
     v = {unit_float(hash(i, 1)), unit_float(hash(i, 2)), unit_float(hash(i, 3)), unit_float(hash(i, 4))};
@@ -59,9 +59,9 @@ float greatest_difference(const Plane<float>& a, const Plane<float>& b) {
 }
 
 TEST(Convolve, DirectAndFourierAreTheDefinitionForEveryBorder) {
-  const Plane<float> plane = noise_plane(37, 23);
+  const Plane<float> plane = seeded_plane(37, 23);
   for (const auto& [kw, kh] : {std::pair{1, 1}, {3, 5}, {4, 2}, {1, 9}, {41, 3}, {50, 51}}) {
-    Plane<float> kernel = noise_plane(kw, kh, 9);
+    Plane<float> kernel = seeded_plane(kw, kh, 9);
     double sum = 0;
     for (float v : kernel.values()) sum += static_cast<double>(v);
     for (float& v : kernel.values()) v = static_cast<float>(v / sum);
@@ -76,7 +76,7 @@ TEST(Convolve, DirectAndFourierAreTheDefinitionForEveryBorder) {
 }
 
 TEST(Convolve, SeparableIsTheOuterProductForEveryBorder) {
-  const Plane<float> plane = noise_plane(101, 70);
+  const Plane<float> plane = seeded_plane(101, 70);
   for (const char* name : {"gaussian:sigma=8", "box:width=2", "lanczos3:", "b-spline"}) {
     const std::string text = name;
     const auto rows = sampled(stretched(make_kernel(text.substr(0, text.size() - (text.back() == ':'))), 1.7));
@@ -93,7 +93,7 @@ TEST(Convolve, SeparableIsTheOuterProductForEveryBorder) {
 TEST(Convolve, AKernelIsFlippedAndItsOriginIsInTheMiddle) {
   Plane<float> impulse(9, 5);
   impulse(4, 2) = 1;
-  const Plane<float> kernel = noise_plane(4, 3);
+  const Plane<float> kernel = seeded_plane(4, 3);
   for (const auto& out : {convolve(impulse, kernel), convolve_by_fourier(impulse, kernel)})
     for (int y = 0; y < 3; ++y)
       for (int x = 0; x < 4; ++x) EXPECT_NEAR(out(4 - 2 + x, 2 - 1 + y), kernel(x, y), 1e-7);
@@ -107,7 +107,7 @@ TEST(Convolve, AKernelIsFlippedAndItsOriginIsInTheMiddle) {
 }
 
 TEST(Convolve, ColoursAreFilteredChannelByChannel) {
-  const LinearImage image = noise_image(33, 21);
+  const LinearImage image = seeded_image(33, 21);
   const auto rows = sampled(make_kernel("gaussian:sigma=2"));
   const auto columns = sampled(make_kernel("box:width=5"));
   const Plane<float> kernel = outer_product(rows, columns);
@@ -130,10 +130,10 @@ TEST(Convolve, ColoursAreFilteredChannelByChannel) {
 }
 
 TEST(Convolve, GivesTheSameBitsOnEveryInstructionSetAndNumberOfThreads) {
-  const Plane<float> plane = noise_plane(131, 150);
-  const LinearImage image = noise_image(45, 67);
+  const Plane<float> plane = seeded_plane(131, 150);
+  const LinearImage image = seeded_image(45, 67);
   const auto taps = sampled(make_kernel("gaussian:sigma=3"));
-  const Plane<float> kernel = noise_plane(5, 4);
+  const Plane<float> kernel = seeded_plane(5, 4);
   const ConvolveOptions options{.border = Border::Reflect};
   const auto expected = with_isa(Isa::Scalar, [&] { return convolve_separable(plane, taps, taps, options); });
   const auto expected_image = with_isa(Isa::Scalar, [&] { return convolve_separable(image, taps, taps, options); });
@@ -152,7 +152,7 @@ TEST(Convolve, GivesTheSameBitsOnEveryInstructionSetAndNumberOfThreads) {
 }
 
 TEST(Convolve, WhatIsInTheRoomDoesNotMatter) {
-  const Plane<float> plane = noise_plane(150, 40);
+  const Plane<float> plane = seeded_plane(150, 40);
   const auto taps = sampled(make_kernel("gaussian:sigma=2"));
   const std::vector<double> one = {1};
   for (const auto& [rows, columns] : {std::pair{taps, taps}, {one, taps}, {taps, one}}) {
@@ -173,7 +173,7 @@ TEST(Convolve, OnePixelAndNone) {
 }
 
 TEST(Convolve, TheTheoremWithoutPaddingFailsAtTheBordersOfClampAndReflect) {
-  const Plane<float> plane = noise_plane(64, 48);
+  const Plane<float> plane = seeded_plane(64, 48);
   const auto taps = sampled(make_kernel("gaussian:sigma=2"));
   const Plane<float> kernel = outer_product(taps, taps);
   const auto periodic = convolve_by_fourier(plane, kernel, Border::Wrap);

@@ -10,24 +10,24 @@
 namespace zoneplate {
 namespace {
 
-constexpr std::size_t lanes = FourierPlan::lanes;
-
 enum class Direction { Forward, Inverse };
 
 // Four signals side by side, with buffers to transform them. The inverse is the forward transform with the real and
 // imaginary parts exchanged, before and after.
 struct Work {
   explicit Work(const FourierPlan& p)
-      : plan(p), re(p.size() * lanes), im(p.size() * lanes), scratch(p.make_scratch()) {}
+      : plan(p), re(p.size() * FourierPlan::lanes), im(p.size() * FourierPlan::lanes), scratch(p.make_scratch()) {}
 
   void run(Direction direction) {
     direction == Direction::Forward ? plan.forward(re.data(), im.data(), scratch)
                                     : plan.forward(im.data(), re.data(), scratch);
   }
   void put(std::size_t k, std::size_t lane, Complex z) {
-    re[k * lanes + lane] = z.real(), im[k * lanes + lane] = z.imag();
+    re[k * FourierPlan::lanes + lane] = z.real(), im[k * FourierPlan::lanes + lane] = z.imag();
   }
-  Complex at(std::size_t k, std::size_t lane) const { return {re[k * lanes + lane], im[k * lanes + lane]}; }
+  Complex at(std::size_t k, std::size_t lane) const {
+    return {re[k * FourierPlan::lanes + lane], im[k * FourierPlan::lanes + lane]};
+  }
 
   const FourierPlan& plan;
   std::vector<double> re, im, scratch;
@@ -61,33 +61,35 @@ int as_int(std::size_t i) { return static_cast<int>(i); }
 void transform_rows(Plane<Complex>& plane, Direction direction) {
   const auto w = static_cast<std::size_t>(plane.width());
   const FourierPlan plan(w);
-  for_blocks(static_cast<std::size_t>(plane.height()), lanes, plan, [&](std::size_t y, std::size_t count, Work& work) {
-    for (std::size_t l = 0; l < count; ++l) {
-      const auto row = plane.row(as_int(y + l));
-      for (std::size_t k = 0; k < w; ++k) work.put(k, l, row[k]);
-    }
-    work.run(direction);
-    for (std::size_t l = 0; l < count; ++l) {
-      const auto row = plane.row(as_int(y + l));
-      for (std::size_t k = 0; k < w; ++k) row[k] = work.at(k, l);
-    }
-  });
+  for_blocks(static_cast<std::size_t>(plane.height()), FourierPlan::lanes, plan,
+             [&](std::size_t y, std::size_t count, Work& work) {
+               for (std::size_t l = 0; l < count; ++l) {
+                 const auto row = plane.row(as_int(y + l));
+                 for (std::size_t k = 0; k < w; ++k) work.put(k, l, row[k]);
+               }
+               work.run(direction);
+               for (std::size_t l = 0; l < count; ++l) {
+                 const auto row = plane.row(as_int(y + l));
+                 for (std::size_t k = 0; k < w; ++k) row[k] = work.at(k, l);
+               }
+             });
 }
 
 void transform_columns(Plane<Complex>& plane, Direction direction) {
   const auto h = static_cast<std::size_t>(plane.height());
   const FourierPlan plan(h);
-  for_blocks(static_cast<std::size_t>(plane.width()), lanes, plan, [&](std::size_t x, std::size_t count, Work& work) {
-    for (std::size_t k = 0; k < h; ++k) {
-      const auto part = plane.row(as_int(k)).subspan(x, count);
-      for (std::size_t l = 0; l < count; ++l) work.put(k, l, part[l]);
-    }
-    work.run(direction);
-    for (std::size_t k = 0; k < h; ++k) {
-      const auto part = plane.row(as_int(k)).subspan(x, count);
-      for (std::size_t l = 0; l < count; ++l) part[l] = work.at(k, l);
-    }
-  });
+  for_blocks(static_cast<std::size_t>(plane.width()), FourierPlan::lanes, plan,
+             [&](std::size_t x, std::size_t count, Work& work) {
+               for (std::size_t k = 0; k < h; ++k) {
+                 const auto part = plane.row(as_int(k)).subspan(x, count);
+                 for (std::size_t l = 0; l < count; ++l) work.put(k, l, part[l]);
+               }
+               work.run(direction);
+               for (std::size_t k = 0; k < h; ++k) {
+                 const auto part = plane.row(as_int(k)).subspan(x, count);
+                 for (std::size_t l = 0; l < count; ++l) part[l] = work.at(k, l);
+               }
+             });
 }
 
 // Two real rows are transformed as the real and imaginary part of one complex row: Z = A + iB, where A and B are the
@@ -98,15 +100,15 @@ Spectrum real_forward(const Plane<T>& plane) {
   if (plane.empty()) return out;
   const auto w = static_cast<std::size_t>(plane.width()), h = static_cast<std::size_t>(plane.height());
   const FourierPlan plan(w);
-  for_blocks(h, 2 * lanes, plan, [&](std::size_t y, std::size_t count, Work& work) {
-    for (std::size_t r = 0; r < 2 * lanes; ++r) {
+  for_blocks(h, 2 * FourierPlan::lanes, plan, [&](std::size_t y, std::size_t count, Work& work) {
+    for (std::size_t r = 0; r < 2 * FourierPlan::lanes; ++r) {
       auto& part = r % 2 == 0 ? work.re : work.im;
       if (r >= count) {
-        for (std::size_t x = 0; x < w; ++x) part[x * lanes + r / 2] = 0;
+        for (std::size_t x = 0; x < w; ++x) part[x * FourierPlan::lanes + r / 2] = 0;
         continue;
       }
       const auto row = plane.row(as_int(y + r));
-      for (std::size_t x = 0; x < w; ++x) part[x * lanes + r / 2] = static_cast<double>(row[x]);
+      for (std::size_t x = 0; x < w; ++x) part[x * FourierPlan::lanes + r / 2] = static_cast<double>(row[x]);
     }
     work.run(Direction::Forward);
     for (std::size_t r = 0; r < count; ++r) {
@@ -137,7 +139,7 @@ Plane<T> real_inverse(const Spectrum& spectrum) {
   const auto w = static_cast<std::size_t>(out.width()), h = static_cast<std::size_t>(out.height());
   const double scale = 1.0 / (static_cast<double>(w) * static_cast<double>(h));
   const FourierPlan plan(w);
-  for_blocks(h, 2 * lanes, plan, [&](std::size_t y, std::size_t count, Work& work) {
+  for_blocks(h, 2 * FourierPlan::lanes, plan, [&](std::size_t y, std::size_t count, Work& work) {
     for (std::size_t r = 0; r < count; r += 2) {
       const auto a = half.row(as_int(y + r));
       for (std::size_t k = 0; k < w; ++k) {
@@ -150,7 +152,7 @@ Plane<T> real_inverse(const Spectrum& spectrum) {
     for (std::size_t r = 0; r < count; ++r) {
       const auto row = out.row(as_int(y + r));
       const auto& part = r % 2 == 0 ? work.re : work.im;
-      for (std::size_t x = 0; x < w; ++x) row[x] = static_cast<T>(part[x * lanes + r / 2] * scale);
+      for (std::size_t x = 0; x < w; ++x) row[x] = static_cast<T>(part[x * FourierPlan::lanes + r / 2] * scale);
     }
   });
   return out;
