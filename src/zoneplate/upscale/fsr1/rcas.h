@@ -11,7 +11,7 @@ namespace zoneplate {
 struct RcasOptions {
   float sharpness = 1;          ///< factor of the lobe: 2 to the power of -stops
   bool limits_by_ring = false;  ///< only the four neighbours limit the lobe, not the pixel itself, as in FSR 2
-  bool is_unbounded = false;    ///< the result may exceed 1, as the input does
+  bool is_unbounded = false;    ///< the result is not clamped to [0, 1], for inputs beyond
   bool denoises = false;        ///< weaker where the pixel differs from all of its neighbours
   Reciprocals reciprocals = Reciprocals::Exact;
 };

@@ -46,8 +46,7 @@ template <bool is_exact, class F>
   const F scale = medium_reciprocal<is_exact>(F(4.0f) * lobe + F(1.0f));
   for (int c = 0; c < 4; ++c) {
     const F sum = lobe * p.above[c] + lobe * p.left[c] + lobe * p.below[c] + lobe * p.right[c] + p.centre[c];
-    out[c] = max(sum * scale, F(0.0f));
-    if (!options.is_unbounded) out[c] = min(out[c], F(1.0f));
+    out[c] = options.is_unbounded ? sum * scale : min(max(sum * scale, F(0.0f)), F(1.0f));
   }
   // Alpha stays between its neighbours, so that an opaque image stays opaque.
   const F least = min(min(p.above[3], p.left[3]), min(p.right[3], p.below[3]));

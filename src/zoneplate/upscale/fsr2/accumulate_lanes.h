@@ -94,20 +94,30 @@ struct Neighbours {
   [[gnu::always_inline]] Neighbours(const Fsr2AccumulateFrame& frame, F x, F y, int before) {
     const F left = floor(x), top = floor(y);
     right = x - left, below = y - top;
+    // A texture unit has fractions of 8 bits. Without them, history at rest would be a mean with 1e-5 of a neighbour,
+    // and lumas of the same code would not be equal.
+    if (taps == 2) right = in_texture_unit(right), below = in_texture_unit(below);
     for (int t = 0; t < taps; ++t) {
       column[t] = min(max(truncate(left) + Int(t - before), Int(0)), Int(frame.width - 1));
       row[t] = min(max(truncate(top) + Int(t - before), Int(0)), Int(frame.height - 1)) * Int(frame.width);
     }
+  }
+  [[gnu::always_inline]] static F in_texture_unit(F fraction) {
+    return floor(fraction * F(256.0f) + F(0.5f)) * F(1.0f / 256);
   }
   [[gnu::always_inline]] void load(const float* pixels, int c, int r, F (&out)[4]) const {
     std::int32_t index[F::lanes];
     (row[r] + column[c]).store(index);
     load_pixels<F>([&](int lane) { return pixels + std::size_t{4} * static_cast<std::size_t>(index[lane]); }, out);
   }
+  /// The mean of four values, which are given by row.
+  [[gnu::always_inline]] F mean(F a, F b, F c, F d) const {
+    const F left = F(1.0f) - right, above = F(1.0f) - below;
+    return (a * left + b * right) * above + (c * left + d * right) * below;
+  }
   [[gnu::always_inline]] F mean(const float* plane) const {
-    const F above = mixed(F::gather(plane, row[0] + column[0]), F::gather(plane, row[0] + column[1]), right);
-    return mixed(above, mixed(F::gather(plane, row[1] + column[0]), F::gather(plane, row[1] + column[1]), right),
-                 below);
+    return mean(F::gather(plane, row[0] + column[0]), F::gather(plane, row[0] + column[1]),
+                F::gather(plane, row[1] + column[0]), F::gather(plane, row[1] + column[1]));
   }
 };
 
@@ -201,7 +211,7 @@ template <class F>
 [[gnu::always_inline]] inline F luma_instability(F luma, F deviation, F (&lumas)[4]) {
   constexpr float step = 1.0f / 255;
   luma = luma / (F(1.0f) + max(F(0.0f), luma));
-  luma = floor(luma * F(255.0f) + F(0.5f)) * F(step);
+  luma = floor(luma * F(255.0f) + F(0.5f)) / F(255.0f);
   const F first = luma - lumas[0];
   F least = abs(first);
   for (int k = 1; k < 4; ++k) {
@@ -256,9 +266,7 @@ template <class F>
     F near[2][2][4];
     for (int r = 0; r < 2; ++r)
       for (int c = 0; c < 2; ++c) nearest.load(frame.lumas, c, r, near[r][c]);
-    for (int k = 0; k < 4; ++k)
-      lumas[k] = mixed(mixed(near[0][0][k], near[0][1][k], nearest.right),
-                       mixed(near[1][0][k], near[1][1][k], nearest.right), nearest.below);
+    for (int k = 0; k < 4; ++k) lumas[k] = nearest.mean(near[0][0][k], near[0][1][k], near[1][0][k], near[1][1][k]);
   }
 
   // Locks follow the shading of the surroundings: a change ends them.
@@ -268,7 +276,7 @@ template <class F>
   const F shading = exp(log_luminance * F(1.0f / 6)) * F(frame.exposure_root);
   lock.luma = select(lock.luma == zero, shading, lock.luma);
   const F change = one - smaller_over_greater(lock.luma, shading);
-  const auto is_new_lock = F::load(row.new_locks + i) > F(127.0f / 255);
+  const auto is_new_lock = is_old & (F::load(row.new_locks + i) > F(127.0f / 255));
   const auto is_young = one >= lock.life;
   const F young_luma = select(is_young, mixed(lock.luma, shading, F(0.5f)), lock.luma);
   const F kept_life = select(is_young, lock.life, where(F(0.1f) >= change, lock.life));

@@ -57,12 +57,12 @@ constexpr Param params[] = {scale_param};
 }  // namespace
 
 Upscaler sgsr1() {
-  return {
-      .name = "sgsr1",
-      .summary = "Snapdragon Game Super Resolution 1: twelve taps of green correct a bilinear image",
-      .source = "Qualcomm 2023, snapdragon-gsr v1",
-      .params = params,
-      .make_spatial = [](const Settings&) -> std::unique_ptr<SpatialUpscaler> { return std::make_unique<Sgsr1>(); }};
+  return {.name = "sgsr1",
+          .summary = "Snapdragon Game Super Resolution 1: twelve taps of green correct a bilinear image",
+          .source = "Qualcomm 2023, snapdragon-gsr v1",
+          .params = params,
+          .make_spatial = [](const Settings&) -> std::unique_ptr<SpatialUpscaler> { return std::make_unique<Sgsr1>(); },
+          .is_specification_only = true};
 }
 
 }  // namespace upscale
