@@ -76,7 +76,7 @@ function(add_kernels sources)
   foreach(isa IN LISTS isas)
     add_library(zoneplate_${isa} OBJECT ${sources})
     set_target_properties(zoneplate_${isa} PROPERTIES UNITY_BUILD OFF) # each names its kernels alike
-    target_compile_options(zoneplate_${isa} PRIVATE ${flags_${isa}} -O3)
+    target_compile_options(zoneplate_${isa} PRIVATE ${flags_${isa}} $<$<NOT:$<BOOL:${ZONEPLATE_SANITIZED}>>:-O3>) # sanitized, -O3 takes minutes a source
     target_compile_definitions(zoneplate_${isa} PRIVATE HWY_COMPILE_ONLY_STATIC HWY_DISABLE_PCLMUL_AES)
     target_link_libraries(zoneplate_${isa} PRIVATE zoneplate_flags)
     # Reading Highway's header is more than half of a kernel's compilation. GCC takes what is precompiled for the project's

@@ -2,7 +2,7 @@
 // Flicker: changes from frame to frame that the reference does not have.
 //
 // In a static scene it measures shimmering edges; in a moving one, only changes that differ from the reference's.
-// Weakness: blur lowers it, so that it needs a measure of sharpness (edge_response) beside it.
+// Weakness: blur lowers it, so that a measure of sharpness (edge_response) must accompany it.
 #include <algorithm>
 #include <cmath>
 

@@ -5,14 +5,14 @@
 
 namespace zoneplate::metrics {
 
-/// The mean over all pixels and the three colours of the squared difference of two images' codes.
+/// The mean over all pixels and the three colours of the squared difference of two images' encoded values.
 ///
 /// Requires  equal sizes, at least one pixel.
-/// Edges     transparent images are composited over black; symmetric; exactly 0 if the codes agree.
-/// Units     code², codes in [0, 1].
+/// Edges     transparent images are composited over black; symmetric; exactly 0 for equal values.
+/// Units     squared display-referred values in [0, 1].
 double mean_squared_error(const DisplayImage& reference, const DisplayImage& test);
 
-/// The root of each pixel's mean squared difference, in codes.
+/// The root of each pixel's mean squared difference, in display-referred values.
 Plane<float> squared_error_map(const DisplayImage& reference, const DisplayImage& test);
 
 }  // namespace zoneplate::metrics

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/formats/font/font.h"
 #include "zoneplate/image/transfer.h"
 

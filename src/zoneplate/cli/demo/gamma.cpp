@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Gamma: sums of light are sums of linear values; sums of sRGB codes are too dark.
+// Gamma: sums of light are sums of linear values; sums of sRGB values are too dark.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,7 +34,7 @@ Plane<float> fan(int side) {
 
 Rgba8 grey(std::uint8_t code) { return {code, code, code, 255}; }
 
-/// Coverage as light, or as codes.
+/// Coverage as light, or as sRGB values.
 struct Blend {
   Rgba8Image image;
   double light = 0;  ///< mean over the image
@@ -57,7 +57,7 @@ double mean_of(const Plane<float>& plane) {
   return sum / static_cast<double>(plane.values().size());
 }
 
-/// A pattern of black and white rows around two patches: the mean of the codes, and of the light.
+/// A pattern of black and white rows around two patches: the mean of the sRGB values, and of the light.
 Rgba8Image patches(int side) {
   Rgba8Image image(side, side);
   const std::uint8_t by_code = 128, by_light = encode_srgb8(0.5f);
@@ -75,7 +75,7 @@ Rgba8Image curve_plot(int side) {
   Plot plot{.title = "White on black",
             .x = {"coverage (%)", 0, 100},
             .y = {"light (% of white)", 0, 100},
-            .curves = {{.name = "in codes", .points = {}}, {.name = "in linear light", .points = {}}}};
+            .curves = {{.name = "in sRGB values", .points = {}}, {.name = "in linear light", .points = {}}}};
   for (int i = 0; i <= 100; ++i) {
     plot.curves[0].points.emplace_back(i, 100 * static_cast<double>(decode_srgb(static_cast<float>(i) / 100)));
     plot.curves[1].points.emplace_back(i, i);
@@ -89,10 +89,10 @@ Lesson make(const DemoSize& size) {
   const Blend codes = blended(coverage, false), light = blended(coverage, true);
   const double true_light = mean_of(coverage);
   const auto large = [&](const Rgba8Image& image) { return enlarged(image, factor); };
-  Figure figure{.title = "Gamma: colours are blended in linear light, not in their codes", .rows = {{}}};
+  Figure figure{.title = "Gamma: colours are blended in linear light, not in sRGB values", .rows = {{}}};
   figure.rows[0].push_back(
       {large(codes.image),
-       fmt::format("Blended in codes\nThin white lines look like ropes: pixels that are half covered "
+       fmt::format("Blended in sRGB values\nThin white lines look like ropes: pixels that are half covered "
                    "are too dark. The image has {} % of the lines' light.",
                    number(100 * codes.light / true_light, 0))});
   figure.rows[0].push_back(
@@ -107,16 +107,17 @@ Lesson make(const DemoSize& size) {
   figure.rows[0].push_back(
       {curve_plot(side),
        fmt::format("Coverage and light\nA pixel that is half covered has {} % of the light of white if "
-                   "codes are blended.",
+                   "sRGB values are blended.",
                    number(100 * static_cast<double>(decode_srgb(0.5f)), 0))});
   figure.text =
-      "Codes are spaced as the eye sees differences, not as light adds up. Filters, antialiasing, transparency and mip "
+      "sRGB values are spaced as the eye sees differences, not as light adds up. Filters, antialiasing, transparency "
+      "and mip "
       "levels are sums of light: decode, sum, encode. The figures are measured in these images.";
   return {.frames = {figure}};
 }
 
 }  // namespace
 
-Demo demo_gamma() { return {"gamma", "blending in sRGB codes and in linear light", make}; }
+Demo demo_gamma() { return {"gamma", "blending of sRGB values and in linear light", make}; }
 
 }  // namespace zoneplate::cli

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/formats/json/json.h"

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/utf8.h"
 
 namespace zoneplate {
 namespace {
@@ -18,8 +19,6 @@ constexpr const char* package = "fonts-dejavu-core";
 constexpr const char* folders[] = {"/usr/share/fonts/truetype/dejavu/",       "/usr/share/fonts/TTF/",
                                    "/usr/share/fonts/dejavu-sans-fonts/",     "/usr/share/fonts/dejavu/",
                                    "/usr/local/share/fonts/truetype/dejavu/", "/usr/local/share/fonts/"};
-constexpr char32_t replacement = 0xfffd;
-
 /// The pen of a glyph's outline, and the size of the font's unit.
 struct GlyphPen {
   sdf::Pen pen;
@@ -47,23 +46,6 @@ double set_line(const Font& font, std::string_view text, const Use& use) {
 }
 
 }  // namespace
-
-char32_t take_code_point(std::string_view& text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char lead = byte(0);
-  const std::size_t size = lead < 0x80 ? 1 : lead >> 5 == 6 ? 2 : lead >> 4 == 14 ? 3 : lead >> 3 == 30 ? 4 : 0;
-  constexpr unsigned masks[] = {0, 0x7f, 0x1f, 0x0f, 0x07};
-  constexpr char32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-  char32_t code = lead & masks[size];
-  bool is_well = size > 0 && size <= text.size();
-  for (std::size_t i = 1; is_well && i < size; ++i) {
-    is_well = byte(i) >> 6 == 2;
-    code = code << 6 | (byte(i) & 0x3fu);
-  }
-  is_well = is_well && code >= least[size] && code < 0x110000 && code >> 11 != 0x1b;
-  text.remove_prefix(is_well ? size : 1);
-  return is_well ? code : replacement;
-}
 
 std::string dejavu_path(const std::string& file) {
   std::error_code ignored;
@@ -100,7 +82,7 @@ bool Font::has(char32_t code) const { return FT_Get_Char_Index(face_.get(), code
 
 bool Font::load(char32_t code) const {
   FT_UInt glyph = FT_Get_Char_Index(face_.get(), code);
-  if (glyph == 0) glyph = FT_Get_Char_Index(face_.get(), replacement);
+  if (glyph == 0) glyph = FT_Get_Char_Index(face_.get(), replacement_character);
   return FT_Load_Glyph(face_.get(), glyph, FT_LOAD_NO_SCALE) == 0;
 }
 

@@ -12,9 +12,6 @@ struct FT_FaceRec_;
 
 namespace zoneplate {
 
-/// Takes the first code point from the front of UTF-8 text; U+FFFD for a byte that is not UTF-8.
-char32_t take_code_point(std::string_view& text);
-
 /// The path of a DejaVu font, such as "DejaVuSans.ttf", in the usual folders.
 ///
 /// Errors    ErrorKind::Failed naming the file, the folders and the package.

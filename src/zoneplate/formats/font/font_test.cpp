@@ -49,14 +49,5 @@ TEST(Font, RefusesOtherFiles) {
   EXPECT_EQ(message(std::string(source_root) + "/README.md"), std::string(source_root) + "/README.md: not a font");
 }
 
-TEST(Font, DecodesUtf8) {
-  std::string_view text = "aé\xff€";
-  EXPECT_EQ(take_code_point(text), U'a');
-  EXPECT_EQ(take_code_point(text), U'é');
-  EXPECT_EQ(take_code_point(text), U'\ufffd');
-  EXPECT_EQ(take_code_point(text), U'€');
-  EXPECT_TRUE(text.empty());
-}
-
 }  // namespace
 }  // namespace zoneplate

@@ -74,7 +74,7 @@ bool JsonEdits::set(std::string_view pointer, JsonValue value) {
     edits_.push_back({std::string(pointer), std::exchange(*there, std::move(value))});
     return true;
   }
-  // Objects of many keys are sorted; no object of glTF that lacks a property has so many.
+  // Objects of many keys are sorted; glTF objects that lack a property have few keys.
   if (parent->kind != JsonValue::Kind::Object || parent->keys.size() >= JsonValue::most_unsorted_keys) return false;
   edits_.push_back({std::string(pointer), std::nullopt});
   parent->keys.push_back(unescaped(last));

@@ -2,6 +2,7 @@
 // Scenes of shapes as JSON. A parser of its own, because every error names its line and column.
 #include <fmt/format.h>
 
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/sdf/language/term.h"
 
 namespace zoneplate::sdf {
@@ -80,15 +81,6 @@ class JsonParser {
     } while (has_next(']'));
   }
 
-  static void add_utf8(std::string& out, unsigned code) {
-    const auto byte = [&](unsigned b) { out += static_cast<char>(b); };
-    if (code < 0x80) return byte(code);
-    if (code < 0x800) return byte(0xc0 | code >> 6), byte(0x80 | (code & 0x3f));
-    if (code < 0x10000) return byte(0xe0 | code >> 12), byte(0x80 | (code >> 6 & 0x3f)), byte(0x80 | (code & 0x3f));
-    byte(0xf0 | code >> 18), byte(0x80 | (code >> 12 & 0x3f)), byte(0x80 | (code >> 6 & 0x3f));
-    byte(0x80 | (code & 0x3f));
-  }
-
   unsigned hex4() {
     unsigned code = 0;
     for (int i = 0; i < 4; ++i) {
@@ -118,7 +110,7 @@ class JsonParser {
         code = 0x10000 + ((code & 0x3ff) << 10) + (low & 0x3ff);
       }
       if (code >> 11 == 0x1b) fail_at(in_.file(), at, "a surrogate without its other half");
-      return add_utf8(out, code);
+      return append_utf8(out, code);
     }
     const std::size_t i = letters.find(in_.peek());
     if (in_.at_end() || i == std::string_view::npos) in_.fail("expected an escape such as \\n, found " + in_.found());

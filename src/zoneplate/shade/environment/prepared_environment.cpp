@@ -111,9 +111,9 @@ void fit_spline(const BorderedCube& samples, float* out) {
     for (int k = 1; k < 4; ++k) sum = sum + (at(-k) + at(k)) * inverse[k];
     return sum;
   };
+  BorderedCube in_rows = samples;
   parallel_for(static_cast<std::size_t>(cube::faces), [&](std::size_t f) {
     const int face = static_cast<int>(f);
-    BorderedCube in_rows = samples;
     float* to = out + 3 * f * static_cast<std::size_t>((side + 2) * (side + 2));
     for (int y = -border; y < side + border; ++y)
       for (int x = -1; x <= side; ++x)

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t most_hits = std::size_t{1} << 16;    // hits that are collected before samples are finished
 constexpr std::size_t most_layers = std::size_t{1} << 16;  // layers that are collected before fragments are shaded
-constexpr std::size_t few_members = 3;                     // a square with at most so many members is not divided
+constexpr std::size_t few_members = 3;                     // a square of this many members is not divided
 // Squares along a pixel's side for which the filter's weights are tabulated.
 constexpr int squares = 8;
 
