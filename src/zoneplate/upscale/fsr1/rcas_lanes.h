@@ -35,9 +35,10 @@ template <bool is_exact, class F>
     const F most = max(max(p.above[c], p.left[c]), max(p.right[c], p.below[c]));
     const F low = options.limits_by_ring ? least : min(least, p.centre[c]);
     const F high = options.limits_by_ring ? most : max(most, p.centre[c]);
-    // 0 / 0 where all neighbours are black, or all are white: then there is nothing to subtract.
-    const F to_black = where(most > F(0.0f), low / (F(4.0f) * most));
-    const F to_white = where((least < F(1.0f)) | (least > F(1.0f)), (F(1.0f) - high) / (F(4.0f) * least - F(4.0f)));
+    // Without a limit where all neighbours are black, or all are white: they cannot push the pixel out of the range.
+    const F to_black = select(most > F(0.0f), low / (F(4.0f) * most), F(1.0f));
+    const F to_white =
+        select((least < F(1.0f)) | (least > F(1.0f)), (F(1.0f) - high) / (F(4.0f) * least - F(4.0f)), F(-1.0f));
     lobe = max(lobe, max(-to_black, to_white));
   }
   constexpr float limit = 0.25f - 1.0f / 16;
