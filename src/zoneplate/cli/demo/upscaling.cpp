@@ -7,6 +7,7 @@
 
 #include "zoneplate/cli/demo/demo.h"
 #include "zoneplate/cli/demo/picture.h"
+#include "zoneplate/image/transfer.h"
 #include "zoneplate/metrics/mse.h"
 #include "zoneplate/render/lighting.h"
 #include "zoneplate/render/renderer.h"
