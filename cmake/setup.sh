@@ -76,7 +76,7 @@ has_new_packages() {
 is_stale() {
   local stamp=$root/build/$1/.zoneplate-built
   [ -e "$stamp" ] || return 0
-  local inputs=(include src cmake CMakeLists.txt CMakePresets.json packages.txt)
+  local inputs=(include src web cmake CMakeLists.txt CMakePresets.json packages.txt)
   [ "$1" = release ] || inputs+=(tests fuzz)
   [ -z "$(cd "$root" && find "${inputs[@]}" -newer "$stamp" -print -quit)" ] || return 0
   has_new_packages "$1"

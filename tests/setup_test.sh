@@ -6,7 +6,7 @@ sources=$1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 root=$work/tree
-mkdir -p "$root"/{include,src,cmake,build} "$work/bin"
+mkdir -p "$root"/{include,src,web,cmake,build} "$work/bin"
 touch "$root"/{CMakeLists.txt,CMakePresets.json}
 printf 'png-dev   PNG in and out\ngtest-dev (check) tests\n' >"$root/packages.txt"
 cat >"$work/bin/dpkg-query" <<END
@@ -32,7 +32,7 @@ old() { touch -d '1 hour ago' "$@"; }
 calls() { : >"$work/calls"; build release build; cat "$work/calls"; }
 
 echo 'png-dev 1.0' >"$work/versions"
-old "$dpkg_status" "$root"/{include,src,cmake,CMakeLists.txt,CMakePresets.json,packages.txt}
+old "$dpkg_status" "$root"/{include,src,web,cmake,CMakeLists.txt,CMakePresets.json,packages.txt}
 [[ $(calls) == *--build* ]] || fail "the first call builds"
 [[ $(cat "$root/build/release/.zoneplate-packages") == 'png-dev 1.0' ]] || fail "the versions are kept"
 [[ -z $(calls) ]] || fail "nothing is new, and dpkg-query is not called"

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <vector>
-
 namespace zoneplate {
 namespace {
 
@@ -24,20 +22,6 @@ TEST(Markup, ReplacesWhatXmlForbids) {
   EXPECT_EQ(escape_markup("\xed\xa0\x80"), bad + bad + bad);  // a surrogate
   EXPECT_EQ(escape_markup("\xef\xbf\xbf"), bad);              // U+FFFF
   EXPECT_EQ(escape_markup("a\tb\nc"), "a\tb\nc");
-}
-
-// RFC 4648, section 10.
-TEST(Markup, DataUrisAreBase64) {
-  const auto uri = [](const std::string& text) {
-    return data_uri("x/y", std::vector<std::uint8_t>(text.begin(), text.end())).substr(16);
-  };
-  EXPECT_EQ(uri(""), "");
-  EXPECT_EQ(uri("f"), "Zg==");
-  EXPECT_EQ(uri("fo"), "Zm8=");
-  EXPECT_EQ(uri("foo"), "Zm9v");
-  EXPECT_EQ(uri("foob"), "Zm9vYg==");
-  EXPECT_EQ(uri("fooba"), "Zm9vYmE=");
-  EXPECT_EQ(uri("foobar"), "Zm9vYmFy");
 }
 
 }  // namespace

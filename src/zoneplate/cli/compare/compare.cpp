@@ -9,6 +9,7 @@
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/compare/page.h"
 #include "zoneplate/cli/compare/pictures.h"
 #include "zoneplate/cli/output_paths.h"
 #include "zoneplate/cli/render/args.h"
@@ -20,6 +21,7 @@
 #include "zoneplate/formats/load.h"
 #include "zoneplate/metrics/flip/magma.h"
 #include "zoneplate/metrics/metrics.h"
+#include "zoneplate/os/file.h"
 #include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/upscale/upscaler.h"
 
@@ -29,7 +31,7 @@ namespace {
 struct CompareArgs {
   RenderArgs render;  ///< size, view, lights, tone mapping, limits: the options of `zoneplate render`
   std::vector<std::string> scenes, command;
-  std::string methods = "all", reference, metrics = "psnr,ssim,flip,edge_error";
+  std::string methods = "all", reference, page, metrics = "psnr,ssim,flip,edge_error";
   int turns = 3;
 };
 
@@ -37,6 +39,7 @@ constexpr const char* examples =
     "  zoneplate compare teapot --aa none,fxaa,smaa,msaa:n=4,ssaa:n=4 -o teapot-compared\n"
     "  zoneplate compare wires stars foliage --aa all --reference ssaa:n=16 -o compared\n"
     "  zoneplate compare all --aa all -o everything         all scenes that show a class of artifacts\n"
+    "  zoneplate compare wires --aa none,fxaa,msaa:n=8 --html wires.html     only the page, for a browser\n"
     "  zoneplate compare chair.glb --aa msaa:n=8,ssaa:pattern=halton,samples=64 --reference chair-reference.png -o "
     "chair\n";
 
@@ -68,6 +71,9 @@ Syntax compare_syntax(CompareArgs& args) {
   const std::string group = "Comparison";
   syntax.options = {
       {"--output,-o", "DIR", "Folder to create", group, true, [&](auto& text) { args.render.output = text; }},
+      {"--html", "FILE.html",
+       "Write one page with all images, for a browser: linked zoom, differences, error maps, values of pixels", group,
+       true, [&](auto& text) { args.page = text; }},
       {"--anti-aliasing,--aa", "LIST",
        "Methods, for example none,msaa:n=4 (zoneplate list methods), or all; default all", group, true,
        [&](auto& text) { args.methods = text; }},
@@ -234,14 +240,16 @@ void check_scenes(const CompareArgs& args) {
 /// The files and the text that a run writes.
 struct Comparison {
   std::vector<OutputFile> files;
-  std::string text, json;
+  std::string text, json, page;
 };
 
 Comparison compare_all(const CompareArgs& args, const TrialOptions& options) {
-  static_cast<void>(plot_svg({.x = {"x", 0, 1}, .y = {"y", 0, 1}}));  // throws before the work if plots cannot be drawn
+  // Throws before the work if plots cannot be drawn.
+  if (!args.render.output.empty()) static_cast<void>(plot_svg({.x = {"x", 0, 1}, .y = {"y", 0, 1}}));
   Progress progress(args.render.progress ? *args.render.progress : parse_progress("auto"));
   std::vector<SceneTrials> scenes;
   std::vector<OutputFile> files;
+  ComparisonPage page;
   const double steps = static_cast<double>(args.scenes.size() * (options.methods.size() + 2));
   double done = 0;
   for (const std::string& name : args.scenes) {
@@ -249,20 +257,24 @@ Comparison compare_all(const CompareArgs& args, const TrialOptions& options) {
         args, name, options, [&](const std::string& method) { progress.begin(name + ", " + method, done++ / steps); });
     scene.name = folder_name(name, scenes);
     progress.begin(name + ", images", done++ / steps);
-    add_files(scene, files);
+    if (!args.render.output.empty()) add_files(scene, files);
+    if (!args.page.empty()) page.add(scene);
     // Frees images that are already encoded.
     for (Trial& t : scene.trials) t.picture = {}, t.error_map = {};
     scenes.push_back(std::move(scene));
   }
-  std::string text = report_text(scenes);
-  std::string json = report_json(scenes, args.command).indented() + '\n';
+  Comparison out{.files = std::move(files),
+                 .text = report_text(scenes),
+                 .json = report_json(scenes, args.command).indented() + '\n',
+                 .page = args.page.empty() ? "" : page.text(scenes)};
+  if (args.render.output.empty()) return out;
   const Plot cost = scenes.size() == 1 ? cost_plot(scenes[0]) : cost_plot(means_of(scenes));
-  files.push_back({"cost.svg", bytes_of(plot_svg(cost, {.width = 960, .height = 600}))});
-  files.push_back({"compare.txt", bytes_of(text)});
-  files.push_back({"compare.md", bytes_of(report_markdown(scenes))});
-  files.push_back({"compare.csv", bytes_of(report_csv(scenes))});
-  files.push_back({"compare.json", bytes_of(json)});
-  return {std::move(files), std::move(text), std::move(json)};
+  out.files.push_back({"cost.svg", bytes_of(plot_svg(cost, {.width = 960, .height = 600}))});
+  out.files.push_back({"compare.txt", bytes_of(out.text)});
+  out.files.push_back({"compare.md", bytes_of(report_markdown(scenes))});
+  out.files.push_back({"compare.csv", bytes_of(report_csv(scenes))});
+  out.files.push_back({"compare.json", bytes_of(out.json)});
+  return out;
 }
 
 }  // namespace
@@ -279,7 +291,8 @@ void run_compare(std::span<const std::string> arguments) {
     throw Error(ErrorKind::Usage, "no scene: give models or built-in scenes, or all (zoneplate list scenes)");
   check_environment(args.render);
   const TrialOptions options = trial_options(args);
-  check_output_folder(args.render.output);
+  if (!args.page.empty()) check_savable(args.page);
+  if (args.page.empty() || !args.render.output.empty()) check_output_folder(args.render.output);
   check_scenes(args);
   if (args.render.verbosity == Verbosity::Quiet && !args.render.progress) args.render.progress = ProgressKind::None;
   Comparison made;
@@ -290,7 +303,9 @@ void run_compare(std::span<const std::string> arguments) {
       made = compare_all(args, options);
     });
   });
-  save_folder(args.render.output, made.files);  // without other threads, as it requires
+  if (!args.render.output.empty())
+    save_folder(args.render.output, made.files);  // without other threads, as it requires
+  if (!args.page.empty()) save_bytes(args.page, bytes_of(made.page));
   if (args.render.verbosity != Verbosity::Quiet || args.render.prints_json)
     print(args.render.prints_json ? made.json : made.text);
 }

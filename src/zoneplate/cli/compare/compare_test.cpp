@@ -77,6 +77,25 @@ TEST_F(CompareVerb, WritesEverythingThatItsJsonNames) {
   EXPECT_LT(table.find("`ssaa:pattern=halton,samples=8`"), table.find("`none`"));
 }
 
+TEST_F(CompareVerb, ThePageHasTheImagesAndNeedsNoFolder) {
+  const ProgramAnswer answer = run(std::string("compare triangles cyclic --aa none,fxaa --html page.html") + small);
+  ASSERT_EQ(answer.code, 0) << answer.out;
+  EXPECT_TRUE(contains(answer.out, "triangles, 64x48, against ssaa:n=4"));
+  EXPECT_EQ(std::distance(fs::directory_iterator(place), fs::directory_iterator()), 1);
+  const std::string page = text_of("page.html");
+  EXPECT_TRUE(contains(page, "<title>2 scenes: 2 methods compared with ssaa:n=4</title>"));
+  EXPECT_FALSE(contains(page, place.string()));
+  const auto count = [&](const std::string& part) {
+    int found = 0;
+    for (std::size_t at = 0; (at = page.find(part, at)) != std::string::npos; ++at) ++found;
+    return found;
+  };
+  EXPECT_EQ(count("class=\"picture\" data-values=\"codes\""), 2 * 3);
+  EXPECT_EQ(count("class=\"picture\" data-values=\"errors\""), 2 * 2);
+  EXPECT_EQ(count("\"is_reference\":true"), 2);
+  EXPECT_EQ(run("compare cyclic --aa none --html none/page.html").code, 4);
+}
+
 TEST_F(CompareVerb, JudgesAsTheMetricsVerbDoes) {
   ASSERT_EQ(run(std::string("compare cyclic --aa fxaa -o out") + small).code, 0);
   const auto json = parsed_json(text_of("out/compare.json"));

@@ -132,11 +132,7 @@ Plot cost_plot(const SceneTrials& scene) {
 Plot cost_plot(const std::vector<MethodMeans>& means) {
   std::vector<Dot> dots;
   for (const MethodMeans& m : means) {
-    const bool is_on_front = std::ranges::none_of(means, [&](const MethodMeans& o) {
-      return o.error <= m.error && o.processor_ms <= m.processor_ms &&
-             (o.error < m.error || o.processor_ms < m.processor_ms);
-    });
-    dots.push_back({m.method, m.processor_ms, m.error, is_on_front});
+    dots.push_back({m.method, m.processor_ms, m.error, is_on_front(m, means)});
   }
   return plot_of("All scenes: mean error against mean cost", std::move(dots));
 }

@@ -32,7 +32,7 @@ const Column known_columns[] = {{"psnr", "PSNR dB", 2},
                                 {"edge_error.diagonal", "diagonal %", 2, 100}};
 
 /// The columns of the measured metrics, in their order.
-std::vector<Column> columns_of(const std::vector<SceneTrials>& scenes) {
+std::vector<Column> columns_of(std::span<const SceneTrials> scenes) {
   std::vector<Column> columns;
   const auto add = [&](const Column& column) {
     if (std::ranges::find(columns, column.name, &Column::name) == columns.end()) columns.push_back(column);
@@ -60,20 +60,12 @@ std::string megabytes(const std::optional<std::uint64_t>& bytes) {
   return bytes ? fmt::format("{:.1f}", static_cast<double>(*bytes) / (1 << 20)) : "-";
 }
 
-/// The trials in ascending order of their error.
-std::vector<const Trial*> ranked(const SceneTrials& scene) {
-  std::vector<const Trial*> order;
-  for (const Trial& t : scene.trials) order.push_back(&t);
-  std::ranges::stable_sort(order, {}, [](const Trial* t) { return t->value("flip").value_or(HUGE_VAL); });
-  return order;
-}
-
 Table table_of(const SceneTrials& scene, const std::vector<Column>& columns) {
   Table table{{"method"}, {}};
   for (const Column& c : columns) table.head.emplace_back(c.head);
   for (const char* name : {"ms", "CPU ms", "samples/px", "MB"}) table.head.emplace_back(name);
   for (const Trial* t : ranked(scene)) {
-    std::vector<std::string> row{(t->is_on_front ? "* " : "  ") + t->method};
+    std::vector<std::string> row{t->method};
     for (const Column& c : columns) row.push_back(shown(t->value(c.name), c.decimals, c.scale));
     row.push_back(fmt::format("{:.1f}", t->least_ms()));
     row.push_back(fmt::format("{:.1f}", t->least_processor_ms()));
@@ -81,6 +73,14 @@ Table table_of(const SceneTrials& scene, const std::vector<Column>& columns) {
     row.push_back(megabytes(t->memory));
     table.rows.push_back(std::move(row));
   }
+  return table;
+}
+
+/// The table for a terminal, with the Pareto front marked.
+Table marked_table(const SceneTrials& scene, const std::vector<Column>& columns) {
+  Table table = table_of(scene, columns);
+  const std::vector<const Trial*> order = ranked(scene);
+  for (std::size_t i = 0; i < order.size(); ++i) table.rows[i][0].insert(0, order[i]->is_on_front ? "* " : "  ");
   return table;
 }
 
@@ -238,13 +238,29 @@ std::vector<MethodMeans> means_of(const std::vector<SceneTrials>& scenes) {
   return out;
 }
 
+std::vector<const Trial*> ranked(const SceneTrials& scene) {
+  std::vector<const Trial*> order;
+  for (const Trial& t : scene.trials) order.push_back(&t);
+  std::ranges::stable_sort(order, {}, [](const Trial* t) { return t->value("flip").value_or(HUGE_VAL); });
+  return order;
+}
+
+Table results_of(const SceneTrials& scene) { return table_of(scene, columns_of({&scene, 1})); }
+
+bool is_on_front(const MethodMeans& own, const std::vector<MethodMeans>& all) {
+  return std::ranges::none_of(all, [&](const MethodMeans& m) {
+    return m.error <= own.error && m.processor_ms <= own.processor_ms &&
+           (m.error < own.error || m.processor_ms < own.processor_ms);
+  });
+}
+
 std::string report_text(const std::vector<SceneTrials>& scenes) {
   const std::vector<Column> columns = columns_of(scenes);
   std::string text;
   for (const SceneTrials& s : scenes) {
     text += fmt::format("{}{}, {}x{}, against {}{}\n", s.scene, s.failure.empty() ? "" : " (" + s.failure + ")",
                         s.reference_picture.width(), s.reference_picture.height(), s.reference, reference_cost(s));
-    text += table_text(table_of(s, columns)) + fewer_turns(s) + '\n';
+    text += table_text(marked_table(s, columns)) + fewer_turns(s) + '\n';
   }
   if (scenes.size() > 1) text += means_text(scenes) + '\n';
   return text + "* on the Pareto front: no other method has less CPU time and less error\n";
@@ -281,13 +297,6 @@ std::optional<double> mean_over(const std::vector<SceneTrials>& scenes, const Fi
   for (const SceneTrials& s : scenes)
     if (const std::optional<double> value = figure(s)) sum += *value, count += 1;
   return count > 0 ? std::optional(sum / count) : std::nullopt;
-}
-
-bool is_on_front(const MethodMeans& own, const std::vector<MethodMeans>& all) {
-  return std::ranges::none_of(all, [&](const MethodMeans& m) {
-    return m.error <= own.error && m.processor_ms <= own.processor_ms &&
-           (m.error < own.error || m.processor_ms < own.processor_ms);
-  });
 }
 
 }  // namespace

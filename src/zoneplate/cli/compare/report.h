@@ -34,6 +34,15 @@ struct MethodMeans {
 };
 std::vector<MethodMeans> means_of(const std::vector<SceneTrials>& scenes);
 
+/// True if no other method has both less CPU time and less error.
+bool is_on_front(const MethodMeans& own, const std::vector<MethodMeans>& all);
+
+/// The trials of a scene in ascending order of their error.
+std::vector<const Trial*> ranked(const SceneTrials& scene);
+
+/// The figures of a scene's methods, in that order.
+Table results_of(const SceneTrials& scene);
+
 /// The names of the files of a trial, within the comparison's folder.
 struct TrialFiles {
   std::string picture, error_map, worst;

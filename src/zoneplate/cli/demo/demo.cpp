@@ -26,7 +26,7 @@ namespace zoneplate::cli {
 namespace {
 
 struct DemoArgs {
-  std::string output;
+  std::string output, page;
   DemoSize size;
   std::optional<int2> slide;  ///< pixels of the whole image
   int threads = 0;
@@ -49,6 +49,7 @@ Syntax demo_syntax(DemoArgs& args) {
           "  zoneplate demo wagon-wheel -o wheel.png        also writes wheel.webp: both are animations\n"
           "  zoneplate demo zbuffer --slide 1920x1080 -o zbuffer.png\n"
           "  zoneplate demo all -o lessons                  creates the folder\n"
+          "  zoneplate demo all --html lessons.html         all lessons as one page for a browser\n"
           "\n" +
           list_of_lessons(),
       .notes =
@@ -57,6 +58,9 @@ Syntax demo_syntax(DemoArgs& args) {
       .options = {
           {"--output,-o", "OUT", "Image to write, a .png file; for `all`, a folder", "Lesson", true,
            [&args](const std::string& text) { args.output = text; }},
+          {"--html", "FILE.html",
+           "Write a page for a browser, with the panels of the lesson or of `all` lessons: zoom, pixels, frames",
+           "Lesson", true, [&args](const std::string& text) { args.page = text; }},
           {"--panel", "PX", "Size of each panel of the lesson, 64 to 1024; default 360", "Lesson", true,
            [&args](const std::string& text) { args.size.panel = parse_whole(text, 64, 1024); }},
           {"--slide", "WxH", "Fit the lesson to an image of this size, such as 1920x1080", "Lesson", true,
@@ -164,7 +168,10 @@ void make_folder(const std::string& path) {
     throw Error(ErrorKind::Output, fmt::format("{}: cannot create the folder: {}", path, trouble.message()));
 }
 
-void check_output(const std::string& lesson, const std::string& output) {
+void check_output(const std::string& lesson, const DemoArgs& args) {
+  const std::string& output = args.output;
+  if (!args.page.empty()) check_savable(args.page);
+  if (output.empty() && !args.page.empty()) return;
   if (output.empty())
     throw Error(ErrorKind::Usage, lesson == "all" ? "no output: give -o FOLDER" : "no output: give -o OUT.png");
   if (lesson != "all" && !output.ends_with(".png") && !output.ends_with(".PNG"))
@@ -199,18 +206,26 @@ void run_demo(std::span<const std::string> arguments) {
     throw Error(ErrorKind::Usage, "demo: give one lesson; `zoneplate demo -h` lists them");
   const std::string& name = syntax.found_operands.front();
   const std::span<const Demo> lessons = chosen(name);
-  check_output(name, args.output);
-  if (name == "all") make_folder(args.output);
+  check_output(name, args);
+  if (name == "all" && !args.output.empty()) make_folder(args.output);
   const auto path_of = [&](const Demo& demo) {
     return name == "all" ? fmt::format("{}/{}.png", args.output, demo.name) : args.output;
   };
+  const bool has_images = !args.output.empty();
   for (const Demo& demo : lessons)
-    for (const std::string& file : files_of(demo, path_of(demo))) check_savable(file);
+    for (const std::string& file : files_of(demo, path_of(demo)))
+      if (has_images) check_savable(file);
+  std::vector<NamedLesson> made;
   with_threads(args.threads, [&] {
     for (const Demo& demo : lessons) {
-      const ComposedLesson made = args.slide ? fitted(demo, *args.slide) : composed(demo, args.size);
-      save_lesson(made.animation, files_of(demo, path_of(demo)));
-      print((&demo == &lessons[0] ? "" : "\n\n") + text_of(made.lesson));
+      ComposedLesson lesson = args.slide ? fitted(demo, *args.slide) : composed(demo, args.size);
+      if (has_images) save_lesson(lesson.animation, files_of(demo, path_of(demo)));
+      print((&demo == &lessons[0] ? "" : "\n\n") + text_of(lesson.lesson));
+      if (!args.page.empty()) made.push_back({std::string(demo.name), std::move(lesson.lesson)});
+    }
+    if (!args.page.empty()) {
+      const std::string text = page_of(made);
+      save_bytes(args.page, std::vector<std::uint8_t>(text.begin(), text.end()));
     }
   });
 }

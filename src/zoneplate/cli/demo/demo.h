@@ -37,6 +37,15 @@ struct Demo {
 /// The lessons, in the order of demos.txt.
 std::span<const Demo> demos();
 
+/// A lesson with its name.
+struct NamedLesson {
+  std::string name;
+  Lesson lesson;
+};
+
+/// The lessons as a page for a browser (report/html_page.h): the panels that have captions, and the tables.
+std::string page_of(std::span<const NamedLesson> lessons);
+
 /// The texts of the figure, wrapped for a terminal: title, captions, text and tables.
 std::string text_of(const Lesson& lesson);
 

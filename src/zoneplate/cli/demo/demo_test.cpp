@@ -93,6 +93,29 @@ TEST_F(DemoFolder, AllLessonsAreWrittenAndSaid) {
     EXPECT_NE(said.find(words), std::string::npos) << words;
 }
 
+TEST_F(DemoFolder, APageHasThePanelsOfTheLesson) {
+  const std::string path = (place / "page.html").string();
+  testing::internal::CaptureStdout();
+  run_demo(std::vector<std::string>{"jaggies", "--html", path, "--panel", "64"});
+  testing::internal::GetCapturedStdout();
+  const FileBytes file(path);
+  const std::string page(file.bytes().begin(), file.bytes().end());
+  EXPECT_NE(page.find("<title>Jaggies: with one sample"), std::string::npos);
+  EXPECT_NE(page.find("{\"name\":\"--aa msaa:n=8\",\"text\":\""), std::string::npos);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(place), std::filesystem::directory_iterator()), 1);
+
+  // Of an animated lesson each panel has its frames, and a panel that does not move has one.
+  Figure first{.title = "t",
+               .rows = {{{Rgba8Image(2, 1, {1, 2, 3, 255}), "still"}, {Rgba8Image(2, 1), "moving\ntext"}}}};
+  Figure second = first;
+  second.rows[0][1].picture(0, 0).r = 9;
+  const std::vector<NamedLesson> lessons{{"lesson", {.frames = {first, second}}}};
+  const std::string film = page_of(lessons);
+  EXPECT_NE(film.find("{\"name\":\"still\",\"text\":\"\",\"frames\":[0]}"), std::string::npos);
+  EXPECT_NE(film.find("{\"name\":\"moving\",\"text\":\"text\",\"frames\":[1,2]}"), std::string::npos);
+  EXPECT_EQ(film, page_of(lessons));
+}
+
 TEST_F(DemoFolder, ASlideHasItsSize) {
   const std::string path = (place / "s.png").string();
   testing::internal::CaptureStdout();

@@ -1,84 +1,155 @@
 // SPDX-License-Identifier: Apache-2.0
-// The report as one HTML page: a table of all images, and each failed pair as reference, test image and error map.
+// The report as a page for a browser: a table of all images, and the images of failed pairs or of a sequence.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "zoneplate/cli/metrics/judgement_text.h"
-#include "zoneplate/codec/png.h"
-#include "zoneplate/report/markup.h"
+#include "zoneplate/report/html_page.h"
 
 namespace zoneplate::cli {
 namespace {
 
-constexpr std::string_view style = R"(
-:root { color-scheme: light dark; --line: #8884; --bad: #c62828; --good: #2e7d32; }
-@media (prefers-color-scheme: dark) { :root { --bad: #ff8a80; --good: #81c784; } }
-body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 100rem; padding: 0 1.5rem; }
-h1 { font-size: 1.4rem; margin-bottom: .2rem; }
-h2 { font-size: 1.05rem; margin: 2rem 0 .3rem; }
-table { border-collapse: collapse; }
-th, td { text-align: left; padding: .25rem .9rem .25rem 0; border-bottom: 1px solid var(--line); }
-td.number, th.number { text-align: right; font-variant-numeric: tabular-nums; }
-.failed { color: var(--bad); font-weight: 600; }
-.passed { color: var(--good); }
-figure { display: inline-block; margin: .5rem 1rem .5rem 0; vertical-align: top; }
-figcaption { font-size: .85rem; opacity: .75; }
-img { display: block; max-width: 30vw; min-width: 12rem; image-rendering: pixelated; border: 1px solid var(--line);
-  background: repeating-conic-gradient(#bbb 0 25%, #ddd 0 50%) 0 0 / 16px 16px; }
-)";
-
-std::string image_of(std::string_view caption, const Rgba8Image& image, const std::string& alternative) {
-  if (image.empty()) return {};
-  return fmt::format("<figure><img alt=\"{} of {}\" src=\"{}\"><figcaption>{}</figcaption></figure>\n", caption,
-                     escape_markup(alternative), data_uri("image/png", encode_png(image)), caption);
-}
-
-std::string row_of(const JudgedItem& item, const std::vector<PooledResult>& columns) {
-  std::string text = fmt::format("<tr><td>{}</td><td class=\"{}\">{}</td>", escape_markup(item.name),
-                                 item.passed() ? "passed" : "failed", name_of(item.outcome));
-  for (const PooledResult& column : columns) {
-    const auto found = std::ranges::find(item.results, column.metric, &metrics::Result::metric);
-    text += fmt::format("<td class=\"number\">{}</td>", found == item.results.end() ? "–" : number_text(found->value));
+/// A text in which the operands and the files in them have no folders of this machine.
+std::string without_folders(std::string text, const ComparedPaths& paths) {
+  for (const std::string& operand : {paths.reference, paths.test}) {
+    const std::filesystem::path whole(operand);
+    if (!whole.is_absolute()) continue;
+    const std::string folder = (whole.parent_path() / "").string();
+    for (std::size_t at = 0; (at = text.find(folder, at)) != std::string::npos;) text.erase(at, folder.size());
   }
-  return text + fmt::format("<td>{}</td></tr>\n", escape_markup(item.message));
+  return text;
 }
+
+std::string head_of(const metrics::Metric& metric) {
+  return metric.unit.empty() ? std::string(metric.name) : fmt::format("{}, {}", metric.name, metric.unit);
+}
+
+std::string value_text(const JudgedItem& item, const metrics::Metric* metric) {
+  const auto found = std::ranges::find(item.results, metric, &metrics::Result::metric);
+  return found == item.results.end() ? "–" : number_text(found->value);
+}
+
+std::string reason_of(const JudgedItem& item) {
+  if (!item.evidence.is_left_out) return item.message;
+  return item.message + " (its images are left out: the page has its greatest size)";
+}
+
+/// The images of items and their places in the page.
+class JudgementPage {
+ public:
+  JudgementPage(const Judgement& judgement, const ComparedPaths& paths) : judgement_(judgement), paths_(paths) {}
+
+  Json::Object content(const std::string& title) {
+    if (judgement_.is_sequence)
+      add_sequence();
+    else
+      for (const JudgedItem& item : judgement_.items) add_pair(item);
+    std::string text = fmt::format("Test images: {}. References: {}.", shown(paths_.test), shown(paths_.reference));
+    if (!judgement_.pooled_message.empty()) text += fmt::format(" All images: {}.", judgement_.pooled_message);
+    Json::Array tables;
+    if (judgement_.items.size() > 1) tables.emplace_back(pooled_table());
+    tables.emplace_back(items_table());
+    return {{"title", title},
+            {"text", text},
+            {"error_name", error_name()},
+            {"tables", std::move(tables)},
+            {"scenes", std::move(scenes_)}};
+  }
+
+  const std::vector<PagePicture>& pictures() const { return pictures_; }
+
+ private:
+  std::string shown(const std::string& text) const { return without_folders(text, paths_); }
+
+  Json add(const PagePicture& picture) {
+    if (picture.png.empty()) return -1;
+    pictures_.push_back(picture);
+    return std::uint64_t{pictures_.size() - 1};
+  }
+
+  static Json::Array images_of(Json::Array reference, Json::Array test, Json::Array errors, const std::string& facts) {
+    return {
+        Json::Object{{"name", "reference"}, {"frames", std::move(reference)}, {"is_reference", true}},
+        Json::Object{{"name", "test"}, {"facts", facts}, {"frames", std::move(test)}, {"errors", std::move(errors)}}};
+  }
+
+  void add_pair(const JudgedItem& item) {
+    const auto scene = static_cast<std::uint64_t>(scenes_.size());
+    targets_.emplace_back(Json());
+    if (item.evidence.test.png.empty()) return;
+    targets_.back() = Json::Object{{"scene", scene}, {"failed", !item.passed()}};
+    scenes_.emplace_back(Json::Object{{"name", shown(item.name)},
+                                      {"text", shown(item.message)},
+                                      {"failed", !item.passed()},
+                                      {"images", images_of({add(item.evidence.reference)}, {add(item.evidence.test)},
+                                                           {add(item.evidence.errors)}, item.evidence.error_text)}});
+  }
+
+  void add_sequence() {
+    Json::Array reference, test, errors;
+    for (const JudgedItem& item : judgement_.items) {
+      targets_.emplace_back(Json::Object{{"frame", std::uint64_t{test.size()}}, {"failed", !item.passed()}});
+      reference.push_back(add(item.evidence.reference));
+      test.push_back(add(item.evidence.test));
+      errors.push_back(add(item.evidence.errors));
+    }
+    scenes_.emplace_back(Json::Object{
+        {"name", "sequence"}, {"images", images_of(std::move(reference), std::move(test), std::move(errors), "")}});
+  }
+
+  Json pooled_table() const {
+    Table table{{"metric", "all images", "unit"}, {}};
+    for (const PooledResult& pooled : judgement_.pooled)
+      table.rows.push_back(
+          {std::string(pooled.metric->name), number_text(pooled.value), std::string(pooled.metric->unit)});
+    return page_table(table, "All images");
+  }
+
+  /// A row for each item, the failed ones first.
+  Json items_table() const {
+    Table table{{"image", "outcome"}, {}};
+    std::vector<const metrics::Metric*> columns;
+    for (const PooledResult& pooled : judgement_.pooled)
+      if (!pooled.items.empty()) columns.push_back(pooled.metric), table.head.push_back(head_of(*pooled.metric));
+    table.head.emplace_back("reason");
+    Json::Array targets;
+    for (const bool passed : {false, true})
+      for (std::size_t i = 0; i < judgement_.items.size(); ++i) {
+        const JudgedItem& item = judgement_.items[i];
+        if (item.passed() != passed) continue;
+        std::vector<std::string> row{shown(item.name), std::string(name_of(item.outcome))};
+        for (const metrics::Metric* metric : columns) row.push_back(value_text(item, metric));
+        row.push_back(shown(reason_of(item)));
+        table.rows.push_back(std::move(row));
+        targets.push_back(targets_[i]);
+      }
+    return page_table(table, "Images", std::move(targets));
+  }
+
+  std::string error_name() const {
+    for (const JudgedItem& item : judgement_.items)
+      if (!item.evidence.error_name.empty()) return item.evidence.error_name;
+    return "error map";
+  }
+
+  const Judgement& judgement_;
+  const ComparedPaths& paths_;
+  std::vector<PagePicture> pictures_;
+  Json::Array scenes_, targets_;
+};
 
 }  // namespace
 
 std::string html_of(const Judgement& judgement, const ComparedPaths& paths) {
   const std::size_t count = judgement.items.size(), failures = judgement.failures();
-  std::string text = fmt::format(
-      "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width\">\n<title>{} of {} images failed</title>\n"
-      "<style>{}</style>\n</head>\n<body>\n<h1>Image comparison: {} of {} images failed</h1>\n"
-      "<p>Test images: {}. References: {}.</p>\n",
-      failures, count, style, failures, count, escape_markup(paths.test), escape_markup(paths.reference));
-  if (!judgement.pooled_message.empty())
-    text += fmt::format("<p class=\"failed\">All images together: {}.</p>\n", escape_markup(judgement.pooled_message));
-
-  text += "<table>\n<thead><tr><th>image</th><th>outcome</th>";
-  for (const PooledResult& column : judgement.pooled)
-    text += fmt::format("<th class=\"number\">{}{}{}</th>", column.metric->name,
-                        column.metric->unit.empty() ? "" : ", ", column.metric->unit);
-  text += "<th>reason</th></tr></thead>\n<tbody>\n<tr><td><b>all images</b></td><td></td>";
-  for (const PooledResult& column : judgement.pooled)
-    text += fmt::format("<td class=\"number\"><b>{}</b></td>", number_text(column.value));
-  text += "<td></td></tr>\n";
-  for (const bool passed : {false, true})
-    for (const JudgedItem& item : judgement.items)
-      if (item.passed() == passed) text += row_of(item, judgement.pooled);
-  text += "</tbody>\n</table>\n";
-
-  for (const JudgedItem& item : judgement.items) {
-    if (item.evidence.test.empty()) continue;
-    text +=
-        fmt::format("<h2>{}</h2>\n<p class=\"failed\">{}</p>\n", escape_markup(item.name), escape_markup(item.message));
-    text += image_of("Reference", item.evidence.reference, item.name);
-    text += image_of("Test image", item.evidence.test, item.name);
-    text += image_of("Error map", item.evidence.map, item.name);
-  }
-  return text + "</body>\n</html>\n";
+  const std::string title =
+      count == 1 ? fmt::format("{}: {}", without_folders(paths.test, paths), name_of(judgement.items[0].outcome))
+                 : fmt::format("{} of {} images failed", failures, count);
+  JudgementPage page(judgement, paths);
+  const Json::Object content = page.content(title);
+  return html_page(title, content, page.pictures());
 }
 
 }  // namespace zoneplate::cli

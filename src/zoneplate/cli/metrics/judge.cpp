@@ -47,31 +47,16 @@ std::string shortfall(const std::vector<Bound>& bounds, const Metric* metric, do
   return text;
 }
 
-/// Reduces an image by the smallest integer factor that makes its sides at most 1024 pixels.
-Rgba8Image reduced(const Rgba8Image& image) {
-  constexpr int side = 1024;
-  const int n = (std::max(image.width(), image.height()) + side - 1) / side;
-  if (n <= 1) return image;
-  Rgba8Image out(std::max(1, image.width() / n), std::max(1, image.height() / n));
-  const auto channel_mean = [&](int x, int y, std::uint8_t Rgba8::*channel) {
-    int sum = 0, count = 0;
-    for (int j = y * n; j < std::min((y + 1) * n, image.height()); ++j)
-      for (int i = x * n; i < std::min((x + 1) * n, image.width()); ++i) sum += image(i, j).*channel, ++count;
-    return static_cast<std::uint8_t>((sum + count / 2) / count);
-  };
-  for (int y = 0; y < out.height(); ++y)
-    for (int x = 0; x < out.width(); ++x)
-      out(x, y) = {channel_mean(x, y, &Rgba8::r), channel_mean(x, y, &Rgba8::g), channel_mean(x, y, &Rgba8::b),
-                   channel_mean(x, y, &Rgba8::a)};
-  return out;
-}
-
 /// Judges one pair after another; everything else of the Judgement follows from the items.
 class Judge {
  public:
   Judge(const metrics::PictureSet& reference, const metrics::PictureSet& test, const std::vector<Choice>& choices,
-        const Verdicts& verdicts, bool keeps_evidence)
-      : reference_(reference), test_(test), verdicts_(verdicts), keeps_evidence_(keeps_evidence) {
+        const Verdicts& verdicts, bool keeps_evidence, bool has_one_pair)
+      : reference_(reference),
+        test_(test),
+        verdicts_(verdicts),
+        keeps_evidence_(keeps_evidence),
+        keeps_passed_(has_one_pair || (reference.are_frames && test.are_frames)) {
     for (const Choice& choice : choices) (is_single(choice) ? singles_ : sequences_).push_back(choice);
     for (const Choice& choice : choices) out_.pooled.push_back({.metric = choice.metric});
   }
@@ -97,6 +82,11 @@ class Judge {
 
   Judgement finish(const std::vector<metrics::PicturePair>& pairs) {
     measure_sequences(pairs);
+    const JudgedItem& first = out_.items.front();
+    out_.is_sequence = out_.items.size() > 1 && reference_.are_frames && test_.are_frames && first.width > 0 &&
+                       std::ranges::all_of(out_.items, [&](const JudgedItem& item) {
+                         return item.width == first.width && item.height == first.height;
+                       });
     std::erase_if(out_.pooled, [](const PooledResult& pooled) { return pooled.values.empty(); });
     for (PooledResult& pooled : out_.pooled) {
       if (!pooled.items.empty())
@@ -174,11 +164,28 @@ class Judge {
       if (is_worse)
         worst_value_ = value, out_.worst_map = with_map->score.map, out_.worst_reference = reference.display;
     }
-    if (!keeps_evidence_ || item.passed()) return;
-    item.evidence.reference = reduced(quantize8(reference.display));
-    item.evidence.test = reduced(quantize8(test.display));
-    if (with_map != results.end())
-      item.evidence.map = reduced(paint_over(with_map->score.map, reference.display, evidence_gain));
+    if (keeps_evidence_ && (keeps_passed_ || !item.passed())) keep_evidence(reference, test, results, item.evidence);
+  }
+
+  /// The error map is that of FLIP, or else of the first metric that has one.
+  void keep_evidence(const Picture& reference, const Picture& test, const std::vector<Result>& results, Evidence& out) {
+    if (evidence_bytes_ >= most_evidence_bytes) {
+      out.is_left_out = true;
+      return;
+    }
+    const auto encoded = [](const Picture& p) {
+      return p.is_scene_linear ? page_picture(p.linear) : page_picture(p.display);
+    };
+    out.reference = encoded(reference), out.test = encoded(test);
+    const Result* with_map = nullptr;
+    for (const Result& result : results)
+      if (!result.score.map.empty() && (!with_map || result.metric->name == "flip")) with_map = &result;
+    if (with_map) {
+      out.errors = page_errors(with_map->score.map);
+      out.error_name = with_map->metric->name == "flip" ? "FLIP" : with_map->metric->name;
+      out.error_text = fmt::format("{} {}", out.error_name, number_text(with_map->value));
+    }
+    evidence_bytes_ += out.reference.png.size() + out.test.png.size() + out.errors.png.size();
   }
 
   void pool(const std::vector<Result>& results) {
@@ -223,12 +230,13 @@ class Judge {
     }
   }
 
-  static constexpr float evidence_gain = 4;
+  static constexpr std::size_t most_evidence_bytes = std::size_t{256} << 20;  // browsers open no page of 512 MiB
 
   const metrics::PictureSet &reference_, &test_;
   std::vector<Choice> singles_, sequences_;
   const Verdicts& verdicts_;
-  const bool keeps_evidence_;
+  const bool keeps_evidence_, keeps_passed_;
+  std::size_t evidence_bytes_ = 0;
   Judgement out_;
   double worst_value_ = 0;
 };
@@ -247,7 +255,7 @@ Judgement judge(const metrics::PictureSet& reference, const metrics::PictureSet&
                 const std::vector<Choice>& choices, const Verdicts& verdicts, bool keeps_evidence,
                 const std::function<void(double)>& progress) {
   const std::vector<metrics::PicturePair> pairs = metrics::pair_pictures(reference, test);
-  Judge all(reference, test, choices, verdicts, keeps_evidence);
+  Judge all(reference, test, choices, verdicts, keeps_evidence, pairs.size() == 1);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     progress(static_cast<double>(i) / static_cast<double>(pairs.size()));
     all.add(pairs[i]);

@@ -9,6 +9,7 @@
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/metrics/compare.h"
 #include "zoneplate/metrics/picture_set.h"
+#include "zoneplate/report/html_page.h"
 
 namespace zoneplate::cli {
 
@@ -35,9 +36,11 @@ enum class Outcome {
   Unreadable,
 };
 
-/// The images of a failed pair, 8-bit and reduced to at most 1024 pixels a side by a box filter.
+/// The images of a pair for the report. Pictures that do not exist have no bytes.
 struct Evidence {
-  Rgba8Image reference, test, map;  ///< empty if there is none
+  PagePicture reference, test, errors;
+  std::string error_name, error_text;  ///< the metric of the error map, and its value: "flip 0.123"
+  bool is_left_out = false;            ///< the evidence of all pairs has reached its greatest size
 };
 
 /// What was found out about one pair of images.
@@ -66,6 +69,7 @@ struct PooledResult {
 
 struct Judgement {
   std::vector<JudgedItem> items;
+  bool is_sequence = false;  ///< the items are frames of equal size
   std::vector<PooledResult> pooled;
   std::string pooled_message;  ///< which pooled value misses its bound; empty if none does
   /// The error map of the worst image by the first metric that has one, and its reference.
@@ -79,7 +83,8 @@ struct Judgement {
 
 /// Compares every pair of images, one after the other. A pair that cannot be compared fails alone.
 ///
-/// `progress(done)` is called with the fraction of completed pairs.
+/// `keeps_evidence`: of failed pairs, of a single pair, and of the frames of sequences. `progress(done)` is called with
+/// the fraction of completed pairs.
 Judgement judge(const metrics::PictureSet& reference, const metrics::PictureSet& test,
                 const std::vector<metrics::Choice>& choices, const Verdicts& verdicts, bool keeps_evidence,
                 const std::function<void(double)>& progress);

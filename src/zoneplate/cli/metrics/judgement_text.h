@@ -22,7 +22,7 @@ Json json_of(const Judgement& judgement, const ComparedPaths& paths);
 /// The result as JUnit XML, with one test case for each image; `time` is the UTC time in ISO 8601.
 std::string junit_of(const Judgement& judgement, const ComparedPaths& paths, const std::string& time);
 
-/// The result as one HTML page without external resources, with the images and the error maps of failed pairs.
+/// The result as a page for a browser (report/html_page.h), with the evidence of the items.
 std::string html_of(const Judgement& judgement, const ComparedPaths& paths);
 
 /// What standard error reports if something failed: one line; empty if everything passed.

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/cli/compare/page.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "zoneplate/cli/compare/report.h"
+
+namespace zoneplate::cli {
+namespace {
+
+Json target_of(std::optional<std::size_t> scene, std::size_t trial, bool is_on_front) {
+  // Image 0 of a scene is the reference.
+  Json::Object out{{"image", std::uint64_t{trial + 1}}, {"is_on_front", is_on_front}};
+  if (scene) out.emplace_back("scene", std::uint64_t{*scene});
+  return out;
+}
+
+Json point_of(const std::string& name, double ms, double error, bool is_on_front, const Json& target) {
+  return Json::Object{{"name", name}, {"x", ms}, {"y", 1000 * error}, {"is_on_front", is_on_front}, {"target", target}};
+}
+
+Json plot_of(const std::string& title, Json::Array points) {
+  return Json::Object{
+      {"title", title}, {"x", "CPU time per frame (ms)"}, {"y", "mean FLIP × 1000"}, {"points", std::move(points)}};
+}
+
+/// The table of the means of all scenes.
+Json means_table_of(const std::vector<MethodMeans>& means) {
+  std::vector<std::size_t> order(means.size());
+  for (std::size_t m = 0; m < order.size(); ++m) order[m] = m;
+  std::ranges::stable_sort(order, {}, [&](std::size_t m) { return means[m].error; });
+  Table table{{"method", "FLIP ×1000"}, {}};
+  for (const auto& [name, error] : means.at(0).by_class) table.head.push_back(name);
+  table.head.emplace_back("CPU ms");
+  Json::Array targets;
+  for (const std::size_t m : order) {
+    std::vector<std::string> row{means[m].method, fmt::format("{:.2f}", 1000 * means[m].error)};
+    for (const auto& [name, error] : means[m].by_class) row.push_back(fmt::format("{:.2f}", 1000 * error));
+    row.push_back(fmt::format("{:.1f}", means[m].processor_ms));
+    table.rows.push_back(std::move(row));
+    targets.push_back(target_of(std::nullopt, m, is_on_front(means[m], means)));
+  }
+  return page_table(table, "Mean of all scenes and of the classes of artifacts", std::move(targets));
+}
+
+std::string title_of(const std::vector<SceneTrials>& scenes) {
+  const std::size_t methods = scenes.at(0).trials.size();
+  const std::string what = scenes.size() == 1 ? scenes[0].scene : fmt::format("{} scenes", scenes.size());
+  return fmt::format("{}: {} {} compared with {}", what, methods, methods == 1 ? "method" : "methods",
+                     scenes[0].reference);
+}
+
+}  // namespace
+
+std::size_t ComparisonPage::add(PagePicture picture) {
+  pictures_.push_back(std::move(picture));
+  return pictures_.size() - 1;
+}
+
+Json ComparisonPage::image_of(const Trial& trial) {
+  const std::uint64_t picture = add(page_picture(trial.picture)), errors = add(page_errors(trial.error_map));
+  return Json::Object{{"name", trial.method},
+                      {"facts", fmt::format("FLIP {:.2f}, {:.1f} ms", 1000 * trial.value("flip").value_or(0),
+                                            trial.least_processor_ms())},
+                      {"frames", Json::Array{picture}},
+                      {"errors", Json::Array{errors}}};
+}
+
+void ComparisonPage::add(const SceneTrials& scene) {
+  Json::Array images{Json::Object{{"name", scene.reference},
+                                  {"facts", "reference"},
+                                  {"frames", Json::Array{std::uint64_t{add(page_picture(scene.reference_picture))}}},
+                                  {"is_reference", true}}};
+  Json::Array points, targets;
+  for (std::size_t i = 0; i < scene.trials.size(); ++i) {
+    const Trial& t = scene.trials[i];
+    images.push_back(image_of(t));
+    const Json target = target_of(scenes_.size(), i, t.is_on_front);
+    points.push_back(point_of(t.method, t.least_processor_ms(), t.value("flip").value_or(0), t.is_on_front, target));
+  }
+  for (const Trial* t : ranked(scene))
+    targets.push_back(target_of(scenes_.size(), static_cast<std::size_t>(t - scene.trials.data()), t->is_on_front));
+  // The page starts with the reference, and the first methods of the list.
+  Json::Array chosen;
+  for (std::size_t i = 0; i < std::min<std::size_t>(4, images.size()); ++i) chosen.emplace_back(std::uint64_t{i});
+  Json::Object out{{"name", scene.name},
+                   {"text", scene.failure.empty() ? scene.complaint : scene.failure + ": " + scene.complaint},
+                   {"images", std::move(images)},
+                   {"chosen", std::move(chosen)},
+                   {"tables", Json::Array{page_table(results_of(scene), scene.scene, std::move(targets))}},
+                   {"plot", plot_of(scene.scene + ": error against cost", std::move(points))}};
+  if (scene.common_worst.error > 0)
+    out.emplace_back("region",
+                     Json::Object{{"x", scene.common_worst.x}, {"y", scene.common_worst.y}, {"size", Place::side}});
+  scenes_.push_back(std::move(out));
+}
+
+std::string ComparisonPage::text(const std::vector<SceneTrials>& scenes) {
+  const std::string title = title_of(scenes);
+  Json::Object content{
+      {"title", title},
+      {"text",
+       "Error: mean FLIP × 1000. Times: CPU time of a frame. ● is on the Pareto front: no other method "
+       "has less CPU time and less error."},
+      {"error_name", "FLIP"},
+      {"scenes", std::move(scenes_)}};
+  if (scenes.size() > 1) {
+    const std::vector<MethodMeans> means = means_of(scenes);
+    Json::Array points;
+    for (std::size_t m = 0; m < means.size(); ++m) {
+      const bool is_front = is_on_front(means[m], means);
+      points.push_back(point_of(means[m].method, means[m].processor_ms, means[m].error, is_front,
+                                target_of(std::nullopt, m, is_front)));
+    }
+    content.emplace_back("tables", Json::Array{means_table_of(means)});
+    content.emplace_back("plot", plot_of("All scenes: mean error against mean cost", std::move(points)));
+  }
+  return html_page(title, content, pictures_);
+}
+
+}  // namespace zoneplate::cli
