@@ -63,3 +63,4 @@
 #include "zoneplate/shade/texture/sample.h"
 #include "zoneplate/shade/texture/texture.h"
 #include "zoneplate/signal/samples.h"
+#include "zoneplate/upscale/upscaler.h"

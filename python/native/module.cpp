@@ -113,13 +113,26 @@ bool add_errors(PyObject* module) {
   return true;
 }
 
+/// The kinds of parts that the package lists.
+bool add_parts(PyObject* module) {
+  constexpr struct {
+    const char* name;
+    zoneplate_part part;
+  } parts[] = {{"OBJECTS", ZONEPLATE_OBJECTS},  {"MATERIALS", ZONEPLATE_MATERIALS},   {"MESHES", ZONEPLATE_MESHES},
+               {"CAMERAS", ZONEPLATE_CAMERAS},  {"ANIMATIONS", ZONEPLATE_ANIMATIONS}, {"VARIANTS", ZONEPLATE_VARIANTS},
+               {"WARNINGS", ZONEPLATE_WARNINGS}};
+  for (const auto& [name, part] : parts)
+    if (PyModule_AddIntConstant(module, name, part) != 0) return false;
+  return true;
+}
+
 int execute(PyObject* module) {
   if (zoneplate_abi_version() != ZONEPLATE_ABI_VERSION) {
     PyErr_SetString(PyExc_ImportError, "the library has another binary interface than this module");
     return -1;
   }
   const bool is_complete = add_errors(module) && add_array_type(module) && add_image_type(module) &&
-                           add_scene_type(module) &&
+                           add_scene_type(module) && add_parts(module) &&
                            PyModule_AddStringConstant(module, "__version__", zoneplate_version()) == 0;
   return is_complete ? 0 : -1;
 }

@@ -3,6 +3,14 @@ from typing import Any
 
 __version__: str
 
+OBJECTS: int
+MATERIALS: int
+MESHES: int
+CAMERAS: int
+ANIMATIONS: int
+VARIANTS: int
+WARNINGS: int
+
 class Error(RuntimeError): ...
 class UsageError(Error, ValueError): ...
 class InputError(Error, ValueError): ...

@@ -157,7 +157,7 @@ class Scene:
     def _load(path: str, options: dict[str, Any]) -> Scene:
         scene = Scene.__new__(Scene)
         scene._native = _native.Scene(path, **options)
-        scene._meshes = scene._native.names(2)
+        scene._meshes = scene._native.names(_native.MESHES)
         return scene
 
     @classmethod
@@ -353,37 +353,37 @@ class Scene:
     @property
     def objects(self) -> list[str]:
         """The names of the objects, by their values in the data pass "object-id"."""
-        return self._native.names(0)
+        return self._native.names(_native.OBJECTS)
 
     @property
     def materials(self) -> list[str]:
         """The names of the materials, by their values in the data pass "material-id"."""
-        return self._native.names(1)
+        return self._native.names(_native.MATERIALS)
 
     @property
     def meshes(self) -> list[str]:
         """The names of the meshes."""
-        return self._native.names(2)
+        return self._native.names(_native.MESHES)
 
     @property
     def cameras(self) -> list[str]:
         """The names of the file's cameras, by `View.index`."""
-        return self._native.names(5)
+        return self._native.names(_native.CAMERAS)
 
     @property
     def animations(self) -> list[str]:
         """The names of the file's animations, by the `animation` of `load`."""
-        return self._native.names(6)
+        return self._native.names(_native.ANIMATIONS)
 
     @property
     def variants(self) -> list[str]:
         """The names of the file's material variants."""
-        return self._native.names(7)
+        return self._native.names(_native.VARIANTS)
 
     @property
     def warnings(self) -> list[str]:
         """What the loader ignored."""
-        return self._native.names(8)
+        return self._native.names(_native.WARNINGS)
 
     @property
     def bounds(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:

@@ -18,6 +18,7 @@ struct Planes {
   bool normal = false, albedo = false, uv = false;  ///< as in Frame
   bool object_id = false, material_id = false, primitive_id = false, coverage = false;  ///< as in Frame
   bool position = false, motion = false, flow = false;                                  ///< as in Frame
+  bool last_position = false, was_visible = false;                                      ///< as in Frame
   bool mip_level = false, anisotropy = false;                                           ///< as in Frame
   bool error = false;             ///< only of methods that estimate it
   bool samples = false;           ///< colour, depth and triangle id of every sample
@@ -25,7 +26,7 @@ struct Planes {
   bool sample_colors = false;     ///< colour of every sample alone
 
   /// The planes that are computed from the pixels' primitive ids.
-  bool any_point_plane() const { return position || motion || flow; }
+  bool any_point_plane() const { return position || motion || flow || last_position || was_visible; }
   /// True if a plane by pixel is requested that visibility decides: all but `error`, `samples` and `sample_colors`.
   bool any_pixel_plane() const {
     return depth || normal || albedo || uv || mip_level || anisotropy || object_id || material_id || primitive_id ||
@@ -53,7 +54,7 @@ struct Frame {
   LinearImage color;    ///< resolved inside the tiles with the method's weights
   Rgba8Image display8;  ///< display-referred, in place of `color`, if Request::writes_display8
   Plane<SamplePosition>
-      data_position;            ///< in the pixel: where the data are evaluated; made for position, motion and flow
+      data_position;            ///< in the pixel: where the data are evaluated; made for position, motion and the like
   Plane<float> depth;           ///< distance along the view axis, world units; +infinity in empty pixels
   Plane<float> reversed_depth;  ///< as in the depth test: 1 near, 0 far
   Plane<float3> normal;         ///< world space, unit length, towards the viewer
@@ -64,8 +65,13 @@ struct Frame {
   Plane<std::uint32_t> object_id, material_id, primitive_id;  ///< no_id in empty pixels
   Plane<std::uint32_t> instance;                              ///< index into Scene::instances
   Plane<float3> position;                                     ///< world space
-  Plane<float2> motion;   ///< pixels, x right, y down: the surface point's position now minus its last one, no jitter
-  Plane<float2> flow;     ///< the surface point's next position minus its position now, as `motion`
+  Plane<float2> motion;  ///< pixels, x right, y down: the surface point's position now minus its last one, no jitter
+  Plane<float2> flow;    ///< the surface point's next position minus its position now, as `motion`
+  Plane<float3>
+      last_position;  ///< of the surface point in the last frame, as `position`; where it had none, `position`
+  /// 1 where the last frame's camera saw the surface point: within the image, and no surface with an opacity above one
+  /// half lay before it. By rays to the triangles of the last frame.
+  Plane<std::uint8_t> was_visible;
   Plane<float> coverage;  ///< in [0, 1]
   Plane<float> error;     ///< estimated standard error of the colour, the maximum of its channels
 
@@ -103,7 +109,7 @@ struct Frame {
     use(a.mip_level, b.mip_level), use(a.anisotropy, b.anisotropy), use(a.object_id, b.object_id);
     use(a.material_id, b.material_id), use(a.primitive_id, b.primitive_id), use(a.instance, b.instance);
     use(a.position, b.position), use(a.motion, b.motion), use(a.flow, b.flow), use(a.coverage, b.coverage);
-    use(a.error, b.error);
+    use(a.last_position, b.last_position), use(a.was_visible, b.was_visible), use(a.error, b.error);
     for (std::size_t s = 0; s < a.sample_triangle.size(); ++s) use(a.sample_triangle[s], b.sample_triangle[s]);
   }
 };

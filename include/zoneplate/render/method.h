@@ -11,6 +11,7 @@
 #include "zoneplate/base/spec.h"
 #include "zoneplate/raster/types/sampling.h"
 #include "zoneplate/render/frame.h"
+#include "zoneplate/scene/camera.h"
 #include "zoneplate/signal/samples.h"
 
 namespace zoneplate {
@@ -35,6 +36,17 @@ enum class Content {
   Visibility,     ///< only the triangle of each sample: `planes.sample_triangles`, or with its depth: `samples`
 };
 
+/// A rectangle of the image.
+struct Crop {
+  int x = 0, y = 0, width = 0, height = 0;  ///< pixels; (x, y) is the top-left one of the crop
+};
+
+/// The size of a whole image, and the part of it that is made.
+struct ImageExtent {
+  int width = 0, height = 0;  ///< pixels of the whole image
+  std::optional<Crop> crop;   ///< none: all of it
+};
+
 /// What a method requires of the renderer for one frame.
 ///
 /// Tiles resolve the colour while it is in the cache: a mean of the samples, weighted by `weights`. Planes of samples
@@ -47,11 +59,18 @@ struct Request {
   AlphaTest alpha = AlphaTest::Pixel;          ///< of alpha-tested surfaces at rate *surface*
   Centroid centroid = Centroid::Mean;          ///< where surfaces are shaded at rate *surface*
   Planes planes;                               ///< the data that `resolve` and `post_process` read
-  Plane<std::uint8_t> pixel_mask;    ///< of the frame's size: only pixels that are not 0 here are drawn; empty: all
-  float footprint = 0;               ///< texture footprint at rate *sample*, in pixels; 0: 1 / √(number of samples)
+  Plane<std::uint8_t> pixel_mask;  ///< of the frame's size: only pixels that are not 0 here are drawn; empty: all
+  /// The texture footprint of a fragment, in pixels of the frame: level of detail changes by its logarithm to base 2.
+  /// 0: 1 / √(number of samples) at rate *sample*, 1 at rate *surface*.
+  float footprint = 0;
   bool resolves_per_pixel = false;   ///< the mean is the result: `resolve` and `post_process` change nothing
   bool is_display_referred = false;  ///< the method works after tone mapping: linear output does not contain it
   int halo = 0;  ///< pixels around a crop that `post_process` reads: a crop then has the bits of the whole image
+
+  /// The frame's size and part if they are not those of the image: an upscaler renders fewer pixels than the image has.
+  /// The camera sees the same view, and point and line widths are those of the image. `resolve` or `post_process` then
+  /// returns an image of FrameContext::image; data passes of the settings are rendered separately, at the image's size.
+  std::optional<ImageExtent> frame;
 
   /// Draws the colour instead of the tiles; `samples` then apply to the data passes only. The function owns all data
   /// that it needs, since it may be called after the method is destroyed. Only methods of the library can use it:
@@ -64,10 +83,19 @@ struct Request {
   bool writes_display8 = false;
   /// The next frame's FrameContext::previous has the data planes of this frame.
   bool keeps_planes = false;
+  /// How many frames of a still scene the method needs until its image has settled (Renderer::render_still). More than
+  /// 1: the method keeps history, so that an image depends on all frames since the last cut.
+  int settling_frames = 1;
+
+  /// True if an image depends on earlier frames.
+  bool has_history() const { return settling_frames > 1; }
+  /// A `halo` that contains the whole image, for methods with history: motion may bring any pixel into a crop.
+  static constexpr int whole_image = 1 << 20;
 };
 
 /// The position of a frame in its sequence, and the data of the frame before it.
 struct FrameContext {
+  ImageExtent image;     ///< the image that the frame becomes, without the apron of Request::halo
   int index = 0;         ///< in its sequence, in the order of rendering
   bool is_first = true;  ///< the first frame of its sequence: the method drops all history
   /// The sub-pixel jitter for methods that distribute their samples over frames; others ignore it. It cycles through
@@ -77,6 +105,8 @@ struct FrameContext {
   /// The data planes of the previous frame if its request had `keeps_planes`; otherwise, and for the first frame, null.
   /// They are valid until the method has resolved and post-processed this frame.
   const Frame* previous = nullptr;
+  Camera camera;       ///< of this frame, without jitter
+  Camera last_camera;  ///< of the previous frame; for the first frame, `camera`
 };
 
 /// The state of an antialiasing method over sequences of frames. A method overrides the steps that it changes.

@@ -19,11 +19,6 @@ namespace zoneplate {
 
 class PreparedScene;
 
-/// A rectangle of the image.
-struct Crop {
-  int x = 0, y = 0, width = 0, height = 0;  ///< pixels; (x, y) is the top-left one of the crop
-};
-
 /// The environment behind a scene's surfaces.
 struct EnvironmentBackground {
   float blur = 0;  ///< 0: sharp; up to 1: as the surface of that roughness reflects it
@@ -39,6 +34,7 @@ struct Moment {
 struct RenderOptions {
   int width = 800, height = 600;                ///< pixels of the whole image, 1 to 32768
   std::optional<Crop> crop;                     ///< the frame has the crop's size and the bits of the whole image
+  float aspect = 0;                             ///< width / height of the camera's view; 0: that of the image
   EdgeRule edge_rule = EdgeRule::TopLeft;       ///< TopLeft, except for teaching
   Visibility visibility = Visibility::ZBuffer;  ///< ZBuffer, except for teaching
   ShadingFrequency shading_frequency = ShadingFrequency::Fragment;  ///< Fragment, except for teaching
@@ -58,6 +54,11 @@ struct RenderOptions {
   std::optional<Moment> last;  ///< the moment from which Frame::motion is measured; none: no motion
   std::optional<Moment> next;  ///< the moment to which Frame::flow leads
 };
+
+/// Width / height of the camera's view.
+inline float aspect_of(const RenderOptions& o) {
+  return o.aspect > 0 ? o.aspect : static_cast<float>(o.width) / static_cast<float>(o.height);
+}
 
 /// Whether rays to the lights or to the environment are traced.
 inline bool has_visibility(const RenderOptions& o) {

@@ -72,18 +72,24 @@ class Renderer {
   /// Errors    ErrorKind::Usage for a size, crop, or data pass that cannot be rendered.
   RenderedImage render(const Camera& camera, const RenderSettings& settings);
 
+  /// Renders a still image: as many frames of the same scene and camera as the method needs to settle
+  /// (Request::settling_frames), as a sequence of its own. Returns the last of them, with the sum of all counts.
+  RenderedImage render_still(const Camera& camera, const RenderSettings& settings);
+
   /// Renders the next frame with motion blur: the mean of `count` moments in linear light. `moment(i)` is called once
   /// for each, in order. Requires: no data passes in `settings.planes`.
   ///
   /// Exact     the sum is made in order and divided once.
+  /// Errors    ErrorKind::Usage for a method with history (Request::has_history).
   RenderedImage render_mean(int count, const std::function<SceneView(int)>& moment, const RenderSettings& settings);
 
   /// Returns an image to the renderer, which reuses its memory for the next frame of the same size.
   void recycle(Rgba8Image image);
 
  private:
-  void begin_frame(const RenderSettings& settings);
+  void begin_frame(const Camera& camera, const RenderSettings& settings);
   Request request_for(const RenderSettings& settings);
+  RenderOptions frame_options(const RenderSettings& settings, const Request& request) const;
   /// The frame of the method's last round, and the data planes of the first round.
   struct Rounds {
     Frame frame;
@@ -93,7 +99,10 @@ class Renderer {
   Rounds render_rounds(const Camera& camera, const Request& request, const RenderOptions& options,
                        RenderCounts& counts);
   void finish(LinearImage picture, const Frame& frame, ImageForm form, RenderedImage& out);
-  void end_frame(const Camera& camera, const Request& request, bool are_planes_requested, Frame& data);
+  void draw_behind(const Camera& camera, const RenderOptions& options, LinearImage& color) const;
+  Frame render_data(const Camera& camera, const Request& request, const RenderSettings& settings, RenderCounts& counts);
+  void end_frame(const Camera& camera, bool keeps_moment, const Request& request, bool are_planes_requested,
+                 Frame& data);
 
   PreparedScene scene_;
   std::unique_ptr<Resolver> method_;
@@ -106,6 +115,8 @@ class Renderer {
   int width_ = 0, height_ = 0;
   std::optional<Crop> crop_;
   std::optional<Moment> moment_;
+  Camera camera_;
+  int settling_frames_ = 1;
   std::optional<Frame> previous_;
 };
 

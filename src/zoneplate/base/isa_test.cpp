@@ -74,6 +74,8 @@ TEST(Isa, NoSourceOfTheLibraryTakesATableForAnIsaOfItsOwn) {
       continue;
     std::ifstream file(entry.path());
     const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const auto has = [&](const char* part) { return text.find(part) != std::string::npos; };
+    if (!has("Isa") && !has("best_isa") && !has("Kernels::of(")) continue;  // regular expressions are slow
     EXPECT_FALSE(std::regex_search(text, own_choice)) << path;
     EXPECT_TRUE(path.starts_with("cli/") || path == "base/parallel.cpp" || !std::regex_search(text, type)) << path;
   }

@@ -6,7 +6,6 @@
 #include <array>
 #include <deque>
 
-#include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/capi/arrays.h"
 #include "zoneplate/capi/handles.h"
@@ -14,6 +13,7 @@
 #include "zoneplate/render/aov.h"
 #include "zoneplate/render/lighting.h"
 #include "zoneplate/render/view.h"
+#include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::capi {
 namespace {
@@ -156,7 +156,7 @@ std::unique_ptr<zoneplate_image> render_image(zoneplate_scene& scene, const zone
   const RenderOptions& options = settings.options;
   const std::vector<const Aov*> passes = passes_of(o.passes);
   for (const Aov* aov : passes) settings.planes.*(aov->plane) = true;
-  std::unique_ptr<Resolver> method = make_resolver(antialias::methods(), o.method == nullptr ? "msaa:n=8" : o.method);
+  std::unique_ptr<Resolver> method = upscale::make_method(o.method == nullptr ? "msaa:n=8" : o.method);
   const Request request = method->request({});
   if (settings.form == ImageForm::Linear && request.is_display_referred)
     throw Error(ErrorKind::Usage, fmt::format("{} works after tone mapping, and the image is linear", o.method));
@@ -170,7 +170,7 @@ std::unique_ptr<zoneplate_image> render_image(zoneplate_scene& scene, const zone
   const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
   Renderer renderer(prepared.lit(make_lighting(prepared.scene(), lighting)), std::move(method));
   RenderedImage image =
-      renderer.render(camera != nullptr ? camera_of(camera) : find_camera(scene, nullptr, aspect), settings);
+      renderer.render_still(camera != nullptr ? camera_of(camera) : find_camera(scene, nullptr, aspect), settings);
 
   const bool has_alpha = options.display.is_transparent || options.display.background.w < 1;
   std::unique_ptr<zoneplate_image> out;

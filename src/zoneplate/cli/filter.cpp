@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// zoneplate filter: post-process antialiasing of existing images, without a scene.
+// zoneplate filter: post-process antialiasing and upscaling of existing images, without a scene.
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -19,6 +20,7 @@
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/metrics/picture_file.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -26,7 +28,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct FilterArgs {
-  std::string output, method;
+  std::string output, method, upscaler;
+  std::optional<int2> size;  ///< of the upscaled images
   int bit_depth = 8, threads = 0;
   std::optional<ProgressKind> progress;  ///< none: a bar on a terminal
 };
@@ -45,13 +48,57 @@ std::string filter_names() {
   return names;
 }
 
+std::string upscaler_names() {
+  std::string names;
+  for (const Upscaler& row : upscale::upscalers())
+    if (row.make_spatial) names += fmt::format("{}{}", names.empty() ? "" : ", ", row.name);
+  return names;
+}
+
+/// What is done to each image: antialiasing, upscaling, or the one and then the other.
+struct Filters {
+  std::unique_ptr<Resolver> antialiasing;     ///< or null
+  std::unique_ptr<SpatialUpscaler> upscaler;  ///< or null
+  std::optional<int2> size;                   ///< of the upscaled image; none: that of the input times `scale`
+  double scale = 1;
+};
+
 std::unique_ptr<Resolver> make_filter(const std::string& method) {
-  if (method.empty()) throw Error(ErrorKind::Usage, "--anti-aliasing is missing: one of " + filter_names());
   std::unique_ptr<Resolver> filter = make_resolver(antialias::methods(), method);
   if (!reads_image_alone(*filter))
     throw Error(ErrorKind::Usage, fmt::format("--anti-aliasing: {} needs a scene, expected a filter of images: {}",
                                               method, filter_names()));
   return filter;
+}
+
+Filters make_filters(const FilterArgs& args) {
+  if (args.method.empty() && args.upscaler.empty())
+    throw Error(ErrorKind::Usage, fmt::format("--anti-aliasing or --upscale is missing: one of {}, or one of {}",
+                                              filter_names(), upscaler_names()));
+  Filters filters;
+  if (!args.method.empty()) filters.antialiasing = make_filter(args.method);
+  if (args.upscaler.empty()) {
+    if (args.size) throw Error(ErrorKind::Usage, "--size requires --upscale: one of " + upscaler_names());
+    return filters;
+  }
+  const Spec<Upscaler> spec = parse_spec("upscaler", upscale::upscalers(), args.upscaler);
+  filters.upscaler = upscale::make_spatial_upscaler(args.upscaler);
+  filters.size = args.size, filters.scale = spec.settings.number("scale");
+  return filters;
+}
+
+UpscaleGrid grid_of(const Filters& filters, int width, int height, const std::string& input) {
+  constexpr int max_side = 32768;
+  const auto scaled = [&](int side) { return static_cast<int>(std::floor(side * filters.scale + 0.5)); };
+  const int2 size = filters.size.value_or(int2{scaled(width), scaled(height)});
+  if (size.x < width || size.y < height)
+    throw Error(ErrorKind::Usage, fmt::format("--size {}x{}: is smaller than {}, which has {}x{} pixels, and upscalers "
+                                              "only enlarge; zoneplate signal resample reduces",
+                                              size.x, size.y, input, width, height));
+  if (size.x > max_side || size.y > max_side)
+    throw Error(ErrorKind::Usage, fmt::format("{}: upscaled to {}x{} pixels, expected at most {} along each side",
+                                              input, size.x, size.y, max_side));
+  return {width, height, 0, 0, {size.x, size.y, std::nullopt}};
 }
 
 struct FilterItem {
@@ -76,12 +123,32 @@ std::vector<FilterItem> plan(const std::string& operand, const std::string& outp
   return items;
 }
 
-void filter_image(const FilterItem& item, Resolver& filter, int bit_depth) {
-  metrics::Picture picture = metrics::load_picture(item.input);
-  if (picture.is_scene_linear)
+bool is_linear_file(const std::string& path) {
+  const std::string ending = extension_of(path);
+  return ending == ".exr" || ending == ".pfm";
+}
+
+void filter_linear(const FilterItem& item, const LinearImage& image, const Filters& filters) {
+  if (filters.antialiasing)
     throw Error(ErrorKind::Input,
                 item.input + ": is a scene-linear image, expected a display-referred one (PNG, JPEG or WebP)");
-  const DisplayImage image = filter.post_process(std::move(picture.display), Frame());
+  if (!is_linear_file(item.output))
+    throw Error(ErrorKind::Usage, fmt::format("{}: is a scene-linear image, and {} is not: write an .exr or a .pfm",
+                                              item.input, item.output));
+  const UpscaleGrid grid = grid_of(filters, image.width(), image.height(), item.input);
+  save_image(item.output, upscale::upscale_linear(*filters.upscaler, image, grid));
+}
+
+void filter_image(const FilterItem& item, const Filters& filters, int bit_depth) {
+  metrics::Picture picture = metrics::load_picture(item.input);
+  if (picture.is_scene_linear) return filter_linear(item, picture.linear, filters);
+  if (is_linear_file(item.output))
+    throw Error(ErrorKind::Usage, fmt::format("{}: is a display-referred image, and {} is scene-linear: write a .png",
+                                              item.input, item.output));
+  DisplayImage image = std::move(picture.display);
+  if (filters.antialiasing) image = filters.antialiasing->post_process(std::move(image), Frame());
+  if (filters.upscaler)
+    image = filters.upscaler->upscale(image, grid_of(filters, image.width(), image.height(), item.input));
   if (bit_depth == 8) return save_image(item.output, quantize8(image));
   save_bytes(item.output, encode_png(quantize16(image)));
 }
@@ -89,23 +156,32 @@ void filter_image(const FilterItem& item, Resolver& filter, int bit_depth) {
 Syntax make_syntax(FilterArgs& args) {
   Syntax syntax{
       .verb = "filter",
-      .summary = "Antialias existing images by a post-process filter",
+      .summary = "Antialias existing images by a post-process filter, and upscale them",
       .operands = "IMAGES",
       .examples =
           "  zoneplate filter shot.png --aa smaa -o smooth.png\n"
           "  zoneplate filter shot.png --aa fxaa:preset=39,mix=light -o smooth.webp\n"
           "  zoneplate filter shots/ --aa cmaa2 -o smooth/\n"
+          "  zoneplate filter shot.png --aa smaa --upscale fsr1 --size 1920x1080 -o large.png\n"
           "  zoneplate filter frames/a.####.png --aa mlaa -o smooth/\n",
       .notes =
-          "IMAGES is a PNG, JPEG or WebP file, a folder of them, or a sequence (name.####.png, name.%04d.png).\n"
-          "Filters work on 8-bit sRGB values. Pixels that the filter does not blend keep their exact value;\n"
+          "IMAGES is a PNG, JPEG or WebP file, a folder of them, or a sequence (name.####.png, name.%04d.png);\n"
+          "upscalers also read scene-linear .hdr, .exr and .pfm files, and write .exr and .pfm for them.\n"
+          "Antialiasing filters work on 8-bit sRGB values. Pixels that the filter does not blend keep their exact "
+          "value;\n"
           "images with alpha are filtered premultiplied.\n"};
   syntax.options = {
       {"--output,-o", "FILE",
-       "The image to write: .png, .jpg or .webp; for several inputs a folder, which receives .png files", "Options",
-       true, [&](auto& text) { args.output = text; }},
+       "The image to write: .png, .jpg or .webp, or .exr or .pfm for a scene-linear one; for several inputs a folder, "
+       "which receives .png files",
+       "Options", true, [&](auto& text) { args.output = text; }},
       {"--anti-aliasing,--aa", "METHOD", "Filter, such as smaa or fxaa:preset=39: one of " + filter_names(), "Options",
        true, [&](auto& text) { args.method = text; }},
+      {"--upscale", "METHOD",
+       "Upscaler, after the filter if both are given, such as fsr1 or lanczos:lobes=2: one of " + upscaler_names(),
+       "Options", true, [&](auto& text) { args.upscaler = text; }},
+      {"--size", "W,H", "Size of the upscaled image; default: that of the image times the upscaler's scale, 1.5",
+       "Options", true, [&](auto& text) { args.size = parse_size(text, 32768); }},
       {"--bit-depth", "N", "Bits per channel of .png: 8, the default, or 16", "Options", false,
        [&](auto& text) {
          args.bit_depth = parse_choice(text, {"8", "16"}) == 0 ? 8 : 16;
@@ -126,7 +202,7 @@ void run_filter(std::span<const std::string> arguments) {
   if (syntax.found_operands.size() != 1)
     throw Error(ErrorKind::Usage, "filter takes one input: an image, a folder or a sequence");
   if (args.output.empty()) throw Error(ErrorKind::Usage, "no output: name a file or folder with -o");
-  const std::unique_ptr<Resolver> filter = make_filter(args.method);
+  const Filters filters = make_filters(args);
   const std::vector<FilterItem> items = plan(syntax.found_operands.front(), args.output);
   if (items.front().output != args.output) {
     std::error_code error;
@@ -141,7 +217,7 @@ void run_filter(std::span<const std::string> arguments) {
     double done = 0;
     for (const FilterItem& item : items) {
       progress.begin(item.input, done++ / static_cast<double>(items.size()));
-      filter_image(item, *filter, args.bit_depth);
+      filter_image(item, filters, args.bit_depth);
     }
   });
 }

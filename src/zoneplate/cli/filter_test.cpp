@@ -112,5 +112,33 @@ TEST_F(FilterVerb, WhatCannotBeFilteredIsRefused) {
   EXPECT_NE(output_.find("zoneplate filter"), std::string::npos) << output_;
 }
 
+TEST_F(FilterVerb, UpscalesImages) {
+  ASSERT_EQ(run("wires -o small.png --size 48x36 --aa smaa"), 0) << output_;
+  ASSERT_EQ(run("wires -o rendered.png --size 96x72 --aa smaa --upscale lanczos --render-scale performance"), 0)
+      << output_;
+  ASSERT_EQ(run("filter small.png -o large.png --upscale fsr1 --size 96x72 --bit-depth 16"), 0) << output_;
+  EXPECT_EQ(png("large.png").width, 96);
+  EXPECT_EQ(png("large.png").height, 72);
+  ASSERT_EQ(run("filter small.png -o default.png --aa fxaa --upscale nis"), 0) << output_;
+  EXPECT_EQ(png("default.png").width, 72);
+  EXPECT_EQ(run("filter small.png -o x.png --upscale fsr1 --size 40x40"), 2);
+  EXPECT_NE(output_.find("upscalers only enlarge"), std::string::npos) << output_;
+  EXPECT_EQ(run("filter small.png -o x.png --upscale nis --size 200x40"), 2);
+  EXPECT_EQ(run("filter small.png -o x.png --size 96x72 --aa smaa"), 2);
+  EXPECT_NE(output_.find("--size requires --upscale"), std::string::npos) << output_;
+  EXPECT_EQ(run("wires -o x.png --render-scale 2"), 2);
+  EXPECT_EQ(run("wires -o x.exr --upscale fsr1"), 2);
+}
+
+TEST_F(FilterVerb, UpscalesSceneLinearImages) {
+  ASSERT_EQ(run("wires -o small.exr --size 48x36 --aa msaa:n=4"), 0) << output_;
+  ASSERT_EQ(run("filter small.exr -o large.exr --upscale fsr1:scale=2"), 0) << output_;
+  ASSERT_EQ(run("wires -o direct.exr --size 96x72 --aa msaa:n=4"), 0) << output_;
+  ASSERT_EQ(run("metrics direct.exr large.exr --metric psnr"), 0) << output_;
+  EXPECT_EQ(run("filter small.exr -o large.png --upscale fsr1"), 2);
+  EXPECT_NE(output_.find("write an .exr or a .pfm"), std::string::npos) << output_;
+  EXPECT_EQ(run("filter small.exr -o large.exr --aa smaa"), 3);
+}
+
 }  // namespace
 }  // namespace zoneplate::cli

@@ -14,6 +14,7 @@
 #include "zoneplate/report/json.h"
 #include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/scene/texture_filter.h"
+#include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -27,9 +28,10 @@ std::string range_of(const Param& param) {
   return fmt::format("{}={}..{} ({})", param.name, param.low, param.high, param.value);
 }
 
-std::string methods_text() {
-  std::string text = "Antialiasing methods (--anti-aliasing NAME:PARAMETER=VALUE,...):\n";
-  for (const Method& method : antialias::methods()) {
+/// The rows of a catalogue of methods or upscalers.
+template <class Row>
+std::string catalogue_text(std::string text, std::span<const Row> rows) {
+  for (const Row& method : rows) {
     text += fmt::format("  {:<16}{} [{}{}]\n", method.name, method.summary, method.source,
                         method.is_specification_only ? "; specification only" : "");
     for (const Param& param : method.params)
@@ -38,9 +40,18 @@ std::string methods_text() {
   return text;
 }
 
-Json methods_json() {
+std::string methods_text() {
+  return catalogue_text("Antialiasing methods (--anti-aliasing NAME:PARAMETER=VALUE,...):\n", antialias::methods());
+}
+
+std::string upscalers_text() {
+  return catalogue_text("Upscalers (--upscale NAME:PARAMETER=VALUE,...):\n", upscale::upscalers());
+}
+
+template <class Row>
+Json catalogue_json(std::span<const Row> catalogue) {
   Json::Array rows;
-  for (const Method& method : antialias::methods()) {
+  for (const Row& method : catalogue) {
     Json::Array params;
     for (const Param& param : method.params) {
       Json::Object row{{"name", param.name}, {"meaning", param.meaning}};
@@ -67,6 +78,9 @@ Json methods_json() {
   }
   return rows;
 }
+
+Json methods_json() { return catalogue_json(antialias::methods()); }
+Json upscalers_json() { return catalogue_json(upscale::upscalers()); }
 
 std::string scenes_text() {
   std::string text = "Built-in scenes (in place of a file; NAME:PARAMETER=VALUE):\n";
@@ -154,7 +168,8 @@ struct Topic {
 constexpr Topic topics[] = {{"methods", methods_text, methods_json},
                             {"scenes", scenes_text, scenes_json},
                             {"formats", formats_text, formats_json},
-                            {"texture-filters", texture_filters_text, texture_filters_json}};
+                            {"texture-filters", texture_filters_text, texture_filters_json},
+                            {"upscalers", upscalers_text, upscalers_json}};
 
 }  // namespace
 
@@ -162,8 +177,9 @@ void run_list(std::span<const std::string> arguments) {
   bool prints_json = false;
   Syntax syntax{
       .verb = "list",
-      .summary = "List the antialiasing methods, the built-in scenes, the file formats and the texture filters",
-      .operands = "[methods|scenes|formats|texture-filters]...",
+      .summary =
+          "List the antialiasing methods, the built-in scenes, the file formats, the texture filters and the upscalers",
+      .operands = "[methods|scenes|formats|texture-filters|upscalers]...",
       .examples = "  zoneplate list methods\n  zoneplate list --json\n"};
   syntax.options = {{"--json", "", "As JSON", "Options", true, [&](auto&) { prints_json = true; }}};
   if (!parse(syntax, arguments)) return;
@@ -172,7 +188,7 @@ void run_list(std::span<const std::string> arguments) {
   for (const Topic& topic : topics) names.push_back(topic.name);
   std::vector<std::size_t> chosen;
   for (const std::string& operand : syntax.found_operands) chosen.push_back(parse_choice(operand, names));
-  if (chosen.empty()) chosen = {0, 1, 2, 3};
+  if (chosen.empty()) chosen = {0, 1, 2, 3, 4};
 
   std::string text;
   Json::Object json{{"format", "zoneplate-list"}, {"version", report_version}};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
@@ -160,6 +161,9 @@ struct Lane {
   friend Lane pow(Lane a, Lane b) { return number::pow(a.v, b.v); }
   friend Lane atan2(Lane a, Lane b) { return number::atan2(a.v, b.v); }
   static Lane from(Int i) { return static_cast<T>(i.v); }
+  /// The bits of a 32-bit float, and the float of these bits.
+  friend Int as_int(Lane a) { return std::bit_cast<std::int32_t>(a.v); }
+  static Lane of_bits(Int i) { return std::bit_cast<T>(i.v); }
 };
 
 using Float = Lane<float>;

@@ -171,6 +171,8 @@ struct FloatVector {
   friend HWY_INLINE Float asin(Float a) { return Float(HWY_NAMESPACE::asin(FloatTag(), a.v)); }
   friend HWY_INLINE Float atan2(Float a, Float b) { return Float(HWY_NAMESPACE::atan2(FloatTag(), a.v, b.v)); }
   static HWY_INLINE Float from(Int i) { return Float(hn::ConvertTo(FloatTag(), i.v)); }
+  friend HWY_INLINE Int as_int(Float a) { return Int(hn::BitCast(typename Int::IntTag(), a.v)); }
+  static HWY_INLINE Float of_bits(Int i) { return Float(hn::BitCast(FloatTag(), i.v)); }
 };
 
 /// As many lanes as a group of fragments has at most, as many as a vector has, four, and one for the rests of rows.

@@ -286,6 +286,7 @@ class CpuBackend : public Backend {
  private:
   RasterMemory memory_;
   SceneShadows shadows_;
+  LastVisibility last_visibility_;
 };
 
 Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_camera, const Request& request,
@@ -296,8 +297,7 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
       options.ground == GroundKind::Shadow ? GroundSquare(scene).enclosing(scene_camera) : scene_camera;
   const Stopwatch prepare;
   const Crop crop = options.crop.value_or(Crop{0, 0, options.width, options.height});
-  const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
-  const float4x4 clip_from_camera = camera.clip_from_camera(aspect);
+  const float4x4 clip_from_camera = camera.clip_from_camera(aspect_of(options));
   const float4x4 clip_from_world = clip_from_camera * inverse(camera.world_from_camera);
   SceneDraws draws = growing("draws", [&] { return make_draws(scene, clip_from_world, options); });
   const RasterRules rules{
@@ -327,9 +327,10 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
   target.alpha = request.alpha;
   target.centroid = request.centroid;
   target.is_per_sample = request.rate == Rate::Sample;
-  if (target.is_per_sample && options.sample_footprint)
-    target.spacing =
-        request.footprint > 0 ? request.footprint : 1 / std::sqrt(static_cast<float>(request.samples.size()));
+  if (request.footprint > 0 && (options.sample_footprint || !target.is_per_sample))
+    target.spacing = request.footprint;
+  else if (target.is_per_sample && options.sample_footprint)
+    target.spacing = 1 / std::sqrt(static_cast<float>(request.samples.size()));
   if (!request.pixel_mask.empty()) target.pixel_mask = &request.pixel_mask;
   std::optional<DisplayTransform> display_transform;
   if (request.writes_display8) target.display_transform = &display_transform.emplace(options.display);
@@ -354,7 +355,10 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
   if (target.reversed_depth) find_distances(clip_from_camera, frame);
   if (has_data && request.planes.any_point_plane()) {
     frame.instance = request.planes.object_id ? frame.object_id : std::move(frame.object_id);
-    add_surface_points({prepared.shared_scene(), camera}, request.planes, options, frame);
+    const Moment now{prepared.shared_scene(), camera};
+    add_surface_points(now, request.planes, options, frame);
+    if (request.planes.was_visible)
+      last_visibility_.find(options.last ? *options.last : now, prepared.textures(), options, frame);
   }
   for (std::uint32_t& id : frame.object_id.values())
     if (id != Frame::no_id) id = static_cast<std::uint32_t>(scene.instances[id].object);

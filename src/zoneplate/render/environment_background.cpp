@@ -22,7 +22,7 @@ Outlook outlook_of(const Camera& camera, const RenderOptions& options) {
   const float4x4& world = camera.world_from_camera;
   const float3 right = xyz(world.column[0]), up = xyz(world.column[1]), back = xyz(world.column[2]);
   if (camera.is_orthographic) return {-back, {0, 0, 0}, {0, 0, 0}};
-  const float4x4 clip = camera.clip_from_camera(width / height);
+  const float4x4 clip = camera.clip_from_camera(aspect_of(options));
   const float tan_x = 1 / clip.column[0].x, tan_y = 1 / clip.column[1].y;
   return {right * ((clip.column[2].x - 1) * tan_x) + up * ((clip.column[2].y + 1) * tan_y) - back,
           right * (2 * tan_x / width), up * (-2 * tan_y / height)};

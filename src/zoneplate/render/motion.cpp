@@ -5,10 +5,13 @@
 #include <array>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/raster/fragment/interpolate.h"
 #include "zoneplate/raster/geometry/triangle_facing.h"
+#include "zoneplate/ray/trace.h"
+#include "zoneplate/shade/cast/casters.h"
 
 namespace zoneplate {
 namespace {
@@ -35,6 +38,8 @@ struct Seen {
       : scene(moment.scene.get()),
         clip_from_world(moment.camera.clip_from_camera(aspect) * inverse(moment.camera.world_from_camera)) {}
 };
+
+float3 narrowed(Double3 p) { return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}; }
 
 Double3 transformed(const float4x4& m, Double3 p) {
   const auto& c = m.column;
@@ -173,13 +178,14 @@ float2 step_between(const Seen& from, const Seen& to, const Mixture& point, std:
 void add_surface_points(const Moment& now, const Planes& planes, const RenderOptions& options, Frame& frame) {
   const int width = frame.instance.width(), height = frame.instance.height();
   const Viewport viewport{options.width, options.height};
-  const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+  const float aspect = aspect_of(options);
   const Seen seen(now, aspect), last(options.last ? *options.last : now, aspect),
       next(options.next ? *options.next : now, aspect);
   const PointFinder finder(seen, viewport);
   if (planes.position) frame.position = {width, height, float3{}};
   if (planes.motion) frame.motion = {width, height, float2{}};
   if (planes.flow) frame.flow = {width, height, float2{}};
+  if (planes.last_position || planes.was_visible) frame.last_position = {width, height, float3{}};
 
   parallel_for(static_cast<std::size_t>(height), [&](std::size_t row) {
     const int y = static_cast<int>(row);
@@ -190,13 +196,53 @@ void add_surface_points(const Moment& now, const Planes& planes, const RenderOpt
       const Mixture point = finder.find(instance, frame.primitive_id(x, y),
                                         {frame.x + x + place.x / 256.0, frame.y + y + place.y / 256.0});
       const Mesh& mesh = now.scene->meshes[static_cast<std::size_t>(now.scene->instances[instance].mesh)];
-      if (planes.position) {
-        const Double3 p = *place_of(point, instance, *now.scene, mesh);
-        frame.position(x, y) = {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+      if (planes.position) frame.position(x, y) = narrowed(*place_of(point, instance, *now.scene, mesh));
+      if (!frame.last_position.empty()) {
+        const std::optional<Double3> before = place_of(point, instance, *last.scene, mesh);
+        frame.last_position(x, y) = narrowed(before ? *before : *place_of(point, instance, *now.scene, mesh));
       }
       if (planes.motion) frame.motion(x, y) = step_between(last, seen, point, instance, mesh, viewport);
       if (planes.flow) frame.flow(x, y) = step_between(seen, next, point, instance, mesh, viewport);
     }
+  });
+}
+
+// A ray from the eye ends before the surface point itself, by more than the rounding of the point.
+void LastVisibility::find(const Moment& last, const TextureSet& textures, const RenderOptions& options, Frame& frame) {
+  constexpr float end = 1 - 0x1p-12f;
+  if (scene_ != last.scene) {
+    scene_ = nullptr;
+    bvh_.emplace(make_casters(*last.scene));
+    scene_ = last.scene;
+  }
+  const CasterOpacity opacity(*scene_, textures);
+  const float4x4& world = last.camera.world_from_camera;
+  const float3 eye = xyz(world.column[3]), forward = -xyz(world.column[2]);
+  const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+  const Seen seen(last, aspect);
+  const Viewport viewport{options.width, options.height};
+  const auto is_in_image = [&](float3 p) {
+    const std::optional<Place> place = on_screen(seen.clip_from_world, {p.x, p.y, p.z}, viewport);
+    return place && (*place)[0] >= 0 && (*place)[1] >= 0 && (*place)[0] <= options.width &&
+           (*place)[1] <= options.height;
+  };
+  const int width = frame.last_position.width(), height = frame.last_position.height();
+  frame.was_visible = {width, height, std::uint8_t{0}};
+  parallel_for(static_cast<std::size_t>(height), [&](std::size_t row) {
+    const int y = static_cast<int>(row);
+    std::vector<Ray> rays;
+    std::vector<int> columns;
+    for (int x = 0; x < width; ++x) {
+      const float3 point = frame.last_position(x, y);
+      if (frame.instance(x, y) == Frame::no_id || !is_in_image(point)) continue;
+      const float3 from = last.camera.is_orthographic ? point - forward * dot(point - eye, forward) : eye;
+      const float3 along = point - from;
+      rays.push_back({{from.x, from.y, from.z}, {along.x, along.y, along.z}, end});
+      columns.push_back(x);
+    }
+    std::vector<float> visibility(rays.size());
+    RayKernels::of().visibility(view_of(*bvh_), rays.data(), rays.size(), opacity.of_hits(), visibility.data());
+    for (std::size_t i = 0; i < columns.size(); ++i) frame.was_visible(columns[i], y) = visibility[i] > 0.5f;
   });
 }
 

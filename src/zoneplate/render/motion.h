@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
+#include <optional>
+
+#include "zoneplate/ray/bvh.h"
 #include "zoneplate/render/frame.h"
 #include "zoneplate/render/render.h"
 
 namespace zoneplate {
+
+class TextureSet;
 
 /// Computes the planes of a frame that follow from its ids and the vertices: world positions, and the motion of the
 /// surface points on the screen since the last moment and to the next one.
@@ -20,5 +26,18 @@ namespace zoneplate {
 /// Requires  frame.instance, frame.primitive_id and frame.data_position; the frame was rendered from `now`.
 /// Exact     computed in double and rounded once; the same bits for any number of threads.
 void add_surface_points(const Moment& now, const Planes& planes, const RenderOptions& options, Frame& frame);
+
+/// The shadow casters of the last moment, which decide what its camera saw. Their tree lasts as long as the scene.
+class LastVisibility {
+ public:
+  /// Makes Frame::was_visible from Frame::last_position.
+  ///
+  /// Requires  `textures` are those of the scenes of both moments.
+  void find(const Moment& last, const TextureSet& textures, const RenderOptions& options, Frame& frame);
+
+ private:
+  std::shared_ptr<const Scene> scene_;
+  std::optional<Bvh> bvh_;
+};
 
 }  // namespace zoneplate

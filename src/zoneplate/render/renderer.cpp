@@ -75,25 +75,61 @@ void Renderer::set_scene(PreparedScene scene) { scene_ = std::move(scene); }
 
 void Renderer::recycle(Rgba8Image image) { backend_->recycle(std::move(image)); }
 
-void Renderer::begin_frame(const RenderSettings& settings) {
+void Renderer::begin_frame(const Camera& camera, const RenderSettings& settings) {
   const RenderOptions& o = settings.options;
   if (o.width != width_ || o.height != height_ || !is_same(o.crop, crop_)) index_ = 0;
   width_ = o.width, height_ = o.height, crop_ = o.crop;
   if (index_ == 0) moment_.reset(), previous_.reset();
-  context_ = {.index = index_,
+  context_ = {.image = {o.width, o.height, o.crop},
+              .index = index_,
               .is_first = index_ == 0,
               .jitter = jitter_[static_cast<std::size_t>(index_ % jitter_period)],
-              .previous = previous_ ? &*previous_ : nullptr};
+              .previous = previous_ ? &*previous_ : nullptr,
+              .camera = camera,
+              .last_camera = index_ == 0 ? camera : camera_};
 }
 
 Request Renderer::request_for(const RenderSettings& settings) {
   Request request = method_->request(context_);
-  request.planes = request.planes | settings.planes;
+  if (!request.frame) request.planes = request.planes | settings.planes;
   if (settings.planes.error && !request.estimates_error)
     throw Error(ErrorKind::Usage, "the method has no estimate of its error");
-  request.writes_display8 =
-      request.resolves_per_pixel && settings.form == ImageForm::Display8 && !settings.options.background;
+  if (request.frame && request.is_display_referred && settings.form == ImageForm::Linear)
+    throw Error(ErrorKind::Usage, "the upscaler works after tone mapping, and the image is scene-linear");
+  request.writes_display8 = request.resolves_per_pixel && settings.form == ImageForm::Display8 &&
+                            !settings.options.background && !request.frame;
   return request;
+}
+
+/// The options of the frame that the backend renders: its size, its part with the apron, and the last moment.
+RenderOptions Renderer::frame_options(const RenderSettings& settings, const Request& request) const {
+  RenderOptions options = settings.options;
+  if (request.frame) {
+    options.aspect = aspect_of(options);
+    const float scale = static_cast<float>(request.frame->height) / static_cast<float>(options.height);
+    options.point_size *= scale, options.line_width *= scale;
+    options.width = request.frame->width, options.height = request.frame->height, options.crop = request.frame->crop;
+  }
+  options.crop = padded_crop(options, request.halo);
+  if (!options.last) options.last = moment_;
+  return options;
+}
+
+void Renderer::draw_behind(const Camera& camera, const RenderOptions& options, LinearImage& color) const {
+  if (options.background && !color.empty())
+    draw_environment(scene_.lighting().environment, scene_.scene().up, camera, options, color);
+}
+
+/// The data planes of the settings at the image's size, for a method whose frame has another size.
+Frame Renderer::render_data(const Camera& camera, const Request& request, const RenderSettings& settings,
+                            RenderCounts& counts) {
+  RenderOptions options = settings.options;
+  if (!options.last) options.last = moment_;
+  RenderCounts own;
+  const Request data{.samples = request.samples, .content = Content::Data, .planes = settings.planes};
+  Frame frame = backend_->render(scene_, camera, data, options, &own);
+  add(counts, own);
+  return data_of(frame);
 }
 
 Frame Renderer::Rounds::take_data() { return data ? std::move(*data) : data_of(frame); }
@@ -106,12 +142,8 @@ Renderer::Rounds Renderer::render_rounds(const Camera& camera, const Request& re
     frame.display = options.display;
     add(counts, own);
     // Behind every colour that the method may read, so that it also filters the edges before the environment.
-    const auto draw_behind = [&](LinearImage& color) {
-      draw_environment(scene_.lighting().environment, scene_.scene().up, camera, options, color);
-    };
-    if (options.background && !frame.color.empty()) draw_behind(frame.color);
-    if (options.background)
-      for (LinearImage& color : frame.sample_color) draw_behind(color);
+    draw_behind(camera, options, frame.color);
+    for (LinearImage& color : frame.sample_color) draw_behind(camera, options, color);
     return frame;
   };
   Rounds rounds{round(request), std::nullopt};
@@ -141,9 +173,11 @@ void Renderer::finish(LinearImage picture, const Frame& frame, ImageForm form, R
 }
 
 /// Keeps the state of this frame that the next frame may use.
-void Renderer::end_frame(const Camera& camera, const Request& request, bool are_planes_requested, Frame& data) {
+void Renderer::end_frame(const Camera& camera, bool keeps_moment, const Request& request, bool are_planes_requested,
+                         Frame& data) {
   moment_.reset();
-  if (request.planes.motion) moment_ = {scene_.shared_scene(), camera};
+  if (keeps_moment) moment_ = {scene_.shared_scene(), camera};
+  camera_ = camera, settling_frames_ = request.settling_frames;
   previous_.reset();
   if (request.keeps_planes && are_planes_requested)
     previous_ = data;
@@ -153,11 +187,9 @@ void Renderer::end_frame(const Camera& camera, const Request& request, bool are_
 }
 
 RenderedImage Renderer::render(const Camera& camera, const RenderSettings& settings) {
-  begin_frame(settings);
+  begin_frame(camera, settings);
   const Request request = request_for(settings);
-  RenderOptions options = settings.options;
-  options.crop = padded_crop(settings.options, request.halo);
-  if (!options.last) options.last = moment_;
+  const RenderOptions options = frame_options(settings, request);
 
   RenderedImage out;
   Rounds rounds = render_rounds(camera, request, options, out.counts);
@@ -167,33 +199,53 @@ RenderedImage Renderer::render(const Camera& camera, const RenderSettings& setti
   } else {
     const Stopwatch watch;
     LinearImage linear = method_->resolve(frame);
-    if (options.background) draw_environment(scene_.lighting().environment, scene_.scene().up, camera, options, linear);
+    // An upscaler in scene-linear light resolves to the image's size, with the environment already behind the frame.
+    if (!request.frame || request.is_display_referred) draw_behind(camera, options, linear);
     out.counts.resolve_ms = watch.ms();
     finish(std::move(linear), frame, settings.form, out);
   }
-  out.data = rounds.take_data();
   const bool are_planes_requested = settings.planes.any();
-  end_frame(camera, request, are_planes_requested, out.data);
-  if (!are_planes_requested) out.data = {};
-  if (request.halo > 0 && options.crop) cut_out(out, *options.crop, *settings.options.crop);
+  Frame data = rounds.take_data();
+  if (request.frame && are_planes_requested) out.data = render_data(camera, request, settings, out.counts);
+  end_frame(camera, request.planes.motion || settings.planes.motion, request, are_planes_requested && !request.frame,
+            data);
+  if (are_planes_requested && !request.frame) out.data = std::move(data);
+  if (request.halo > 0 && options.crop && !request.frame) cut_out(out, *options.crop, *settings.options.crop);
   return out;
+}
+
+RenderedImage Renderer::render_still(const Camera& camera, const RenderSettings& settings) {
+  begin_sequence();
+  RenderedImage image = render(camera, settings);
+  RenderCounts counts = image.counts;
+  for (int i = 1; i < settling_frames_; ++i) {
+    recycle(std::move(image.display));
+    image = render(camera, settings);
+    add(counts, image.counts);
+    counts.resolve_ms += image.counts.resolve_ms, counts.display_ms += image.counts.display_ms;
+    counts.filter_ms += image.counts.filter_ms;
+  }
+  image.counts = counts;
+  return image;
 }
 
 RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int)>& moment,
                                     const RenderSettings& settings) {
-  begin_frame(settings);
+  SceneView view = moment(0);
+  begin_frame(view.camera, settings);
   Request request = request_for(settings);
+  if (request.has_history())
+    throw Error(ErrorKind::Usage,
+                "motion blur is the mean of several moments, and the method keeps one history for all");
   request.writes_display8 = false;
-  RenderOptions options = settings.options;
-  options.crop = padded_crop(settings.options, request.halo);
-  if (!options.last) options.last = moment_;
+  const RenderOptions options = frame_options(settings, request);
 
   RenderedImage out;
   LinearImage sum;
   Rounds rounds;
   Camera camera;
   for (int i = 0; i < count; ++i) {
-    SceneView view = moment(i);
+    if (i > 0) view = moment(i);
     scene_ = std::move(view.scene), camera = std::move(view.camera);
     rounds = render_rounds(camera, request, options, out.counts);
     const Stopwatch watch;
@@ -211,8 +263,8 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
   for (Linear& c : sum.values()) c = c * weight;
   finish(std::move(sum), rounds.frame, settings.form, out);
   Frame data = rounds.take_data();
-  end_frame(camera, request, false, data);
-  if (request.halo > 0 && options.crop) cut_out(out, *options.crop, *settings.options.crop);
+  end_frame(camera, request.planes.motion, request, false, data);
+  if (request.halo > 0 && options.crop && !request.frame) cut_out(out, *options.crop, *settings.options.crop);
   return out;
 }
 

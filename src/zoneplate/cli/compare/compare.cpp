@@ -23,6 +23,7 @@
 #include "zoneplate/metrics/metrics.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/scene/builtin/builtin.h"
+#include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -83,8 +84,9 @@ Syntax compare_syntax(CompareArgs& args) {
        [&](auto& text) { args.metrics = text; }},
       {"--turns", "N", "Frames rendered by each method, of which the fastest counts; default 3", group, false,
        [&](auto& text) { args.turns = parse_whole(text, 1, 1000); }}};
-  constexpr std::string_view left_out[] = {"--output", "--anti-aliasing", "--no-background", "--crop",
-                                           "--aov",    "--dither",        "--bit-depth",     "--output-format"};
+  constexpr std::string_view left_out[] = {"--output",  "--anti-aliasing", "--no-background", "--crop",
+                                           "--aov",     "--dither",        "--bit-depth",     "--output-format",
+                                           "--upscale", "--render-scale"};
   for (Option& option : render_syntax(args.render).options) {
     const std::string first = option.names.substr(0, option.names.find(','));
     if (option.group == "Sequences" || option.group == "Batches") continue;
@@ -117,7 +119,7 @@ std::vector<std::string> methods_of(const std::string& text) {
   for (const std::string& item : split_specs(text)) {
     const std::vector<std::string> own = item == "all" ? all_methods() : std::vector{item};
     for (const std::string& m : own) {
-      make_resolver(antialias::methods(), m);  // throws if it is invalid
+      upscale::make_method(m);  // throws if it is invalid
       if (std::ranges::find(out, m) == out.end()) out.push_back(m);
     }
   }
@@ -147,13 +149,13 @@ TrialOptions trial_options(const CompareArgs& args) {
   out.reference = args.reference.empty() ? best_reference : args.reference;
   std::error_code ignored;
   if (is_method(out.reference))
-    make_resolver(antialias::methods(), out.reference);
+    upscale::make_method(out.reference);
   else if (std::filesystem::exists(out.reference, ignored))
     out.is_reference_file = true;
   else if (out.reference.find_first_of("./") != std::string::npos)
     throw Error(ErrorKind::Input, out.reference + ": no such file");
   else
-    make_resolver(antialias::methods(), out.reference);  // throws with the list of methods
+    upscale::make_method(out.reference);  // throws with the list of methods
   if (out.is_reference_file && args.scenes.size() > 1)
     throw Error(ErrorKind::Usage, fmt::format("--reference {}: one image is a reference for one scene, not for {}",
                                               out.reference, args.scenes.size()));

@@ -5,12 +5,12 @@
 
 #include <algorithm>
 
-#include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/usage.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/metrics/picture_file.h"
+#include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -41,9 +41,8 @@ Trial rendered(const TrialSetup& stage, const std::string& method, int turns) {
     const MemoryWatch memory_watch;
     const double used_before = processor_ms();
     const Stopwatch watch;
-    if (!renderer) renderer.emplace(stage.scene, make_resolver(antialias::methods(), method));
-    renderer->begin_sequence();
-    RenderedImage image = renderer->render(stage.camera, stage.settings);
+    if (!renderer) renderer.emplace(stage.scene, upscale::make_method(method));
+    RenderedImage image = renderer->render_still(stage.camera, stage.settings);
     const double ms = watch.ms();
     if (turn == 0 || ms < trial.least_ms()) trial.counts = image.counts;
     trial.frame_ms.push_back(ms);

@@ -36,7 +36,7 @@ struct Taken {
 
 Taken taken(const PreparedScene& scene, const Camera& camera, const RenderSettings& settings, const char* method) {
   Renderer renderer(scene, make_resolver(antialias::methods(), method));
-  RenderedImage image = renderer.render(camera, settings);
+  RenderedImage image = renderer.render_still(camera, settings);
   return {std::move(image.display), image.counts};
 }
 

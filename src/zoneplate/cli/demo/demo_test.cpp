@@ -51,6 +51,7 @@ TEST_F(DemoFolder, AllLessonsAreWrittenAndSaid) {
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename());
   EXPECT_EQ(names, (std::set<std::string>{"antialiasing.png",
+                                          "upscaling.png",
                                           "black-edge.png",
                                           "jaggies.png",
                                           "moire.png",

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/image/transfer.h"
@@ -18,6 +17,7 @@
 #include "zoneplate/signal/border.h"
 #include "zoneplate/signal/filter/resample.h"
 #include "zoneplate/signal/fourier/spectrum.h"
+#include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -48,9 +48,9 @@ LinearImage shoot(const Scene& scene, const std::string& method, const RenderOpt
                   RenderCounts* counts) {
   Scene lit = scene;
   light_unlit(lit);
-  Renderer renderer(PreparedScene(std::move(lit), mips), make_resolver(antialias::methods(), method));
+  Renderer renderer(PreparedScene(std::move(lit), mips), upscale::make_method(method));
   RenderedImage image =
-      renderer.render(camera_of(scene, options.width, options.height), {.options = options, .form = ImageForm::Linear});
+      renderer.render_still(camera_of(scene, options.width, options.height), {.options = options, .form = ImageForm::Linear});
   if (counts) *counts = image.counts;
   LinearImage light = std::move(image.linear);
   const float background = decode_srgb(background_code);

@@ -19,6 +19,7 @@
 #include "zoneplate/cli/values.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/elementary.h"
+#include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -107,6 +108,29 @@ std::vector<const Aov*> parse_aovs(const std::string& text) {
     at = comma + 1;
   }
   return found;
+}
+
+double parse_render_scale(const std::string& text) {
+  constexpr std::pair<std::string_view, double> presets[] = {
+      {"ultra-quality", 1.3}, {"quality", 1.5}, {"balanced", 1.7}, {"performance", 2}, {"ultra-performance", 3}};
+  for (const auto& [name, scale] : presets)
+    if (text == name) return scale;
+  return parse_number(text, scale_param.low, scale_param.high);
+}
+
+/// Appends the upscaler to the method. A temporal one jitters its own samples: it follows `none`.
+void append_upscaler(RenderArgs& args) {
+  if (args.upscaler.empty()) {
+    if (args.render_scale) throw Error(ErrorKind::Usage, "--render-scale requires --upscale, for example fsr1");
+    return;
+  }
+  const Upscaler* const row = find_row(upscale::upscalers(), args.upscaler);
+  if (row != nullptr && row->make_temporal && !args.has_method) args.method = "none";
+  args.method += '+' + args.upscaler;
+  if (args.render_scale)
+    args.method +=
+        fmt::format("{}scale={}", args.upscaler.find(':') == std::string::npos ? ':' : ',', *args.render_scale);
+  args.upscaler.clear(), args.render_scale.reset();
 }
 
 std::string texture_filter_names() {
@@ -222,7 +246,16 @@ std::vector<Option> picture_options(RenderArgs& a) {
        }},
       {"--anti-aliasing,--aa", "METHOD",
        "Method with its parameters, for example ssaa:n=4 (zoneplate list methods); default msaa:n=8", group, true,
-       [&](auto& text) { a.method = text; }},
+       [&](auto& text) { a.method = text, a.has_method = true; }},
+      {"--upscale", "METHOD",
+       "Render a smaller frame and upscale it, for example fsr1 or lanczos:lobes=2 (zoneplate list upscalers); "
+       "textures "
+       "are filtered for the pixels of the image",
+       group, true, [&](auto& text) { a.upscaler = text; }},
+      {"--render-scale", "RATIO",
+       "Image size over frame size per axis, from 1 to 4, or ultra-quality (1.3), quality (1.5), balanced (1.7), "
+       "performance (2), ultra-performance (3); default 1.5",
+       group, true, [&](auto& text) { a.render_scale = parse_render_scale(text); }},
       {"--background-color,--background", "COLOR",
        "Background colour, or environment: the light's image; default #333333", group, true,
        [&](auto& text) {
@@ -521,6 +554,7 @@ bool exists(const std::string& path) {
 }
 
 void check_args(RenderArgs& args) {
+  append_upscaler(args);
   check_output(args);
   check_environment(args);
   const std::string ending = extension_of(args.named_output());

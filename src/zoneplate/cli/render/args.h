@@ -48,6 +48,9 @@ struct RenderArgs {
   bool dithers = false;
   std::string stdout_format = "png";
   std::string method = "msaa:n=8";
+  bool has_method = false;             ///< --anti-aliasing is given
+  std::string upscaler;                ///< follows the method; check_args appends it to `method`
+  std::optional<double> render_scale;  ///< of `upscaler`
   RenderOptions options;
   DisplayOptions display;
   std::optional<float4> background;  ///< sRGB code; none: the scene's own or the usual one

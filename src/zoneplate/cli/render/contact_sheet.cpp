@@ -7,7 +7,6 @@
 #include <map>
 #include <new>
 
-#include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
@@ -19,6 +18,7 @@
 #include "zoneplate/formats/load.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/report/figure.h"
+#include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -69,8 +69,8 @@ std::vector<std::uint8_t> render_cell(RenderArgs render, ItemSender& sender) {
   const float aspect = static_cast<float>(render.options.width) / static_cast<float>(render.options.height);
   const Camera camera = choose_camera(scene, render.view, aspect);
   set_look(render, scene);
-  Renderer renderer(PreparedScene(std::move(scene)), make_resolver(antialias::methods(), render.method));
-  const Rgba8Image picture = renderer.render(camera, settings_of(render, "")).display;
+  Renderer renderer(PreparedScene(std::move(scene)), upscale::make_method(render.method));
+  const Rgba8Image picture = renderer.render_still(camera, settings_of(render, "")).display;
   const auto* first = reinterpret_cast<const std::uint8_t*>(picture.values().data());
   return {first, first + picture.values().size_bytes()};
 }
@@ -176,9 +176,9 @@ void run_contact_sheet(std::span<const std::string> arguments) {
   if (!parse(syntax, arguments)) return;
   if (syntax.found_operands.empty()) throw Error(ErrorKind::Usage, "no input: give models or built-in scenes");
   if (args.output.empty()) throw Error(ErrorKind::Usage, "no output: give -o OUT.png");
-  static_cast<void>(make_resolver(antialias::methods(), args.render.method));
   args.render.output = args.output;
   check_args(args.render);
+  static_cast<void>(upscale::make_method(args.render.method));
   if (const std::string ending = extension_of(args.output); ending == ".pfm" || ending == ".exr")
     throw Error(ErrorKind::Usage, "--output: a contact sheet is display-referred: .png, .jpg, .webp or .rgba");
   check_outputs(args.render);

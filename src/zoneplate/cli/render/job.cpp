@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
@@ -12,6 +11,7 @@
 #include "zoneplate/cli/usage.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {
 
@@ -38,7 +38,7 @@ std::optional<Scene> RenderJobs::read(const RenderArgs& args) {
 
 Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   const Stopwatch total_watch;
-  std::unique_ptr<Resolver> method = make_resolver(antialias::methods(), args.method);
+  std::unique_ptr<Resolver> method = upscale::make_method(args.method);
   check_request(args, method->request({}));
   Summary summary;
   summary.threads = thread_limit();
@@ -74,7 +74,7 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   RenderedImage image;
   {
     Renderer renderer(scene_->lit(make_lighting(scene, args.lighting)), std::move(method));
-    image = renderer.render(camera, settings_of(args, args.named_output()));
+    image = renderer.render_still(camera, settings_of(args, args.named_output()));
   }
   const Rendered picture = finish_picture(args, std::move(image), scene, args.named_output(), summary);
   if (summary.counts.triangles_set_up == 0) summary.warnings.push_back(emptiness(args, summary.counts));

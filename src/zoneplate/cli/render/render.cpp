@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/render/batch.h"
 #include "zoneplate/cli/render/items.h"
 #include "zoneplate/cli/usage.h"
 #include "zoneplate/cli/verbs.h"
+#include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -48,7 +48,7 @@ void run_render(std::span<const std::string> arguments) {
     with_isa(args.isa, [&] { with_threads(args.threads, [&] { render_batch(args); }); });
     return;
   }
-  static_cast<void>(make_resolver(antialias::methods(), args.method));
+  static_cast<void>(upscale::make_method(args.method));
   check_outputs(args);
   if (args.skip_existing && exists(args.output)) return;
   Summary summary;

@@ -18,9 +18,10 @@ namespace {
 struct Axis {
   int size = 0;  // pixels of the output
   double step = 1, shift = 0;
+  int first = 0;  // index of the first pixel in the whole output
 };
 
-double centre_of(int i, const Axis& axis) { return axis.shift + (i + 0.5) * axis.step - 0.5; }
+double centre_of(int i, const Axis& axis) { return axis.shift + (axis.first + i + 0.5) * axis.step - 0.5; }
 
 template <class T>
 Plane<T> transposed(const Plane<T>& plane) {
@@ -82,8 +83,8 @@ Plane<T> resample_any(const Plane<T>& plane, int width, int height, const Kernel
                       const ResampleOptions& options) {
   if (plane.empty() || width == 0 || height == 0) return Plane<T>(width, height, T{});
   const auto step = [](double given, int in, int out) { return given > 0 ? given : double{1} * in / out; };
-  const Axis x = {width, step(options.step_x, plane.width(), width), options.shift_x};
-  const Axis y = {height, step(options.step_y, plane.height(), height), options.shift_y};
+  const Axis x = {width, step(options.step_x, plane.width(), width), options.shift_x, options.first_x};
+  const Axis y = {height, step(options.step_y, plane.height(), height), options.shift_y, options.first_y};
   return transposed(along_columns(transposed(along_columns(plane, y, kernel, options)), x, kernel, options));
 }
 

@@ -16,16 +16,18 @@ struct ResampleOptions {
   double step_x = 0, step_y = 0;
   /// Offset of the output grid to the right and downwards, in input pixels.
   double shift_x = 0, shift_y = 0;
+  /// Index of the first output pixel in the grid of the whole output, so that an image can be made in parts.
+  int first_x = 0, first_y = 0;
 };
 
 /// Resamples an image on another grid, by any factor: the kernel interpolates. In minification it is stretched by the
 /// factor, so that it also removes frequencies above the new Nyquist limit.
 ///
-/// The centre of output pixel i is at (i + ½) step - ½ among the centres of the input's pixels, so that there is no
-/// shift by half a pixel. The weights of each output pixel are divided by their sum; with Border::Cut, by the sum of
-/// those at pixels, as in Pillow. At a discontinuity of the kernel, a pixel gets the mean of both sides (Pillow: the
-/// value of one side). Colours are linear and premultiplied. Nothing is clamped, so that with negative lobes values
-/// near edges may be below 0 and above 1.
+/// The centre of output pixel i is at shift + (first + i + ½) step - ½ among the centres of the input's pixels, so that
+/// there is no shift by half a pixel. The weights of each output pixel are divided by their sum; with Border::Cut, by
+/// the sum of those at pixels, as in Pillow. At a discontinuity of the kernel, a pixel gets the mean of both sides
+/// (Pillow: the value of one side). Colours are linear and premultiplied. Nothing is clamped, so that with negative
+/// lobes values near edges may be below 0 and above 1.
 /// Requires  width, height >= 0; a plane without pixels gives zeros.
 /// Exact     sums in double, rounded to float after each direction: a constant image is preserved to the bit. A ramp is
 ///           preserved, away from the border, by kernels with linear precision (tent, b-spline, catmull-rom, mitchell)

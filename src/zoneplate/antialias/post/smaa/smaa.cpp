@@ -8,7 +8,8 @@
 // samples are the mean of each step's line and of two halves.
 //
 // Source: Jimenez, Echevarria, Sousa, Gutierrez, SMAA: Enhanced Subpixel Morphological Antialiasing, Eurographics 2012;
-// code v2.8: 1x, S2x and predicated thresholds. Edges are detected on encoded values, colours blended in linear light.
+// code v2.8: 1x, S2x, T2x, 4x and predicated thresholds. Edges are detected on encoded values, colours blended in
+// linear light.
 //
 // Predication doubles the thresholds except where a second buffer changes, so that textures are unchanged and faint
 // outlines are still detected. The original accepts any buffer, and notes that the depth buffer itself is suitable for
@@ -17,7 +18,9 @@
 #include "zoneplate/antialias/post/smaa/smaa.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <span>
 
 #include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/antialias/post/post_process.h"
@@ -46,7 +49,7 @@ constexpr Preset presets[] = {
     {"low", 0.15, 4, 0, 100}, {"medium", 0.1, 8, 0, 100}, {"high", 0.1, 16, 8, 25}, {"ultra", 0.05, 32, 16, 25}};
 constexpr std::string_view preset_names[] = {"low", "medium", "high", "ultra"};
 constexpr std::string_view edges_names[] = {"luma", "color", "depth"};
-constexpr std::string_view modes[] = {"1x", "s2x"};
+constexpr std::string_view modes[] = {"1x", "s2x", "t2x", "4x"};
 constexpr std::string_view mixings[] = {"light", "codes"};
 constexpr std::string_view predications[] = {"none", "depth", "objects"};
 constexpr Param params[] = {
@@ -56,7 +59,7 @@ constexpr Param params[] = {
      .names = preset_names},
     {.name = "edges", .meaning = "values in which edges are detected", .value = 0, .names = edges_names},
     {.name = "mode",
-     .meaning = "s2x: two samples per pixel, each filtered as an image of its own",
+     .meaning = "s2x: two samples per pixel, each filtered as an image of its own; t2x: two frames; 4x: both",
      .value = 0,
      .names = modes},
     {.name = "predication", .meaning = "buffer whose changes lower the threshold", .value = 0, .names = predications},
@@ -142,61 +145,135 @@ class Smaa : public Resolver {
   Predication predication_;
 };
 
-/// The mean of two display-referred pixels, premultiplied.
-Display mean_of(const Display& a, const Display& b, Mixing mixing) {
+/// The display-referred pixels a and b, premultiplied and weighted by 1 - weight and weight.
+Display mixed(const Display& a, const Display& b, float weight, Mixing mixing) {
   if (a == b) return a;
-  const float alpha = (a.a + b.a) / 2;
+  const float of_a = a.a * (1 - weight), of_b = b.a * weight, alpha = of_a + of_b;
   if (!(alpha > 0)) return {0, 0, 0, 0};
-  const auto mean = [&](float p, float q) {
-    if (mixing == Mixing::Encoded) return (p * a.a + q * b.a) / (2 * alpha);
-    return encode_srgb((decode_srgb(p) * a.a + decode_srgb(q) * b.a) / (2 * alpha));
+  const auto channel = [&](float p, float q) {
+    if (mixing == Mixing::Encoded) return (p * of_a + q * of_b) / alpha;
+    return encode_srgb((decode_srgb(p) * of_a + decode_srgb(q) * of_b) / alpha);
   };
-  return {mean(a.r, b.r), mean(a.g, b.g), mean(a.b, b.b), alpha};
+  return {channel(a.r, b.r), channel(a.g, b.g), channel(a.b, b.b), alpha};
 }
 
-/// S2x: each sample of the standard pattern of two gives a display-referred image, which is filtered separately, with
-/// the areas for the sample's position.
-class SmaaS2x : public Resolver {
+/// A sample of a frame, and the areas under lines for its position (SmaaOptions::slots).
+struct Subsample {
+  SamplePosition position;
+  std::array<int, 4> slots;
+};
+
+/// The samples of the frames of a mode, which repeat: by frame, then by sample; `samples` of them in each frame.
+///
+/// Source    SMAA.hlsl, table of @SUBSAMPLE_INDICES, whose y axis points upwards. The demo moves the geometry by its
+///           jitter: its samples are at the opposite offset.
+struct Subsamples {
+  std::span<const Subsample> all;
+  int samples;
+
+  int frames() const { return static_cast<int>(all.size()) / samples; }
+  std::span<const Subsample> of_frame(int index) const {
+    return all.subspan(static_cast<std::size_t>(index % frames() * samples), static_cast<std::size_t>(samples));
+  }
+};
+constexpr Subsample two[] = {{{192, 192}, {1, 1, 1, 0}}, {{64, 64}, {2, 2, 2, 0}}};
+constexpr Subsample four[] = {
+    {{224, 160}, {5, 3, 1, 3}}, {{96, 32}, {4, 6, 2, 3}}, {{160, 224}, {3, 5, 1, 4}}, {{32, 96}, {6, 4, 2, 4}}};
+
+/// S2x, T2x and 4x: each sample gives a display-referred image, which is filtered separately, with the areas for the
+/// sample's position. The images of a frame are averaged; where there are two frames, also with the last one.
+///
+/// The last frame enters as it was filtered, before it was itself averaged: a ghost lasts for one frame. Its weight
+/// decreases with the difference of both frames' speeds at the pixel. Unlike in the original, the speed is that of the
+/// pixel's own sample and is not blended along edges.
+class SmaaSubsamples : public Resolver {
  public:
-  explicit SmaaS2x(const SmaaOptions& options) : options_(options) {}
-  Request request(const FrameContext&) override {
+  SmaaSubsamples(const SmaaOptions& options, Subsamples subsamples) : options_(options), subsamples_(subsamples) {}
+  Request request(const FrameContext& context) override {
+    context_ = context;
     Request request = display_referred_request(smaa_reach(options_));
-    request.samples = standard_pattern(2);
+    request.samples.clear();
+    for (const Subsample& s : subsamples_.of_frame(context.index)) request.samples.push_back(s.position);
     request.planes.samples = true;
+    request.settling_frames = subsamples_.frames();
+    if (!request.has_history()) return request;
+    request.halo = Request::whole_image;
+    request.planes.motion = true;
     return request;
   }
-  DisplayImage post_process(DisplayImage image, const Frame& frame) override {
-    constexpr std::array<int, 4> slots[2] = {{1, 1, 1, 0}, {2, 2, 2, 0}};
-    DisplayImage treated[2];
-    for (std::size_t s = 0; s < 2; ++s) {
-      SmaaOptions options = options_;
-      options.slots = slots[s];
-      treated[s] = filter_encoded(make_display(frame.sample_color[s], frame.display), mixing_of(options),
-                                  [&](const Rgba8Image& i) { return apply_smaa(i, &frame.sample_depth[s], options); });
+  DisplayImage post_process(DisplayImage, const Frame& frame) override {
+    DisplayImage current = filtered(frame, 0);
+    for (int s = 1; s < subsamples_.samples; ++s) {
+      const DisplayImage other = filtered(frame, static_cast<std::size_t>(s));
+      for_rows(current.height(), [&](int y) {
+        for (int x = 0; x < current.width(); ++x)
+          current(x, y) = mixed(current(x, y), other(x, y), 0.5f, mixing_of(options_));
+      });
     }
-    for_rows(image.height(), [&](int y) {
-      for (int x = 0; x < image.width(); ++x)
-        image(x, y) = mean_of(treated[0](x, y), treated[1](x, y), mixing_of(options_));
-    });
-    return image;
+    if (subsamples_.frames() == 1) return current;
+    Plane<float> speed = packed_speed(frame.motion);
+    DisplayImage out = context_.is_first ? current : with_last(current, frame.motion, speed);
+    last_ = std::move(current), last_speed_ = std::move(speed);
+    return out;
   }
 
  private:
+  DisplayImage filtered(const Frame& frame, std::size_t s) const {
+    SmaaOptions options = options_;
+    options.slots = subsamples_.of_frame(context_.index)[s].slots;
+    return filter_encoded(make_display(frame.sample_color[s], frame.display), mixing_of(options),
+                          [&](const Rgba8Image& i) { return apply_smaa(i, &frame.sample_depth[s], options); });
+  }
+
+  /// The square root of five times the speed in image sizes per frame, in 8 bits, as the original packs it.
+  static Plane<float> packed_speed(const Plane<float2>& motion) {
+    const auto width = static_cast<float>(motion.width()), height = static_cast<float>(motion.height());
+    return changed(motion, [=](float2 m) {
+      const float x = m.x / width, y = m.y / height;
+      return std::floor(std::min(std::sqrt(5 * std::sqrt(x * x + y * y)), 1.0f) * 255 + 0.5f) / 255;
+    });
+  }
+
+  DisplayImage with_last(const DisplayImage& current, const Plane<float2>& motion, const Plane<float>& speed) const {
+    constexpr float scale = 30;  // SMAA_REPROJECTION_WEIGHT_SCALE
+    DisplayImage out(current.width(), current.height());
+    for_rows(out.height(), [&](int y) {
+      for (int x = 0; x < out.width(); ++x) {
+        const auto source = [](int at, float moved, int size) {
+          const float place = std::floor(static_cast<float>(at) - moved + 0.5f);
+          return static_cast<int>(std::clamp(place, 0.0f, static_cast<float>(size - 1)));
+        };
+        const int from_x = source(x, motion(x, y).x, out.width()), from_y = source(y, motion(x, y).y, out.height());
+        const float now = speed(x, y), before = last_speed_(from_x, from_y);
+        const float delta = std::abs(now * now - before * before) / 5;
+        const float weight = 0.5f * std::clamp(1 - std::sqrt(delta) * scale, 0.0f, 1.0f);
+        out(x, y) = mixed(current(x, y), last_(from_x, from_y), weight, mixing_of(options_));
+      }
+    });
+    return out;
+  }
+
   SmaaOptions options_;
+  Subsamples subsamples_;
+  FrameContext context_;
+  DisplayImage last_;  ///< filtered, not averaged with the frame before it
+  Plane<float> last_speed_;
 };
 
 std::unique_ptr<Resolver> make(const Settings& s) {
   const SmaaOptions options = options_of(s);
   const auto predication = static_cast<Predication>(s.integer("predication"));
-  if (options.is_predicated && (options.edges == SmaaOptions::Edges::Depth || s.chosen("mode") == "s2x"))
+  if (options.is_predicated && (options.edges == SmaaOptions::Edges::Depth || s.chosen("mode") != "1x"))
     throw Error(ErrorKind::Usage, "smaa: predication is for luma and color edges of mode=1x");
   if (!options.is_predicated && (s.is_given("pthreshold") || s.is_given("pscale") || s.is_given("pstrength")))
     throw Error(ErrorKind::Usage, "smaa: pthreshold, pscale and pstrength are predication's: give predication=depth");
-  if (s.chosen("mode") == "s2x") return std::make_unique<SmaaS2x>(options);
+  if (s.chosen("mode") == "s2x") return std::make_unique<SmaaSubsamples>(options, Subsamples{two, 2});
+  if (s.chosen("mode") == "t2x") return std::make_unique<SmaaSubsamples>(options, Subsamples{two, 1});
+  if (s.chosen("mode") == "4x") return std::make_unique<SmaaSubsamples>(options, Subsamples{four, 2});
   return std::make_unique<Smaa>(options, predication);
 }
 
-constexpr std::string_view variants[] = {"edges=color", "mode=s2x", "predication=depth"};
+constexpr std::string_view variants[] = {"edges=color", "mode=s2x", "mode=t2x", "mode=4x", "predication=depth"};
 
 }  // namespace
 

@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/antialias/temporal/accumulation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "zoneplate/antialias/temporal/camera_motion.h"
+#include "zoneplate/antialias/temporal/resolve.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/math/elementary.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+constexpr int border = TemporalRow::border;
+
+void for_each_row(int height, const std::function<void(int)>& body) {
+  parallel_for(static_cast<std::size_t>(height), [&](std::size_t row) { body(static_cast<int>(row)); });
+}
+
+/// A plane of value(x, y), which continues beyond its sides.
+template <class T, class Value>
+Plane<T> bordered(int width, int height, const Value& value) {
+  Plane<T> out(width + 2 * border, height + 2 * border);
+  for_each_row(height, [&](int y) {
+    const std::span<T> row = out.row(y + border);
+    for (int x = 0; x < width; ++x) row[static_cast<std::size_t>(x + border)] = value(x, y);
+    std::fill_n(row.begin(), border, row[border]);
+    std::fill_n(row.end() - border, border, row[row.size() - border - 1]);
+  });
+  for (int k = 0; k < border; ++k) {
+    std::ranges::copy(out.row(border), out.row(k).begin());
+    std::ranges::copy(out.row(height + border - 1), out.row(height + border + k).begin());
+  }
+  return out;
+}
+
+/// Pixel 0 of a row of a bordered plane.
+const float* begin_of(const Plane<float>& plane, int y) {
+  return plane.empty() ? nullptr : plane.row(y + border).data() + border;
+}
+
+/// The number of a pixel's object; -1 without a surface.
+float number_of(std::uint32_t id) { return id == Frame::no_id ? -1.0f : static_cast<float>(id); }
+
+/// Depths that surface points had in the last frame.
+struct LastDepths {
+  float3 eye, forward;
+  double zz, zw, wz, ww;
+
+  LastDepths(const Camera& camera, float aspect)
+      : eye(xyz(camera.world_from_camera.column[3])), forward(-xyz(camera.world_from_camera.column[2])) {
+    const float4x4 clip = camera.clip_from_camera(aspect);
+    zz = clip.column[2].z, zw = clip.column[3].z, wz = clip.column[2].w, ww = clip.column[3].w;
+  }
+  float distance(float3 point) const { return dot(point - eye, forward); }
+  /// Reversed depth; far away for a point behind the camera.
+  float nearness(float distance) const {
+    if (!(distance > 0)) return 0;
+    const double z = -static_cast<double>(distance);
+    return static_cast<float>((zz * z + zw) / (wz * z + ww));
+  }
+};
+
+}  // namespace
+
+TemporalAccumulation::TemporalAccumulation(const TemporalOptions& options)
+    : options_(options), jitter_(jitter_pattern(options.sequence, options.length)) {}
+
+bool TemporalAccumulation::tests_surfaces() const { return options_.parts.rejection != TemporalParts::Rejection::None; }
+
+bool TemporalAccumulation::tests_visibility() const {
+  return options_.parts.rejection == TemporalParts::Rejection::Unseen;
+}
+
+Request TemporalAccumulation::request(const FrameContext& context) {
+  context_ = context;
+  Request request;
+  request.samples = {jitter_[static_cast<std::size_t>(context.index) % jitter_.size()]};
+  set_kernel(options_.current, request.samples[0], options_.parts);
+  if (options_.bias < 0) request.rate = Rate::Sample, request.footprint = exp2(options_.bias);
+  request.halo = Request::whole_image;
+  request.settling_frames = options_.settling_frames;
+  request.planes.depth = true;
+  request.planes.object_id = true;
+  request.planes.motion = !options_.follows_camera;
+  request.planes.last_position = tests_surfaces() && !tests_visibility();
+  request.planes.was_visible = tests_visibility();
+  return request;
+}
+
+TemporalAccumulation::Current TemporalAccumulation::current_of(const Frame& frame) const {
+  const int width = frame.color.width(), height = frame.color.height();
+  Current out;
+  out.color = {width + 2 * border, height + 2 * border, Linear{0, 0, 0, 0}};
+  for_each_row(height, [&](int y) {
+    const std::span<Linear> row = out.color.row(y + border);
+    TemporalKernels::of().encode(&frame.color(0, y).r, options_.parts.is_compressed, &row[border].r,
+                                 static_cast<std::size_t>(width));
+    std::fill_n(row.begin(), border, row[border]);
+    std::fill_n(row.end() - border, border, row[row.size() - border - 1]);
+  });
+  for (int k = 0; k < border; ++k) {
+    std::ranges::copy(out.color.row(border), out.color.row(k).begin());
+    std::ranges::copy(out.color.row(height + border - 1), out.color.row(height + border + k).begin());
+  }
+
+  const auto plane = [&](const auto& value) { return bordered<float>(width, height, value); };
+  out.nearness = plane([&](int x, int y) { return frame.reversed_depth(x, y); });
+  out.surface = plane([&](int x, int y) { return number_of(frame.object_id(x, y)); });
+  const CameraMotion camera(context_.camera, context_.last_camera, width, height);
+  const SamplePosition jitter = jitter_[static_cast<std::size_t>(context_.index) % jitter_.size()];
+  Plane<float2> motion(width, height);
+  for_each_row(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      const bool is_surface = frame.object_id(x, y) != Frame::no_id;
+      motion(x, y) = is_surface && !options_.follows_camera
+                         ? frame.motion(x, y)
+                         : camera.at(x + jitter.x / 256.0, y + jitter.y / 256.0, frame.depth(x, y));
+    }
+  });
+  out.motion[0] = plane([&](int x, int y) { return motion(x, y).x; });
+  out.motion[1] = plane([&](int x, int y) { return motion(x, y).y; });
+  if (options_.parts.trusts_rest && !context_.is_first) out.restless = restless(frame, motion);
+  if (tests_visibility()) {
+    out.seen = Plane<float>(width, height);
+    std::ranges::copy(frame.was_visible.values(), out.seen.values().begin());
+  }
+  if (!tests_surfaces() || tests_visibility()) return out;
+  const LastDepths last(context_.last_camera, static_cast<float>(width) / static_cast<float>(height));
+  const auto distance = [&](int x, int y) {
+    return frame.object_id(x, y) == Frame::no_id ? std::numeric_limits<float>::infinity()
+                                                 : last.distance(frame.last_position(x, y));
+  };
+  out.last_depth = plane(distance);
+  out.last_nearness = plane([&](int x, int y) { return last.nearness(distance(x, y)); });
+  return out;
+}
+
+/// 1 where one of the 3 × 3 surfaces moves, or was one in the last frame of an object that moves or is no longer seen.
+Plane<float> TemporalAccumulation::restless(const Frame& frame, const Plane<float2>& motion) const {
+  constexpr float least = 1 / 2048.0f;  // the resolve rounds smaller motion to 0
+  const int width = motion.width(), height = motion.height();
+  const auto moves = [&](float2 m) { return std::abs(m.x) >= least || std::abs(m.y) >= least; };
+  // By number of the object plus one: has it moved or vanished?
+  float most = *std::ranges::max_element(past_surface_.values());
+  for (const std::uint32_t id : frame.object_id.values()) most = std::max(most, number_of(id));
+  std::vector<char> is_seen(static_cast<std::size_t>(most) + 2, 0), has_moved(is_seen.size(), 0);
+  for (std::size_t i = 0; i < motion.values().size(); ++i) {
+    const auto object = static_cast<std::size_t>(number_of(frame.object_id.values()[i]) + 1);
+    is_seen[object] = 1;
+    if (moves(motion.values()[i])) has_moved[object] = 1;
+  }
+  for (std::size_t k = 0; k < has_moved.size(); ++k)
+    if (!is_seen[k]) has_moved[k] = 1;
+  Plane<float> here(width, height), out(width, height);
+  for_each_row(height, [&](int y) {
+    for (int x = 0; x < width; ++x)
+      here(x, y) = moves(motion(x, y)) || has_moved[static_cast<std::size_t>(past_surface_(x, y) + 1)] ? 1.0f : 0.0f;
+  });
+  for_each_row(height, [&](int y) {
+    for (int x = 0; x < width; ++x)
+      for (int j = std::max(y - 1, 0); j <= std::min(y + 1, height - 1); ++j)
+        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, width - 1); ++i)
+          out(x, y) = std::max(out(x, y), here(i, j));
+  });
+  return out;
+}
+
+/// A history of the first frame alone, which the resolve replaces.
+void TemporalAccumulation::begin_history(const Frame& frame) {
+  const int width = frame.color.width(), height = frame.color.height();
+  history_ = LinearImage(width, height, Linear{0, 0, 0, 0});
+  const bool is_confidence = options_.parts.blend == TemporalParts::Blend::Confidence;
+  if (options_.parts.trusts_rest) squares_ = Plane<float>(width, height);
+  frames_ = Plane<float>(width, height, is_confidence ? 1 / options_.parts.least_weight : 1.0f);
+}
+
+void TemporalAccumulation::keep_surfaces(const Frame& frame) {
+  past_depth_ = frame.depth, past_nearness_ = frame.reversed_depth;
+  past_surface_ = Plane<float>(frame.object_id.width(), frame.object_id.height());
+  std::ranges::transform(frame.object_id.values(), past_surface_.values().begin(), number_of);
+}
+
+LinearImage TemporalAccumulation::blended(const Frame& frame) {
+  const int width = frame.color.width(), height = frame.color.height();
+  const Current current = current_of(frame);
+  TemporalParts parts = options_.parts;
+  if (context_.is_first) {
+    begin_history(frame);
+    parts.rejection = TemporalParts::Rejection::None;
+    parts.rectification = TemporalParts::Rectification::None;
+    parts.blend = TemporalParts::Blend::Fixed, parts.least_weight = 1;
+    parts.weighting = TemporalParts::Weighting::None;
+    parts.trusts_rest = false;
+  }
+  std::vector<float> column(static_cast<std::size_t>(width));
+  for (std::size_t x = 0; x < column.size(); ++x) column[x] = static_cast<float>(x);
+  LinearImage resolved(width, height), out(width, height);
+  Plane<float> frames(width, height), squares(squares_.width(), squares_.height());
+  const auto stride = static_cast<std::ptrdiff_t>(width + 2 * border);
+  for_each_row(height, [&](int y) {
+    const float* const nearness = begin_of(current.nearness, y);
+    const auto or_nearness = [&](const Plane<float>& plane) { return plane.empty() ? nearness : begin_of(plane, y); };
+    const TemporalRow row{.color = &current.color(border, y + border).r,
+                          .color_stride = 4 * stride,
+                          .nearness = nearness,
+                          .motion = {begin_of(current.motion[0], y), begin_of(current.motion[1], y)},
+                          .surface = begin_of(current.surface, y),
+                          .last_depth = or_nearness(current.last_depth),
+                          .last_nearness = or_nearness(current.last_nearness),
+                          .seen = current.seen.empty() ? nullptr : &current.seen(0, y),
+                          .restless = current.restless.empty() ? nullptr : &current.restless(0, y),
+                          .stride = stride,
+                          .column = column.data(),
+                          .y = y,
+                          .history = &history_(0, 0).r,
+                          .frames = &frames_(0, 0),
+                          .squares = squares_.values().data(),
+                          .past_surface = past_surface_.values().data(),
+                          .past_depth = past_depth_.values().data(),
+                          .past_nearness = past_nearness_.values().data(),
+                          .width = width,
+                          .height = height,
+                          .resolved = &resolved(0, y).r,
+                          .frames_out = &frames(0, y),
+                          .squares_out = squares.empty() ? nullptr : &squares(0, y)};
+    const TemporalKernels& kernels = TemporalKernels::of();
+    kernels.resolve(row, parts, static_cast<std::size_t>(width));
+    kernels.decode(row.resolved, row.color, &frame.color(0, y).r, parts.is_compressed, &out(0, y).r,
+                   static_cast<std::size_t>(width));
+  });
+  history_ = std::move(resolved);
+  if (!context_.is_first) frames_ = std::move(frames), squares_ = std::move(squares);
+  if (context_.is_first && options_.parts.trusts_rest)
+    std::ranges::transform(history_.values(), squares_.values().begin(), [](const Linear& c) {
+      const float luma = (c.r + c.b) * 0.25f + c.g * 0.5f;
+      return luma * luma;
+    });
+  return out;
+}
+
+LinearImage TemporalAccumulation::sharpened(LinearImage image) const {
+  const int width = image.width(), height = image.height();
+  const LinearImage wide = bordered<Linear>(width, height, [&](int x, int y) { return image(x, y); });
+  for_each_row(height, [&](int y) {
+    TemporalKernels::of().sharpen(&wide(border, y + border).r, 4 * static_cast<std::ptrdiff_t>(wide.width()),
+                                  options_.sharpening, &image(0, y).r, static_cast<std::size_t>(width));
+  });
+  return image;
+}
+
+LinearImage TemporalAccumulation::resolve(const Frame& frame) {
+  LinearImage out = blended(frame);
+  if (tests_surfaces() || options_.parts.trusts_rest) keep_surfaces(frame);
+  return options_.sharpening > 0 ? sharpened(std::move(out)) : out;
+}
+
+}  // namespace zoneplate::antialias

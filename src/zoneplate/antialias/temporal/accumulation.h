@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "zoneplate/antialias/temporal/options.h"
+#include "zoneplate/render/method.h"
+
+namespace zoneplate::antialias {
+
+/// The history of temporal antialiasing, and its resolve.
+class TemporalAccumulation {
+ public:
+  explicit TemporalAccumulation(const TemporalOptions& options);
+
+  /// The sample of a frame, and the planes that `resolve` reads.
+  Request request(const FrameContext& context);
+  /// The resolved image of the frame of the last request.
+  LinearImage resolve(const Frame& frame);
+
+ private:
+  /// A plane that continues beyond the image by TemporalRow::border pixels, with its outermost values.
+  using Bordered = Plane<float>;
+  /// The planes of this frame; those that no part reads are empty.
+  struct Current {
+    LinearImage color;
+    Bordered nearness, motion[2], surface, last_depth, last_nearness;
+    Plane<float> seen, restless;
+  };
+  bool tests_surfaces() const;
+  bool tests_visibility() const;
+  Current current_of(const Frame& frame) const;
+  Plane<float> restless(const Frame& frame, const Plane<float2>& motion) const;
+  void begin_history(const Frame& frame);
+  void keep_surfaces(const Frame& frame);
+  LinearImage blended(const Frame& frame);
+  LinearImage sharpened(LinearImage image) const;
+
+  TemporalOptions options_;
+  SamplePattern jitter_;
+  FrameContext context_;
+
+  LinearImage history_;  ///< encoded
+  Plane<float> frames_, squares_, past_surface_, past_depth_, past_nearness_;
+};
+
+}  // namespace zoneplate::antialias

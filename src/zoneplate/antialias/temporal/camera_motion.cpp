@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/antialias/temporal/camera_motion.h"
+
+#include <cmath>
+
+namespace zoneplate::antialias {
+
+CameraMotion::Lens CameraMotion::lens_of(const Camera& camera, double aspect) {
+  const float4x4 clip = camera.clip_from_camera(static_cast<float>(aspect));
+  return {clip.column[0].x, clip.column[1].y, camera.is_orthographic};
+}
+
+CameraMotion::CameraMotion(const Camera& now, const Camera& last, int width, int height)
+    : width_(width),
+      height_(height),
+      now_(lens_of(now, static_cast<double>(width) / height)),
+      last_(lens_of(last, static_cast<double>(width) / height)),
+      turn_{} {
+  // The cameras' matrices are rigid: the inverse is the transpose.
+  const auto component = [](float4 v, int k) -> double { return k == 0 ? v.x : k == 1 ? v.y : k == 2 ? v.z : v.w; };
+  const auto& a = now.world_from_camera.column;
+  const auto& b = last.world_from_camera.column;
+  is_at_rest_ = now_ == last_;
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 4; ++column) {
+      double sum = 0;
+      for (int k = 0; k < 3; ++k) {
+        const double offset = column == 3 ? component(b[3], k) : 0;
+        sum += component(b[row], k) * (component(a[column], k) - offset);
+        is_at_rest_ = is_at_rest_ && component(a[column], k) == component(b[column], k);
+      }
+      turn_[row][column] = sum;
+    }
+}
+
+float2 CameraMotion::at(double x, double y, double distance) const {
+  if (is_at_rest_) return {0, 0};
+  const bool is_far = std::isinf(distance);
+  const double u = (2 * x / width_ - 1) / now_.scale_x;
+  const double v = (1 - 2 * y / height_) / now_.scale_y;
+  if (is_far && (now_.is_orthographic || last_.is_orthographic)) return {0, 0};
+  // A point at infinity is its direction.
+  const double depth = is_far ? 1 : distance, across = now_.is_orthographic ? 1 : depth, weight = is_far ? 0 : 1;
+  const double p[4] = {u * across, v * across, -depth, weight};
+  double q[3];
+  for (int row = 0; row < 3; ++row)
+    q[row] = ((turn_[row][0] * p[0] + turn_[row][1] * p[1]) + turn_[row][2] * p[2]) + turn_[row][3] * p[3];
+  const double divisor = last_.is_orthographic ? 1 : -q[2];
+  if (!(divisor > 0)) return {0, 0};
+  const double last_x = (q[0] / divisor * last_.scale_x + 1) * width_ / 2;
+  const double last_y = (1 - q[1] / divisor * last_.scale_y) * height_ / 2;
+  return {static_cast<float>(x - last_x), static_cast<float>(y - last_y)};
+}
+
+}  // namespace zoneplate::antialias

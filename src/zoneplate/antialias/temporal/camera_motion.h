@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "zoneplate/math/mat.h"
+#include "zoneplate/scene/camera.h"
+
+namespace zoneplate::antialias {
+
+/// The motion on the screen of points that rest in the world.
+///
+/// Exact     computed in double and rounded once. A camera at rest causes no motion.
+class CameraMotion {
+ public:
+  /// Units     the image's size in pixels.
+  CameraMotion(const Camera& now, const Camera& last, int width, int height);
+
+  /// Position now minus position in the last frame of the point at a position of the image and a distance along the
+  /// view axis, which may be infinite; 0 for a point that was not in front of the last camera.
+  ///
+  /// Units     pixels, x right, y down.
+  float2 at(double x, double y, double distance) const;
+
+ private:
+  struct Lens {
+    double scale_x, scale_y;
+    bool is_orthographic;
+    bool operator==(const Lens&) const = default;
+  };
+  static Lens lens_of(const Camera& camera, double aspect);
+
+  double width_, height_;
+  Lens now_, last_;
+  double turn_[3][4];  ///< last_camera_from_camera, by row
+  bool is_at_rest_;
+};
+
+}  // namespace zoneplate::antialias

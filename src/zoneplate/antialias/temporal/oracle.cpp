@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The upper bound of temporal antialiasing by reprojection: history is kept exactly where the last frame's camera saw
+// the same surface point. An engine guesses this from depths, ids and colours; here rays to the triangles of the last
+// frame decide, and motion is exact.
+//
+// History of n frames has the weight n - 1 to 1, up to n = `most`. It is never rectified. Weaknesses, which therefore
+// are those of reprojection itself: history between pixels is filtered in every frame; a pixel has one history for all
+// of its surfaces, so that an edge between surfaces of different motion drags a fringe along; light that changes on a
+// surface arrives late.
+#include "zoneplate/antialias/temporal/accumulation.h"
+
+namespace zoneplate::antialias {
+namespace {
+
+class OracleTaa : public Resolver {
+ public:
+  explicit OracleTaa(const TemporalOptions& options) : accumulation_(options) {}
+  Request request(const FrameContext& context) override { return accumulation_.request(context); }
+  LinearImage resolve(Frame& frame) override { return accumulation_.resolve(frame); }
+
+ private:
+  TemporalAccumulation accumulation_;
+};
+
+constexpr std::string_view filters[] = {"bilinear", "catmull5", "catmull9"};
+constexpr Param params[] = {
+    {.name = "history", .meaning = "filter of the history between pixels", .value = 2, .names = filters},
+    {.name = "most", .meaning = "frames of which the history is a mean, at most", .value = 64, .low = 2, .high = 4096},
+    {.name = "length",
+     .meaning = "number of Halton points before the jitter repeats",
+     .value = 16,
+     .low = 1,
+     .high = 1024},
+};
+
+std::unique_ptr<Resolver> make(const Settings& s) {
+  using Parts = TemporalParts;
+  TemporalOptions options{.parts = {.dilation = Parts::Dilation::None,
+                                    .filter = static_cast<Parts::Filter>(s.integer("history")),
+                                    .rectification = Parts::Rectification::None,
+                                    .rejection = Parts::Rejection::Unseen,
+                                    .blend = Parts::Blend::Count,
+                                    .least_weight = 1 / static_cast<float>(s.integer("most"))},
+                          .length = s.integer("length"),
+                          .settling_frames = s.integer("most")};
+  return std::make_unique<OracleTaa>(options);
+}
+
+}  // namespace
+
+Method oracle_taa() {
+  return {.name = "oracle-taa",
+          .summary = "temporal antialiasing that knows which surface points the last frame saw: an upper bound",
+          .source = "Zoneplate",
+          .params = params,
+          .make = make,
+          .is_specification_only = true};
+}
+
+}  // namespace zoneplate::antialias

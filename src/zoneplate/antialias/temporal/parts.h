@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace zoneplate::antialias {
+
+/// The parts of temporal antialiasing: what the resolve does with the current frame and the history.
+struct TemporalParts {
+  /// Of which pixel the motion is taken: its own, or the nearest surface among its 3 × 3 neighbours, or among itself
+  /// and four pixels at two pixels' distance along the diagonals.
+  enum class Dilation { None, Square, Cross };
+  /// How history is sampled between pixels. Catmull-Rom without its corners has 12 of 16 texels, which a GPU fetches by
+  /// 5 bilinear lookups instead of 9.
+  enum class Filter { Bilinear, CatmullRom5, CatmullRom9 };
+  /// How history outside the colours of the neighbourhood changes: each channel is clamped to the box, or the colour
+  /// moves towards its centre until it is inside.
+  enum class Rectification { None, Clamp, Clip };
+  /// The box of the 3 × 3 colours: their extremes, the mean of the extremes of 3 × 3 and of the plus-shaped 5, their
+  /// mean ± gamma standard deviations, or the intersection of that with the extremes.
+  enum class Box { Extremes, Rounded, Variance, Both };
+  /// When history is dropped: never; where all of the 3 × 3 surfaces around the reprojected position were nearer than
+  /// the surface was then (Depth), or of other objects (Id); where all were of other objects or depths and none was
+  /// farther away (Both), so that details thinner than a pixel keep their history; as three.js, where a nearer surface
+  /// was there, but not at edges of depth; or where the last frame's camera did not see the surface point itself, which
+  /// only a renderer knows.
+  enum class Rejection { None, Depth, Id, Both, Edge, Unseen };
+  /// The weight of the current frame: fixed; 1 / n of n frames; or that of INSIDE, three.js, Bevy, Unreal Engine 4.
+  enum class Blend { Fixed, Count, Contrast, Velocity, Confidence, Motion };
+  /// The factor of each colour's weight: 1, or 1 / (1 + luminance) of the colour (Luma) or of the compressed colour.
+  enum class Weighting { None, Luma, Compressed };
+
+  Dilation dilation = Dilation::Square;
+  Filter filter = Filter::CatmullRom9;
+  bool is_normalized = true;  ///< the weights of CatmullRom5 are divided by their sum, which is at least 0.984
+  Rectification rectification = Rectification::Clip;
+  Box box = Box::Variance;
+  bool is_ycocg = true;    ///< the box is in Y, Co, Cg, otherwise in R, G, B
+  float gamma = 1;         ///< of Variance and Both, for surfaces at rest
+  float moving_gamma = 1;  ///< the same at `fast` pixels per frame
+  Rejection rejection = Rejection::Both;
+  /// At rest, history is neither tested nor rectified, unless the current luma differs from that of the history by four
+  /// times the standard deviation of earlier frames.
+  bool trusts_rest = false;
+  float tolerance = 0.01f;  ///< of depths, relative
+  Blend blend = Blend::Count;
+  float least_weight = 0.05f;  ///< of the current frame
+  Weighting weighting = Weighting::None;
+  bool is_compressed = false;         ///< c / (1 + max c) is averaged instead of the straight colour c
+  bool keeps_current_alpha = false;   ///< alpha is that of the current frame
+  bool has_kernel = false;            ///< the current colour is the mean of 3 × 3 colours with the weights `kernel`
+  float kernel[9] = {};               ///< by row; their sum is 1
+  static constexpr float fast = 128;  ///< pixels per frame
+};
+
+}  // namespace zoneplate::antialias

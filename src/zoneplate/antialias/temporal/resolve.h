@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+
+#include "zoneplate/antialias/temporal/parts.h"
+#include "zoneplate/base/isa.h"
+
+namespace zoneplate::antialias {
+
+/// One row of a frame with its history, for TemporalKernels::resolve.
+///
+/// Shape     pointers to pixel 0 of the row. The planes of this frame continue for `border` pixels on all sides;
+///           `color_stride` and `stride` are the floats from one row to the next. The planes of the last frame have
+///           `width` × `height` pixels without a border, and begin at pixel (0, 0).
+struct TemporalRow {
+  static constexpr int border = 2;
+
+  const float* color;  ///< four floats a pixel, by TemporalKernels::encode
+  std::ptrdiff_t color_stride;
+  const float* nearness;       ///< reversed depth
+  const float* motion[2];      ///< in pixels
+  const float* surface;        ///< a number of the object; negative without a surface
+  const float* last_depth;     ///< the distance that the surface had from the last camera
+  const float* last_nearness;  ///< its reversed depth in the last frame
+  const float* seen;           ///< 1 where the last frame's camera saw the surface point; without a border
+  const float* restless;       ///< 0 where neither the 3 × 3 surfaces nor those of the last frame have moved since
+  std::ptrdiff_t stride;
+  const float* column;  ///< 0, 1, 2, ...
+  int y;
+
+  const float* history;  ///< four floats a pixel
+  const float* frames;   ///< the number of frames in each pixel of the history, or its confidence
+  const float* squares;  ///< the mean squared luma of the frames in the history
+  const float* past_surface;
+  const float* past_depth;
+  const float* past_nearness;
+  int width, height;
+
+  float* resolved;  ///< four floats a pixel: the history of the next frame
+  float* frames_out;
+  float* squares_out;
+};
+
+struct TemporalKernels : PerIsa<TemporalKernels> {
+  /// Colours without NaN, negative and unbounded values; and compressed: the straight colour c becomes
+  /// c / (1 + max(r, g, b)), premultiplied again.
+  ///
+  /// Edges     values above 65504, the greatest half float, become 65504.
+  void (*encode)(const float* linear, bool is_compressed, float* encoded, std::size_t n);
+  /// The colours that `encode` compressed. A pixel with resolved = encoded becomes its own `linear`, bit by bit.
+  void (*decode)(const float* resolved, const float* encoded, const float* linear, bool is_compressed, float* out,
+                 std::size_t n);
+  /// Resolves n pixels of a row: filters the current colours, reprojects, validates and rectifies the history, and
+  /// blends both.
+  ///
+  /// Exact     where all colours and the history are equal, the result is that colour, bit by bit.
+  void (*resolve)(const TemporalRow& row, const TemporalParts& parts, std::size_t n);
+  /// out = the 4-neighbours' unsharp mask of n pixels, limited to the extremes of the five pixels. `color` continues
+  /// for a pixel on all sides.
+  void (*sharpen)(const float* color, std::ptrdiff_t stride, float strength, float* out, std::size_t n);
+};
+
+}  // namespace zoneplate::antialias

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "zoneplate/antialias/temporal/history_lanes.h"
+#include "zoneplate/antialias/temporal/range_lanes.h"
+#include "zoneplate/antialias/temporal/rectification_lanes.h"
+#include "zoneplate/antialias/temporal/weight_lanes.h"
+
+/// The kernels of antialias/temporal/resolve.h over the lane types of math/lanes.h.
+namespace zoneplate::stages {
+
+using antialias::TemporalKernels;
+
+/// True where the last frame's camera saw the surface point, or a pixel without a surface.
+template <class F>
+[[gnu::always_inline]] inline typename F::Bool was_seen(const TemporalRow& row, const Source<F>& source,
+                                                        std::ptrdiff_t i) {
+  const F half(0.5f), zero(0.0f);
+  const F x = source.first[0] + floor(source.fraction[0] + half),
+          y = source.first[1] + floor(source.fraction[1] + half);
+  const auto was_empty = zero > F::gather(row.past_surface, index_at(row, x, y));
+  return (F::load(row.seen + i) > zero) | ((zero > F::load(row.surface + i)) & was_empty);
+}
+
+/// True where the history belongs to the followed surface, as far as the parts test it.
+template <class F>
+[[gnu::always_inline]] inline typename F::Bool is_valid(const TemporalRow& row, const TemporalParts& parts,
+                                                        const Followed<F>& surface, const Source<F>& source,
+                                                        std::ptrdiff_t i) {
+  using Rejection = TemporalParts::Rejection;
+  if (parts.rejection == Rejection::None) return source.is_inside;
+  if (parts.rejection == Rejection::Unseen) return source.is_inside & was_seen(row, source, i);
+  if (parts.rejection != Rejection::Edge) return source.is_inside & has_surface(row, parts, surface, source);
+  // three.js: depthThreshold and edgeDepthDiff of depths in [0, 1].
+  const F threshold(0.0005f), edge(0.001f), half(0.5f);
+  F nearest = F::load(row.nearness + i), farthest = nearest;
+  for (const PixelOffset o : around_square) {
+    const F other = F::load(row.nearness + i + o.x + o.y * row.stride);
+    nearest = max(nearest, other), farthest = min(farthest, other);
+  }
+  const F x = source.first[0] + floor(source.fraction[0] + half),
+          y = source.first[1] + floor(source.fraction[1] + half);
+  const F before = F::gather(row.past_nearness, index_at(row, x, y));
+  return source.is_inside & ((nearest - farthest > edge) | (threshold >= before - surface.last_nearness));
+}
+
+/// True where nothing has moved and the current luma is a plausible sample of those in the history.
+///
+/// Samples on an edge vary between both of its sides: one side of sixteen differs from the mean by 3.9 standard
+/// deviations.
+template <class F>
+[[gnu::always_inline]] inline typename F::Bool is_steady(const TemporalRow& row, const Rgba<F>& current,
+                                                         const Rgba<F>& past, std::ptrdiff_t i) {
+  const F zero(0.0f), most(4.0f), floor_of_noise(0.02f), young(8.0f);
+  const std::ptrdiff_t here = std::ptrdiff_t{row.y} * row.width + i;
+  const F mean = luma_of(past), difference = abs(luma_of(current) - mean);
+  const F deviation = sqrt(max(F::load(row.squares + here) - mean * mean, zero));
+  return (F::load(row.restless + i) == zero) &
+         ((young > F::load(row.frames + here)) | (most * deviation + floor_of_noise * mean + F(0.002f) > difference));
+}
+
+/// The mean squared luma of the history.
+template <class F>
+[[gnu::always_inline]] inline F past_square(const TemporalRow& row, const Source<F>& source, std::ptrdiff_t i) {
+  if (source.is_at_rest()) return F::load(row.squares + (std::ptrdiff_t{row.y} * row.width + i));
+  const F half(0.5f);
+  return F::gather(row.squares, index_at(row, source.first[0] + floor(source.fraction[0] + half),
+                                         source.first[1] + floor(source.fraction[1] + half)));
+}
+
+template <class Full, class One>
+[[gnu::flatten]] void resolve_temporal(const TemporalRow& row, const TemporalParts& parts, std::size_t n) {
+  for_row<Full, One>(n, [&]<class F>(std::size_t at) {
+    const auto i = static_cast<std::ptrdiff_t>(at);
+    const F one(1.0f);
+    const Followed<F> surface = followed_surface<F>(row, parts.dilation, i);
+    const Source<F> source(surface, row, i);
+    const Neighborhood<F> around(row, i);
+    const Rgba<F> current = parts.has_kernel ? around.mean(parts.kernel) : around.middle;
+
+    const F rest = one - saturated(speed_of(source) * F(1 / TemporalParts::fast));
+    const F gamma = F(parts.moving_gamma) + F(parts.gamma - parts.moving_gamma) * (rest * rest);
+    const Rgba<F> past = history_of(row, parts, source, i);
+    Rgba<F> history = rectified(past, around, parts, gamma);
+    auto valid = is_valid(row, parts, surface, source, i);
+    if (parts.trusts_rest) {
+      const auto is_trusted = is_steady(row, current, past, i);
+      history = select(is_trusted, past, history);
+      valid = valid | is_trusted;
+    }
+    const Share<F> share = valid_share(row, parts, source, current, history, i);
+    const F weight = weighted(share.weight, current, history, parts.weighting);
+    Rgba<F> result = select(valid, history + (current - history) * weight, current);
+    if (parts.trusts_rest) {
+      const F luma = luma_of(current), square = luma * luma, before = past_square(row, source, i);
+      select(valid, before + (square - before) * weight, square).store(row.squares_out + i);
+    }
+    if (parts.keeps_current_alpha) result.c[3] = current.c[3];
+    result.store(row.resolved + 4 * i);
+    select(valid, share.frames, one).store(row.frames_out + i);
+  });
+}
+
+template <class Full, class One>
+constexpr TemporalKernels temporal() {
+  return {.encode = &encode_temporal<Full, One>,
+          .decode = &decode_temporal<Full, One>,
+          .resolve = &resolve_temporal<Full, One>,
+          .sharpen = &sharpen_temporal<Full, One>};
+}
+
+}  // namespace zoneplate::stages

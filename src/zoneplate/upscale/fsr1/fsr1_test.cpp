@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/upscale/fsr1/fsr1.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+
+#include "zoneplate/antialias/charts_for_test.h"
+#include "zoneplate/base/shared_files_for_test.h"
+
+namespace zoneplate::upscale {
+namespace {
+
+/// The chart of other implementations, 64 × 64 to 96 × 96 pixels.
+DisplayImage upscaled_chart(const Fsr1Options& options) {
+  const Rgba8Image codes = antialias::chart64();
+  DisplayImage chart(64, 64);
+  for (std::size_t i = 0; i < chart.values().size(); ++i) {
+    const Rgba8 c = codes.values()[i];
+    chart.values()[i] = {static_cast<float>(c.r) / 255, static_cast<float>(c.g) / 255, static_cast<float>(c.b) / 255,
+                         1};
+  }
+  return upscale_fsr1(chart, {64, 64, 0, 0, {96, 96, std::nullopt}}, options);
+}
+
+Fsr1Options with_rcas(float stops) {
+  Fsr1Options options;
+  options.rcas.sharpness = std::exp2(-stops);
+  return options;
+}
+
+double sum_of(const DisplayImage& image, int border) {
+  double sum = 0;
+  for (int y = border; y < image.height() - border; ++y)
+    for (int x = border; x < image.width() - border; ++x) {
+      const Display& c = image(x, y);
+      sum += static_cast<double>(c.r) + static_cast<double>(c.g) + static_cast<double>(c.b);
+    }
+  return sum;
+}
+
+// The sums are those of an implementation in double that agrees with three.js' FSR1Node.
+TEST(Fsr1, AgreesWithFiguresOfAnotherImplementation) {
+  const DisplayImage easu = upscaled_chart({.sharpens = false});
+  EXPECT_NEAR(sum_of(easu, 0), 15528.7821, 2e-3);
+  EXPECT_NEAR(sum_of(easu, 4), 13399.0127, 2e-3);
+  EXPECT_NEAR(easu(48, 20).g, 0.90522, 1e-5);
+  Fsr1Options approximate{.sharpens = false};
+  approximate.rcas.reciprocals = Reciprocals::Approximate;
+  EXPECT_NEAR(sum_of(upscaled_chart(approximate), 0), 15529.8506, 2e-3);
+  const DisplayImage sharp = upscaled_chart(with_rcas(0.2f));
+  EXPECT_NEAR(sum_of(sharp, 0), 15522.6649, 5e-3);
+  EXPECT_NEAR(sharp(48, 20).r, 0.91731, 1e-5);
+  EXPECT_NEAR(sharp(48, 20).g, 0.91726, 1e-5);
+  EXPECT_NEAR(sharp(48, 20).b, 0.91692, 1e-5);
+}
+
+class Fsr1Golden : public testing::TestWithParam<std::string> {};
+
+// Images that three.js r187 made with half floats; outside a border of four pixels it reads pixels beyond the image.
+TEST_P(Fsr1Golden, AgreesWithThreeJs) {
+  const bool is_sharp = GetParam().find("rcas") != std::string::npos;
+  const DisplayImage image = upscaled_chart(is_sharp ? with_rcas(0.2f) : Fsr1Options{.sharpens = false});
+  std::vector<float> expected(96 * 96 * 3);
+  std::ifstream(GetParam(), std::ios::binary)
+      .read(reinterpret_cast<char*>(expected.data()), static_cast<std::streamsize>(expected.size() * sizeof(float)));
+  for (int y = 4; y < 92; ++y)
+    for (int x = 4; x < 92; ++x) {
+      const float* e = &expected[static_cast<std::size_t>(3 * (96 * y + x))];
+      ASSERT_NEAR(image(x, y).r, e[0], 2.5e-4) << x << " " << y;
+      ASSERT_NEAR(image(x, y).g, e[1], 2.5e-4) << x << " " << y;
+      ASSERT_NEAR(image(x, y).b, e[2], 2.5e-4) << x << " " << y;
+    }
+}
+INSTANTIATE_TEST_SUITE_P(Shared, Fsr1Golden,
+                         testing::ValuesIn(shared_files("methods/goldens", {"easu_96x96_rgb_f32_three187.bin",
+                                                                            "rcas0.2_96x96_rgb_f32_three187.bin"})));
+GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Fsr1Golden);
+
+TEST(Fsr1, SharpeningStaysInRangeAndOrder) {
+  const DisplayImage soft = upscaled_chart(with_rcas(2)), sharp = upscaled_chart(with_rcas(0));
+  const DisplayImage easu = upscaled_chart({.sharpens = false});
+  double soft_change = 0, sharp_change = 0;
+  for (std::size_t i = 0; i < easu.values().size(); ++i) {
+    soft_change += std::abs(static_cast<double>(soft.values()[i].g - easu.values()[i].g));
+    sharp_change += std::abs(static_cast<double>(sharp.values()[i].g - easu.values()[i].g));
+  }
+  EXPECT_GT(soft_change, 0);
+  EXPECT_GT(sharp_change, 2 * soft_change);
+}
+
+}  // namespace
+}  // namespace zoneplate::upscale

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+// Upscaling by a separable kernel: bilinear, bicubic, Lanczos. They know no edges: a bilinear image is soft and shows
+// the grid of its input in diagonals, and kernels with negative lobes ring along edges.
+//
+// Source: Keys, Cubic Convolution Interpolation for Digital Image Processing, IEEE Trans. ASSP 29(6), 1981; Mitchell
+// and Netravali, Reconstruction Filters in Computer Graphics, SIGGRAPH 1988; Duchon, Lanczos Filtering in One and Two
+// Dimensions, J. Applied Meteorology 18, 1979.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "zoneplate/image/transfer.h"
+#include "zoneplate/signal/filter/resample.h"
+#include "zoneplate/upscale/premultiplied.h"
+#include "zoneplate/upscale/upscaler.h"
+
+namespace zoneplate::upscale {
+namespace {
+
+constexpr std::string_view mixings[] = {"codes", "light"};
+constexpr Param mix_param = {.name = "mix",
+                             .meaning = "interpolation of sRGB-encoded values (codes) or in linear light",
+                             .value = 0,
+                             .names = mixings};
+constexpr std::string_view cubics[] = {"catmull-rom", "mitchell", "b-spline"};
+constexpr Param bilinear_params[] = {scale_param, mix_param};
+constexpr Param bicubic_params[] = {
+    scale_param, {.name = "kernel", .meaning = "the cubic", .value = 0, .names = cubics}, mix_param};
+constexpr Param lanczos_params[] = {
+    scale_param, {.name = "lobes", .meaning = "lobes on each side", .value = 3, .low = 2, .high = 8}, mix_param};
+
+/// Applies a transfer curve to the colours of all pixels.
+void transfer(DisplayImage& image, float (*curve)(float)) {
+  for (Display& c : image.values()) c = {curve(c.r), curve(c.g), curve(c.b), c.a};
+}
+
+class KernelUpscaler : public SpatialUpscaler {
+ public:
+  KernelUpscaler(Kernel kernel, bool mixes_light) : kernel_(std::move(kernel)), mixes_light_(mixes_light) {}
+  int reach() const override { return static_cast<int>(std::ceil(kernel_.radius)); }
+
+  DisplayImage upscale(const DisplayImage& image, const UpscaleGrid& grid) const override {
+    if (!mixes_light_) return upscale_values(image, grid);
+    DisplayImage light = image;
+    transfer(light, decode_srgb);
+    light = upscale_values(light, grid);
+    transfer(light, encode_srgb);
+    return light;
+  }
+
+ private:
+  DisplayImage upscale_values(const DisplayImage& image, const UpscaleGrid& grid) const {
+    const Crop made = grid.made();
+    const ResampleOptions options{.step_x = static_cast<double>(grid.width) / grid.to.width,
+                                  .step_y = static_cast<double>(grid.height) / grid.to.height,
+                                  .shift_x = -static_cast<double>(grid.x),
+                                  .shift_y = -static_cast<double>(grid.y),
+                                  .first_x = made.x,
+                                  .first_y = made.y};
+    return filter_premultiplied(image, [&](const DisplayImage& values) {
+      LinearImage in(values.width(), values.height());
+      std::ranges::transform(values.values(), in.values().begin(), [](const Display& c) {
+        return Linear{c.r, c.g, c.b, c.a};
+      });
+      const LinearImage resampled = resample(in, made.width, made.height, kernel_, options);
+      DisplayImage out(made.width, made.height);
+      const bool is_opaque = std::ranges::all_of(in.values(), [](const Linear& c) { return c.a == 1; });
+      const auto clamped = [](float v) { return std::clamp(v, 0.0f, 1.0f); };
+      std::ranges::transform(resampled.values(), out.values().begin(), [&](const Linear& c) {
+        return Display{clamped(c.r), clamped(c.g), clamped(c.b), is_opaque ? 1.0f : clamped(c.a)};
+      });
+      return out;
+    });
+  }
+
+  Kernel kernel_;
+  bool mixes_light_;
+};
+
+std::unique_ptr<SpatialUpscaler> make(std::string_view kernel, const Settings& s) {
+  return std::make_unique<KernelUpscaler>(make_kernel(kernel), s.chosen("mix") == "light");
+}
+
+}  // namespace
+
+Upscaler bilinear() {
+  return {.name = "bilinear",
+          .summary = "linear interpolation along each axis",
+          .source = "the tent kernel",
+          .params = bilinear_params,
+          .make_spatial = [](const Settings& s) { return make("tent", s); }};
+}
+
+Upscaler bicubic() {
+  return {.name = "bicubic",
+          .summary = "a cubic of four pixels along each axis",
+          .source = "Keys 1981; Mitchell and Netravali 1988",
+          .params = bicubic_params,
+          .make_spatial = [](const Settings& s) { return make(s.chosen("kernel"), s); }};
+}
+
+Upscaler lanczos() {
+  return {
+      .name = "lanczos",
+      .summary = "a sinc under the middle lobe of a sinc along each axis",
+      .source = "Duchon 1979",
+      .params = lanczos_params,
+      .make_spatial = [](const Settings& s) { return make("lanczos:lobes=" + std::to_string(s.integer("lobes")), s); }};
+}
+
+}  // namespace zoneplate::upscale

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rendering with an upscaler: sizes, crops, data passes and texture detail.
+#include <gtest/gtest.h>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/render/lighting.h"
+#include "zoneplate/render/renderer.h"
+#include "zoneplate/scene/builtin/builtin.h"
+#include "zoneplate/scene/fit.h"
+#include "zoneplate/upscale/upscaler.h"
+
+namespace zoneplate::upscale {
+namespace {
+
+constexpr int width = 161, height = 121;  // no multiple of any scale
+
+PreparedScene prepared(const std::string& name) {
+  Scene scene = *make_builtin_scene(name);
+  light_unlit(scene);
+  return PreparedScene(std::move(scene));
+}
+
+Camera camera_of(const PreparedScene& prepared) {
+  const Scene& scene = prepared.scene();
+  return scene.cameras.empty() ? fit_camera(scene, static_cast<float>(width) / height, {}) : scene.cameras[0];
+}
+
+RenderedImage rendered(const PreparedScene& scene, std::string_view method, const RenderSettings& settings) {
+  return Renderer(scene, make_method(method)).render(camera_of(scene), settings);
+}
+
+RenderSettings settings_with(std::optional<Crop> crop, Planes planes = {}) {
+  return {.options = {.width = width, .height = height, .crop = crop}, .planes = planes};
+}
+
+TEST(Upscaled, ACropHasTheBitsOfTheWholeImage) {
+  const PreparedScene scene = prepared("wires");
+  for (const char* method : {"smaa+fsr1:scale=2", "msaa:n=4+bicubic", "fxaa+lanczos:scale=1.7", "bilinear:scale=3",
+                             "smaa+fsr1:scale=1.3,sharpen=none", "none+nis:scale=2", "none+sgsr1"}) {
+    const Rgba8Image whole = rendered(scene, method, settings_with({})).display;
+    ASSERT_EQ(whole.width(), width) << method;
+    ASSERT_EQ(whole.height(), height) << method;
+    for (const Crop& crop : {Crop{0, 0, 33, 21}, Crop{60, 40, 50, 31}, Crop{140, 100, 21, 21}}) {
+      const Rgba8Image part = rendered(scene, method, settings_with(crop)).display;
+      ASSERT_EQ(part.width(), crop.width) << method;
+      for (int y = 0; y < crop.height; ++y)
+        for (int x = 0; x < crop.width; ++x)
+          ASSERT_EQ(part(x, y), whole(crop.x + x, crop.y + y)) << method << " " << x << " " << y;
+    }
+  }
+}
+
+TEST(Upscaled, RendersFewerPixelsAndDataOfTheImage) {
+  const PreparedScene scene = prepared("teapot");
+  const Planes planes{.depth = true, .normal = true, .object_id = true};
+  const RenderedImage direct = rendered(scene, "none", settings_with({}, planes));
+  const RenderedImage upscaled = rendered(scene, "none+fsr1:scale=2", settings_with({}, planes));
+  EXPECT_EQ(upscaled.data.depth, direct.data.depth);
+  EXPECT_EQ(upscaled.data.normal, direct.data.normal);
+  EXPECT_EQ(upscaled.data.object_id, direct.data.object_id);
+  EXPECT_NEAR(static_cast<double>(upscaled.counts.shaded) / static_cast<double>(direct.counts.shaded), 0.25, 0.01);
+  EXPECT_TRUE(rendered(scene, "none+fsr1:scale=2", settings_with({})).data.depth.empty());
+}
+
+// The view is that of the image, although its sides are not multiples of the scale: surfaces stay where they are.
+TEST(Upscaled, SurfacesStayInPlace) {
+  const PreparedScene scene = prepared("triangles");
+  const Rgba8Image direct = rendered(scene, "ssaa:n=4", settings_with({})).display;
+  const auto error = [&](int shift) {
+    const Rgba8Image image = rendered(scene, "ssaa:n=4+bilinear:scale=1.5", settings_with({})).display;
+    double sum = 0;
+    for (int y = 0; y < height; ++y)
+      for (int x = 1; x < width - 1; ++x) sum += std::abs(int{image(x + shift, y).g} - int{direct(x, y).g});
+    return sum;
+  };
+  EXPECT_LT(1.8 * error(0), error(1));
+  EXPECT_NEAR(error(1), error(-1), 0.02 * error(1));
+}
+
+TEST(Upscaled, TexturesAreFilteredForThePixelsOfTheImage) {
+  const PreparedScene scene = prepared("checkerboard");
+  RenderSettings settings = settings_with({}, {.mip_level = true});
+  const Frame whole = rendered(scene, "none", settings).data;
+  // The method's own data planes, of the smaller frame.
+  class Levels : public Resolver {
+   public:
+    Levels(std::unique_ptr<Resolver> method, Plane<float>& levels) : method_(std::move(method)), levels_(levels) {}
+    Request request(const FrameContext& context) override {
+      Request request = method_->request(context);
+      request.planes.mip_level = true;
+      return request;
+    }
+    DisplayImage post_process(DisplayImage image, const Frame& frame) override {
+      levels_ = frame.mip_level;
+      return method_->post_process(std::move(image), frame);
+    }
+
+   private:
+    std::unique_ptr<Resolver> method_;
+    Plane<float>& levels_;
+  };
+  Plane<float> levels;
+  Renderer(scene, std::make_unique<Levels>(make_method("bilinear:scale=2"), levels))
+      .render(camera_of(scene), settings_with({}));
+  ASSERT_EQ(levels.width(), width / 2);
+  EXPECT_NEAR(levels(40, 50), whole.mip_level(81, 101), 0.1f);
+}
+
+TEST(Upscaled, LinearImagesAreRefused) {
+  const PreparedScene scene = prepared("teapot");
+  RenderSettings settings = settings_with({});
+  settings.form = ImageForm::Linear;
+  EXPECT_THROW(rendered(scene, "none+fsr1", settings), Error);
+}
+
+}  // namespace
+}  // namespace zoneplate::upscale

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// What all spatial upscalers have in common.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "zoneplate/antialias/charts_for_test.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/isa.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/upscale/upscaler.h"
+
+namespace zoneplate::upscale {
+namespace {
+
+DisplayImage display_of(const Rgba8Image& codes) {
+  DisplayImage out(codes.width(), codes.height());
+  for (std::size_t i = 0; i < out.values().size(); ++i) {
+    const Rgba8 c = codes.values()[i];
+    const auto value = [](std::uint8_t v) { return static_cast<float>(v) / 255; };
+    out.values()[i] = {value(c.r), value(c.g), value(c.b), value(c.a)};
+  }
+  return out;
+}
+
+/// Shapes of random colours; without `is_opaque`, of random alpha too.
+DisplayImage shapes(int width, int height, bool is_opaque) {
+  DisplayImage image = display_of(antialias::random_shapes(width, height, 7));
+  if (!is_opaque)
+    for (Display& c : image.values()) c.a = c.g < 0.2f ? 0.0f : c.b;
+  return image;
+}
+
+/// Part `made` of an image upscaled to `to`, from the pixels of the image that the upscaler's reach names.
+DisplayImage part(const SpatialUpscaler& upscaler, const DisplayImage& image, ImageExtent to, Crop made) {
+  const int reach = upscaler.reach() + 1;
+  const auto range = [&](int begin, int count, int from, int to_size) {
+    const double step = static_cast<double>(from) / to_size;
+    const int first = static_cast<int>(std::floor((begin + 0.5) * step - 0.5)) + 1 - reach;
+    const int last = static_cast<int>(std::floor((begin + count - 0.5) * step - 0.5)) + reach;
+    return std::pair{std::max(0, first), std::min(from, last + 1)};
+  };
+  const auto [left, right] = range(made.x, made.width, image.width(), to.width);
+  const auto [top, bottom] = range(made.y, made.height, image.height(), to.height);
+  DisplayImage cut(right - left, bottom - top);
+  for (int y = 0; y < cut.height(); ++y)
+    for (int x = 0; x < cut.width(); ++x) cut(x, y) = image(left + x, top + y);
+  to.crop = made;
+  return upscaler.upscale(cut, {image.width(), image.height(), left, top, to});
+}
+
+TEST(Upscalers, SameBitsOnEveryInstructionSetThreadCountAndPart) {
+  for (const Upscaler& row : upscalers()) {
+    if (!row.make_spatial) continue;
+    const std::unique_ptr<SpatialUpscaler> upscaler = make_spatial_upscaler(row.name);
+    for (const bool is_opaque : {true, false}) {
+      const DisplayImage image = shapes(61, 47, is_opaque);
+      const ImageExtent to{103, 71, std::nullopt};
+      const UpscaleGrid grid{61, 47, 0, 0, to};
+      const DisplayImage expected = with_isa(Isa::Scalar, [&] { return upscaler->upscale(image, grid); });
+      for (const Isa isa : supported_isas())
+        with_isa(isa,
+                 [&] { with_threads(3, [&] { EXPECT_EQ(upscaler->upscale(image, grid), expected) << row.name; }); });
+      for (const Crop& made : {Crop{0, 0, 20, 9}, Crop{41, 30, 33, 17}, Crop{90, 60, 13, 11}, Crop{50, 0, 1, 71}}) {
+        const DisplayImage out = part(*upscaler, image, to, made);
+        for (int y = 0; y < made.height; ++y)
+          for (int x = 0; x < made.width; ++x)
+            ASSERT_EQ(out(x, y), expected(made.x + x, made.y + y)) << row.name << " " << x << " " << y;
+      }
+    }
+  }
+}
+
+TEST(Upscalers, ConstantsAndOpacityStay) {
+  for (const Upscaler& row : upscalers()) {
+    if (!row.make_spatial) continue;
+    const std::unique_ptr<SpatialUpscaler> upscaler = make_spatial_upscaler(row.name);
+    const float tolerance = row.name == "nis" ? 2e-4f : 2e-6f;  // the published taps have the sum 1 within 1e-4
+    for (const float alpha : {0.0f, 0.25f, 1.0f}) {
+      const Display constant = alpha == 0 ? Display{0, 0, 0, 0} : Display{0.3f, 0.6f, 0.9f, alpha};
+      const DisplayImage out = upscaler->upscale(DisplayImage(9, 7, constant), {9, 7, 0, 0, {18, 11, std::nullopt}});
+      for (const Display& c : out.values()) {
+        EXPECT_NEAR(c.r, constant.r, tolerance) << row.name;
+        EXPECT_NEAR(c.g, constant.g, tolerance) << row.name;
+        EXPECT_NEAR(c.b, constant.b, tolerance) << row.name;
+        EXPECT_NEAR(c.a, constant.a, 1e-6f) << row.name;
+        if (alpha == 1) {
+          EXPECT_EQ(c.a, 1) << row.name;
+        }
+      }
+    }
+    const DisplayImage seen = upscaler->upscale(shapes(40, 30, true), {40, 30, 0, 0, {80, 60, std::nullopt}});
+    for (const Display& c : seen.values()) {
+      ASSERT_EQ(c.a, 1) << row.name;
+      ASSERT_TRUE(c.r >= 0 && c.r <= 1 && c.g >= 0 && c.g <= 1 && c.b >= 0 && c.b <= 1) << row.name;
+    }
+  }
+}
+
+TEST(Upscalers, ColoursOfTransparentPixelsDoNotBleed) {
+  // Red at alpha 1 before transparent green: no output pixel has any green. (nis and sgsr1 change luma, that is, all
+  // channels alike.)
+  for (const Upscaler& row : upscalers()) {
+    if (!row.make_spatial) continue;
+    const bool changes_luma = row.name == "nis" || row.name == "sgsr1";
+    DisplayImage image(16, 12, Display{1, 0, 0, 1});
+    for (int y = 0; y < 12; ++y)
+      for (int x = 8; x < 16; ++x) image(x, y) = {0, 1, 0, 0};
+    const DisplayImage out = make_spatial_upscaler(row.name)->upscale(image, {16, 12, 0, 0, {32, 24, std::nullopt}});
+    for (const Display& c : out.values()) ASSERT_TRUE(changes_luma ? c.g == c.b : c.g == 0) << row.name;
+    EXPECT_EQ(out(4, 12), (Display{1, 0, 0, 1})) << row.name;
+    EXPECT_EQ(out(30, 12), (Display{0, 0, 0, 0})) << row.name;
+  }
+}
+
+TEST(Upscalers, TextsMakeMethods) {
+  const auto request = [](std::string_view text) {
+    return make_method(text)->request({.image = {300, 200, std::nullopt}});
+  };
+  const Request smaa = request("smaa+fsr1:scale=2,sharpness=0.5");
+  ASSERT_TRUE(smaa.frame);
+  EXPECT_EQ(smaa.frame->width, 150);
+  EXPECT_EQ(smaa.frame->height, 100);
+  EXPECT_EQ(smaa.footprint, 0.5f);
+  EXPECT_TRUE(smaa.is_display_referred);
+  EXPECT_EQ(request("ssaa:n=2+bilinear:scale=4").footprint, 0.125f);
+  EXPECT_EQ(request("bicubic:kernel=mitchell").frame->width, 200);
+  EXPECT_FALSE(request("smaa").frame);
+  const auto refusal = [](std::string_view text) {
+    try {
+      make_method(text);
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::Usage);
+      return std::string(e.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_NE(refusal("smaa+fsr").find("did you mean 'fsr1'"), std::string::npos);
+  EXPECT_NE(refusal("fsr1:scale=5").find("1 to 4"), std::string::npos);
+  EXPECT_NE(refusal("fsr1+smaa").find("fsr1"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace zoneplate::upscale
