@@ -1,7 +1,7 @@
 // Error against cost: points on logarithmic axes, with the Pareto front. Every point is a button with a name.
 import { drawing, element } from './dom.js';
 
-/// Ticks of a logarithmic axis: powers of ten, also 2 and 5 times them if there are few.
+/// Ticks of a logarithmic axis: powers of ten, and multiples of them if there are few.
 function ticksOf(low, high) {
   const make = (factors) => {
     const ticks = [];
@@ -9,8 +9,7 @@ function ticksOf(low, high) {
       for (const factor of factors) ticks.push(factor * 10 ** power);
     return ticks.filter((tick) => tick >= low * 0.999 && tick <= high * 1.001);
   };
-  const tens = make([1]);
-  return tens.length > 3 ? tens : make([1, 2, 5]);
+  return [[1], [1, 2, 5]].map(make).find((ticks) => ticks.length > 3) ?? make([1, 1.5, 2, 3, 4, 5, 7]);
 }
 
 export function makePlot({ title, x: xLabel, y: yLabel, points }, go) {
@@ -23,7 +22,7 @@ export function makePlot({ title, x: xLabel, y: yLabel, points }, go) {
   const [x0, x1] = range('x'), [y0, y1] = range('y');
 
   function draw() {
-    const width = Math.max(300, room.clientWidth), height = Math.round(Math.min(440, Math.max(280, width * 0.62)));
+    const width = Math.max(300, room.clientWidth), height = Math.round(Math.min(360, Math.max(280, width * 0.62)));
     const box = { left: 52, right: width - 14, top: 14, bottom: height - 44 };
     const atX = (v) => box.left + Math.log(v / x0) / Math.log(x1 / x0) * (box.right - box.left);
     const atY = (v) => box.bottom - Math.log(v / y0) / Math.log(y1 / y0) * (box.bottom - box.top);
