@@ -13,6 +13,22 @@ install(FILES ${generated}/zoneplate/version.h DESTINATION ${CMAKE_INSTALL_INCLU
 set(CMAKE_INSTALL_DOCDIR ${CMAKE_INSTALL_DATADIR}/doc/zoneplate)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR} RENAME copyright COMPONENT program) # Debian's name
 install(FILES THIRD_PARTY.md DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT program)
+if(NOT CMAKE_CROSSCOMPILING)
+  # The manual page and the completions of shells are printed by the program when it is installed.
+  set(printed ${CMAKE_CURRENT_BINARY_DIR}/printed)
+  install(CODE "
+    file(MAKE_DIRECTORY \"${printed}\")
+    foreach(pair man:zoneplate.1 completions,bash:zoneplate completions,zsh:_zoneplate completions,fish:zoneplate.fish)
+      string(REGEX MATCH \"^(.*):(.*)$\" ignored \"\${pair}\")
+      set(output \"${printed}/\${CMAKE_MATCH_2}\")
+      string(REPLACE \",\" \";\" arguments \"\${CMAKE_MATCH_1}\")
+      execute_process(COMMAND \"$<TARGET_FILE:zoneplate_program>\" \${arguments} OUTPUT_FILE \"\${output}\" COMMAND_ERROR_IS_FATAL ANY)
+    endforeach()" COMPONENT program)
+  install(FILES ${printed}/zoneplate.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT program)
+  install(FILES ${printed}/zoneplate DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions COMPONENT program)
+  install(FILES ${printed}/_zoneplate DESTINATION ${CMAKE_INSTALL_DATADIR}/zsh/vendor-completions COMPONENT program)
+  install(FILES ${printed}/zoneplate.fish DESTINATION ${CMAKE_INSTALL_DATADIR}/fish/vendor_completions.d COMPONENT program)
+endif()
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 set(package_directory ${CMAKE_INSTALL_LIBDIR}/cmake/Zoneplate)

@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: Apache-2.0
 # Renders $MODELS with $OPTIONS into $OUTPUT, and compares each image with that of its name in $REFERENCES by $METRIC:
-# the run of action.yml. Exit code 1 if an image is missing, new, or worse than $THRESHOLD. The program is `zoneplate`
+# the run of action.yml. Exit code 1 if an image is missing, new, or worse than $THRESHOLD. The results are also written
+# as JUnit XML if $JUNIT is a name. The program is `zoneplate`
 # on the PATH, or that of this source tree.
 set -u
 program=$(command -v zoneplate || echo "$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")/zoneplate")
@@ -13,18 +14,7 @@ models=($MODELS)
 failed=0
 for model in "${models[@]}"; do
   name=$(basename "${model%.*}").png
-  "$program" render "$model" -o "$OUTPUT/$name" $OPTIONS --quiet || { failed=1; continue; }
-  if [ ! -e "$REFERENCES/$name" ]; then
-    echo "$name: has no reference" >&2
-    failed=1
-  elif "$program" metrics "$REFERENCES/$name" "$OUTPUT/$name" --metric "$METRIC" --threshold "$THRESHOLD"; then
-    echo "$name: passed"
-  else
-    echo "$name: differs from its reference" >&2
-    failed=1
-  fi
+  "$program" render "$model" -o "$OUTPUT/$name" $OPTIONS --quiet || failed=1
 done
-for reference in "$REFERENCES"/*.png; do
-  [ -e "$OUTPUT/$(basename "$reference")" ] || { echo "$(basename "$reference"): was not rendered" >&2; failed=1; }
-done
+"$program" metrics "$REFERENCES" "$OUTPUT" --metric "$METRIC" --threshold "$THRESHOLD" ${JUNIT:+--junit "$JUNIT"} || failed=1
 exit $failed

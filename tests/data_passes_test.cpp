@@ -47,7 +47,7 @@ class DataPasses : public testing::Test {
 };
 
 TEST_F(DataPasses, AnExrHoldsThemItself) {
-  ASSERT_EQ(run("teapot --size 60,50 -o a.exr --aov depth,normal,crypto-object"), 0);
+  ASSERT_EQ(run("teapot --size 60,50 -o a.exr --aov depth,normal,crypto-object --background '#333'"), 0);
   ASSERT_EQ(run("teapot --size 60,50 -o a.png"), 0);
   EXPECT_EQ(files(), (std::set<std::string>{"a.exr", "a.png"}));
   const LinearImage light = decode_exr(file("a.exr"), "a.exr");

@@ -72,15 +72,16 @@ typedef struct zoneplate_array {
 
 /// Options of loading a scene.
 typedef struct zoneplate_load_options {
-  size_t size;               ///< sizeof(zoneplate_load_options)
-  const char* format;        ///< an extension without its dot, "stl"; null: that of the name
-  const char* variant;       ///< a material variant of a glTF file
-  const int32_t* scene;      ///< index of a scene of a glTF file; null: the file's default scene
-  const int32_t* animation;  ///< index of an animation of a glTF file, -1: all; null: not animated
-  double time;               ///< of the animation, in seconds
-  int32_t is_sandboxed;      ///< 1: the file is read in a child process with limits
-  uint64_t max_memory;       ///< bytes of decoded data; 0: 4 GiB
-  double max_seconds;        ///< of reading; 0: 60
+  size_t size;                 ///< sizeof(zoneplate_load_options)
+  const char* format;          ///< an extension without its dot, "stl"; null: that of the name
+  const char* variant;         ///< a material variant of a glTF file
+  const int32_t* scene;        ///< index of a scene of a glTF file; null: the file's default scene
+  const int32_t* animation;    ///< index of an animation of a glTF file, -1: all; null: not animated
+  double time;                 ///< of the animation, in seconds
+  int32_t is_sandboxed;        ///< 1: the file is read in a child process with limits
+  uint64_t max_memory;         ///< bytes of decoded data; 0: 4 GiB
+  double max_seconds;          ///< of reading; 0: 60
+  const char* animation_name;  ///< name of an animation, in place of `animation`; null: none
 } zoneplate_load_options;
 
 /// Loads a file by its extension, or makes the built-in scene of that name: "chair.glb", "teapot". `options` may be

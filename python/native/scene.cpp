@@ -19,10 +19,11 @@ zoneplate_scene* scene_of(PyObject* self) { return reinterpret_cast<SceneObject*
   { #member, Kind::kind, offsetof(type, member) __VA_OPT__(, ) __VA_ARGS__ }
 
 constexpr Field load_fields[] = {
-    FIELD(zoneplate_load_options, format, Text),       FIELD(zoneplate_load_options, variant, Text),
-    FIELD(zoneplate_load_options, scene, OptionalInt), FIELD(zoneplate_load_options, animation, OptionalInt),
-    FIELD(zoneplate_load_options, time, Double),       FIELD(zoneplate_load_options, is_sandboxed, Flag),
-    FIELD(zoneplate_load_options, max_memory, Long),   FIELD(zoneplate_load_options, max_seconds, Double)};
+    FIELD(zoneplate_load_options, format, Text),        FIELD(zoneplate_load_options, variant, Text),
+    FIELD(zoneplate_load_options, scene, OptionalInt),  FIELD(zoneplate_load_options, animation, OptionalInt),
+    FIELD(zoneplate_load_options, time, Double),        FIELD(zoneplate_load_options, is_sandboxed, Flag),
+    FIELD(zoneplate_load_options, max_memory, Long),    FIELD(zoneplate_load_options, max_seconds, Double),
+    FIELD(zoneplate_load_options, animation_name, Text)};
 constexpr Field material_fields[] = {FIELD(zoneplate_material, name, Text),
                                      FIELD(zoneplate_material, model, Int),
                                      FIELD(zoneplate_material, alpha_mode, Int),

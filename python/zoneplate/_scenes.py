@@ -419,7 +419,7 @@ def load(
     format: str | None = None,
     variant: str | None = None,
     scene: int | None = None,
-    animation: int | None = None,
+    animation: int | str | None = None,
     time: float = 0.0,
     sandbox: bool = False,
     max_memory: int | None = None,
@@ -427,7 +427,7 @@ def load(
 ) -> Scene:
     """Loads a model (glTF, OBJ, PLY, STL and others) or a built-in scene: "chair.glb", "teapot".
 
-    `animation` and `time` pose an animated glTF file; -1 means all its animations. `sandbox` reads an untrusted file in a
+    `animation`, an index or a name, and `time` pose an animated glTF file; -1 means all its animations. `sandbox` reads an untrusted file in a
     child process with limits.
     """
     return Scene._load(
@@ -436,7 +436,8 @@ def load(
             "format": format,
             "variant": variant,
             "scene": scene,
-            "animation": animation,
+            "animation": None if isinstance(animation, str) else animation,
+            "animation_name": animation if isinstance(animation, str) else None,
             "time": time,
             "is_sandboxed": sandbox,
             "max_memory": max_memory,

@@ -18,17 +18,26 @@ struct Lighting {
   float3 ambient_light{0, 0, 0};  ///< Scene::ambient_light
 };
 
+/// Which lights of a scene are used.
+enum class LightSource {
+  Scene,    ///< those of the scene; the default light where it has none
+  Default,  ///< the default light, or the environment of the options, in place of those of the scene
+  Both,     ///< those of the scene and the default light
+};
+
 /// Changes to the lighting of a scene.
 struct LightingOptions {
-  float intensity = 1;                     ///< multiplies every light, and the studio
-  std::optional<Environment> environment;  ///< in place of the scene's own
+  LightSource source = LightSource::Scene;  ///< which lights are used
+  float intensity = 1;                      ///< multiplies every light, and the studio
+  std::optional<Environment> environment;   ///< in place of the scene's own
   /// Makes the studio of the default light (scene/default_lights.h), for callers that keep it; empty: it is made anew.
   std::function<std::shared_ptr<const PreparedEnvironment>()> studio;
 };
 
 /// The scene's own lighting, changed by the options.
 ///
-/// A scene without lights gets the default light, unless the options give an environment. Where a material is
+/// A scene without lights gets the default light, unless the options give an environment; LightingOptions::source
+/// selects that light for other scenes too. Where a material is
 /// metallic-roughness, that is a studio made in code, which turns with the camera: an environment of soft boxes and a
 /// directional light from the brightest of them. Other scenes get three directional lights and a dim constant
 /// environment (scene/default_lights.h); in a scene of (Blinn-)Phong materials alone these lights are divided by π,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -53,6 +54,9 @@ struct RenderOptions {
   DisplayOptions display;                           ///< from linear light to display-referred colour
   std::optional<Moment> last;  ///< the moment from which Frame::motion is measured; none: no motion
   std::optional<Moment> next;  ///< the moment to which Frame::flow leads
+  /// Called by any thread while tiles are drawn, with the fraction of them that is complete; a method that draws in
+  /// several rounds begins each at 0.
+  std::function<void(double)> progress;
 };
 
 /// Width / height of the camera's view.

@@ -83,6 +83,7 @@ struct Material {
   AlphaMode alpha_mode = AlphaMode::Opaque;              ///< what the alpha of the base colour means
   float alpha_cutoff = 0.5f;                             ///< an alpha-tested surface is present where alpha >= cutoff
   bool double_sided = false;                             ///< back faces are drawn too
+  bool is_default = false;                               ///< stands for a material that the file does not define
 
   float4 base_color{1, 1, 1, 1};  ///< straight alpha; Blinn-Phong's diffuse coefficient
   TextureUse base_color_texture;  ///< multiplies `base_color`

@@ -171,6 +171,17 @@ TEST(Capi, ReportsErrorsAsCodesWithText) {
 }
 
 // A header from before a member existed passes a smaller size.
+TEST(Capi, TakesTheNameOfAnAnimation) {
+  zoneplate_load_options options{.size = sizeof(zoneplate_load_options), .animation_name = "Run"};
+  zoneplate_scene* scene = nullptr;
+  EXPECT_EQ(zoneplate_scene_load("teapot", &options, &scene), ZONEPLATE_USAGE);
+  EXPECT_STREQ(zoneplate_error_text(), "only glTF files have scenes, variants and animations to choose from");
+  const std::int32_t index = 0;
+  options.animation = &index;
+  EXPECT_EQ(zoneplate_scene_load("teapot", &options, &scene), ZONEPLATE_USAGE);
+  EXPECT_STREQ(zoneplate_error_text(), "zoneplate_load_options: animation and animation_name exclude each other");
+}
+
 TEST(Capi, CompletesOptionsOfAnOlderHeader) {
   zoneplate_render_options options = small;
   options.size = offsetof(zoneplate_render_options, method);

@@ -35,6 +35,9 @@ LoadOptions load_options_of(const zoneplate_load_options* given) {
   out.choice.variant = text_of(o.variant);
   if (o.scene != nullptr) out.choice.scene = *o.scene;
   if (o.animation != nullptr) out.choice.animation = *o.animation;
+  out.choice.animation_name = text_of(o.animation_name);
+  if (o.animation != nullptr && !out.choice.animation_name.empty())
+    refuse("zoneplate_load_options: animation and animation_name exclude each other");
   out.choice.time = o.time;
   if (o.max_memory > 0) out.limits.memory = o.max_memory;
   if (o.max_seconds > 0) out.limits.seconds = o.max_seconds;

@@ -9,12 +9,27 @@
 
 #include "zoneplate/base/closest.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/cli/completions.h"
 #include "zoneplate/cli/log.h"
+#include "zoneplate/cli/man_page.h"
+#include "zoneplate/cli/values.h"
 
 namespace zoneplate::cli {
-namespace {
 
 std::vector<std::string> names_of(const Option& option) { return CLI::detail::split_names(option.names); }
+
+Option choice_option(std::string names, std::string value, std::string meaning, std::string group, bool is_basic,
+                     std::vector<std::string_view> choices, std::function<void(std::size_t)> set) {
+  return {.names = std::move(names),
+          .value = std::move(value),
+          .meaning = std::move(meaning),
+          .group = std::move(group),
+          .is_basic = is_basic,
+          .set = [choices, set = std::move(set)](const std::string& text) { set(parse_choice(text, choices)); },
+          .choices = choices};
+}
+
+namespace {
 
 // The names of an option in help, short forms first: "-o, --output FILE".
 std::string shown(const Option& option) {
@@ -44,6 +59,25 @@ std::string wrapped(const std::string& text, std::size_t width, std::size_t inde
 
 constexpr std::size_t help_width = 100, help_column = 34;
 
+// Breaks the lines of each paragraph anew. Lines that begin with a space, as those of tables, stay as they are.
+std::string reflowed(const std::string& text) {
+  std::string out, paragraph;
+  const auto end_paragraph = [&] {
+    if (!paragraph.empty()) out += wrapped(paragraph, help_width, 0) + '\n';
+    paragraph.clear();
+  };
+  for (const std::string& line : CLI::detail::split(text, '\n')) {
+    if (!line.empty() && line[0] != ' ') {
+      paragraph += (paragraph.empty() ? "" : " ") + line;
+      continue;
+    }
+    end_paragraph();
+    out += line + '\n';
+  }
+  end_paragraph();
+  return out;
+}
+
 std::string help_line(const Option& option) {
   std::string left = "  " + shown(option);
   left += left.size() + 2 > help_column ? '\n' + std::string(help_column, ' ')
@@ -53,6 +87,13 @@ std::string help_line(const Option& option) {
 
 std::string usage_line(const Syntax& syntax) {
   return fmt::format("Usage: zoneplate {} {} [OPTIONS]\n\n{}.\n", syntax.verb, syntax.operands, syntax.summary);
+}
+
+// A heading as one word: "materials-and-lights".
+std::string word_of(std::string_view heading) {
+  std::string word(heading);
+  for (char& c : word) c = c == ' ' ? '-' : c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return word;
 }
 
 // Options of other programs, and what they are called here.
@@ -75,16 +116,46 @@ constexpr Synonym synonyms[] = {
     {"--fov", "--camera-view-angle"},
     {"--azimuth", "--camera-azimuth-angle"},
     {"--elevation", "--camera-elevation-angle"},
+    {"--camera-azimuth", "--camera-azimuth-angle"},
+    {"--camera-elevation", "--camera-elevation-angle"},
+    {"--texture-base-color", "--texture"},
+    {"--texture-material", "--texture"},
+    {"--base-color", "--color"},
+    {"--opacity", "--color"},
+    {"--model-color", "--color"},
+    {"--hdri-ambient", "--hdri-file"},
+    {"--skybox", "--hdri-file"},
+    {"--hdri-skybox", "--background-color"},
+    {"--blur-background", "--background-blur"},
+    {"--point-sprites", "--point-size"},
+    {"--no-render", "--dry-run"},
+    {"--config", "--preset"},
+    {"--raytracing-samples", "--anti-aliasing"},
+    {"--animation-speed-factor", "--frame-rate"},
+    {"--animation-name", "--animation-index"},
     // Blender
     {"--render-output", "--output"},
     {"--render-frame", "--frame-start"},
     {"--render-format", "--output-format"},
+    {"--render-anim", "--frames"},
+    {"--use-extension", "--output"},
     {"--fps", "--frame-rate"},
+    {"--frame-step", "--frame-jump"},
+    {"--view-transform", "--tone-mapping"},
     // OpenImageIO's idiff, pixelmatch, odiff
     {"--fail", "--threshold"},
     {"--failpercent", "--threshold"},
     {"--tolerance", "--threshold"},
     {"--diff", "--map"},
+    {"--warn", "--threshold"},
+    {"--warnpercent", "--threshold"},
+    {"--abs", "--map"},
+    {"--scale", "--map-gain"},
+    // OpenImageIO's oiiotool
+    {"--compression", "--exr-compression"},
+    {"--tocolorspace", "--color-management"},
+    {"--mulc", "--exposure"},
+    {"--cut", "--crop"},
     // ImageMagick, and habits of many programs
     {"--out", "--output"},
     {"--width", "--resolution"},
@@ -92,6 +163,14 @@ constexpr Synonym synonyms[] = {
     {"--geometry", "--resolution"},
     {"--resize", "--resolution"},
     {"--depth", "--bit-depth"},
+    {"--density", "--resolution"},
+    {"--colorspace", "--color-management"},
+    {"--gravity", "--crop"},
+    {"--define", "--jpeg-quality"},
+    {"--small", "--png-compression"},
+    {"--delay", "--frame-rate"},
+    {"--montage", "--columns"},
+    {"--tile", "--columns"},
     {"--transparent", "--no-background"},
     {"--alpha", "--no-background"},
     {"--jobs", "--threads"},
@@ -148,6 +227,13 @@ void set(const Option& option, const std::string& text) {
   throw Error(ErrorKind::Usage, names_of(option).front() + " takes no value");
 }
 
+std::string help_of_form(const Syntax& syntax, const std::string& form) {
+  if (form == "true") return full_help(syntax);
+  if (form == "man") return man_section(syntax);
+  if (const std::optional<Shell> shell = shell_of(form)) return completions_of(syntax, *shell);
+  return group_help(syntax, form);
+}
+
 std::string missing_value(const Option& option) { return names_of(option).front() + " needs a value: " + option.value; }
 
 }  // namespace
@@ -182,7 +268,8 @@ bool parse(Syntax& syntax, std::span<const std::string> arguments) {
   for (const std::string& extra : app.remaining())
     if (extra != "--") refuse_unknown(syntax, extra);
   if (short_help_switch->count() + full_help_switch->count() > 0) {
-    print(full_help_switch->count() > 0 ? full_help(syntax) : short_help(syntax));
+    print(full_help_switch->count() > 0 ? help_of_form(syntax, full_help_switch->results().back())
+                                        : short_help(syntax));
     return false;
   }
 
@@ -218,6 +305,20 @@ std::string short_help(const Syntax& syntax) {
   return text + fmt::format("\nAll options: zoneplate {} --help\n", syntax.verb);
 }
 
+std::string group_help(const Syntax& syntax, const std::string& heading) {
+  std::vector<std::string_view> headings;
+  for (const Option& option : syntax.options)
+    if (std::ranges::find(headings, option.group) == headings.end()) headings.push_back(option.group);
+  std::vector<std::string> words;
+  for (const std::string_view each : headings) words.push_back(word_of(each));
+  const std::string_view chosen =
+      headings[parse_choice(word_of(heading), std::vector<std::string_view>(words.begin(), words.end()))];
+  std::string text = fmt::format("{}:\n", chosen);
+  for (const Option& option : syntax.options)
+    if (option.group == chosen) text += help_line(option);
+  return text;
+}
+
 std::string full_help(const Syntax& syntax) {
   std::string text = usage_line(syntax);
   std::string group;
@@ -225,10 +326,13 @@ std::string full_help(const Syntax& syntax) {
     if (option.group != group) text += fmt::format("\n{}:\n", group = option.group);
     text += help_line(option);
   }
+  const bool has_groups = !syntax.options.empty() && syntax.options.front().group != group;
+  const std::string one_group =
+      has_groups ? "; --help=GROUP: one group of it, as --help=" + word_of(syntax.options.front().group) : "";
   text += "\nOther:\n" + help_line({.names = "-h", .meaning = "Short help with examples"}) +
-          help_line({.names = "--help", .meaning = "This text"});
+          help_line({.names = "--help", .meaning = "This text" + one_group});
   if (!syntax.examples.empty()) text += "\nExamples:\n" + syntax.examples;
-  if (!syntax.notes.empty()) text += '\n' + syntax.notes;
+  if (!syntax.notes.empty()) text += '\n' + reflowed(syntax.notes);
   return text;
 }
 

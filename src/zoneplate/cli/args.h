@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace zoneplate::cli {
@@ -17,7 +18,15 @@ struct Option {
   std::string group;                            ///< heading in the full help
   bool is_basic = false;                        ///< included in the short help
   std::function<void(const std::string&)> set;  ///< takes the value's text (empty for a switch)
+  std::vector<std::string_view> choices{};      ///< values that shells complete
 };
+
+/// An option whose value is one of `choices`; `set` takes the index of the chosen one.
+Option choice_option(std::string names, std::string value, std::string meaning, std::string group, bool is_basic,
+                     std::vector<std::string_view> choices, std::function<void(std::size_t)> set);
+
+/// All forms of an option's name, as in the table.
+std::vector<std::string> names_of(const Option& option);
 
 /// The arguments of a verb, and the texts of its help.
 struct Syntax {
@@ -30,7 +39,8 @@ struct Syntax {
 };
 
 /// Parses the arguments after the verb: options in any order, `--name=value` or `--name value`; `--` ends options, and
-/// the last one of a repeated option counts. Returns false after printing the help for -h or --help.
+/// the last one of a repeated option counts. Returns false after printing the help for -h, --help or --help=FORM: FORM
+/// is the heading of a group of options, man (man_page.h), or bash, zsh or fish (completions.h).
 ///
 /// Errors    ErrorKind::Usage naming the option: unknown (with the closest one), without its value, or rejected by
 ///           `set`.
@@ -41,8 +51,10 @@ bool parse(Syntax& syntax, std::span<const std::string> arguments);
 /// Errors    as `parse`.
 void set_option(const Syntax& syntax, const std::string& name, const std::optional<std::string>& value);
 
-/// The text of the short help (-h) and of the full one (--help).
+/// The text of the short help (-h), of the full one (--help), and of the options of one group (--help=camera).
 std::string short_help(const Syntax& syntax);
 std::string full_help(const Syntax& syntax);
+/// Errors    ErrorKind::Usage for a heading that no group has.
+std::string group_help(const Syntax& syntax, const std::string& heading);
 
 }  // namespace zoneplate::cli

@@ -89,7 +89,7 @@ TEST(Help, ShortHasTheBasicOptionsAndExamplesFullHasAll) {
             "Form:\n  -s, --size, --extent N          How large\n\n"
             "Sound:\n  --loud                          Noise\n\n"
             "Other:\n  -h                              Short help with examples\n"
-            "  --help                          This text\n"
+            "  --help                          This text; --help=GROUP: one group of it, as --help=form\n"
             "\nExamples:\n  zoneplate toy x\n\nNotes.\n");
 }
 
@@ -97,6 +97,19 @@ TEST(Help, BreaksLongMeanings) {
   Toy toy;
   toy.syntax.options[1].meaning = std::string(60, 'a') + ' ' + std::string(20, 'b');
   EXPECT_NE(full_help(toy.syntax).find("a\n                                  bbb"), std::string::npos);
+}
+
+TEST(Help, ShowsOneGroup) {
+  const Toy toy;
+  EXPECT_EQ(group_help(toy.syntax, "Sound"), "Sound:\n  --loud                          Noise\n");
+  EXPECT_THROW(group_help(toy.syntax, "noise"), Error);
+}
+
+TEST(Help, FillsParagraphsAndKeepsIndentedLines) {
+  Toy toy;
+  const std::string word(60, 'a');
+  toy.syntax.notes = word + "\n" + "b " + word + "\n  " + word + ' ' + word + "\n\nend\n";
+  EXPECT_TRUE(full_help(toy.syntax).ends_with('\n' + word + " b\n" + word + "\n  " + word + ' ' + word + "\n\nend\n"));
 }
 
 }  // namespace

@@ -105,9 +105,9 @@ Json scenes_json() {
 
 // render/picture.cpp and render/film.cpp select the writers by these extensions.
 constexpr SceneFormat picture_formats[] = {{".png", "8 or 16 bits per channel, sRGB; - writes to stdout"},
-                                           {".jpg", "quality 92, no chroma subsampling (4:4:4)"},
-                                           {".webp", "lossless; several frames make an animation"},
-                                           {".exr", "half floats in linear light, data passes as layers"},
+                                           {".jpg", "quality 92 or --jpeg-quality, no chroma subsampling (4:4:4)"},
+                                           {".webp", "lossless or --webp-quality; several frames make an animation"},
+                                           {".exr", "half floats in linear light, transparent, data passes as layers"},
                                            {".rgba", "raw sRGB-encoded values, 8 or 16 bits per channel"},
                                            {".pfm", "floats in linear light, before tone mapping"},
                                            {".apng", "lossless animation"},

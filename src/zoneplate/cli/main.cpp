@@ -22,23 +22,8 @@
 namespace zoneplate::cli {
 namespace {
 
-constexpr Verb verbs[] = {
-    {"render", "render a model or a built-in scene to an image (the verb is optional)", run_render},
-    {"contact-sheet", "render many models into one image, with their names", run_contact_sheet},
-    {"list", "list antialiasing methods, built-in scenes and file formats", run_list},
-    {"info", "print the contents of a model", run_info},
-    {"metrics", "measure the difference between images and a reference", run_metrics},
-    {"filter", "antialias existing images by a post-process filter", run_filter},
-    {"compare", "compare antialiasing methods on scenes against a reference", run_compare},
-    {"fidelity", "compare renderings with those of other renderers", run_fidelity},
-    {"bench", "measure frame times, stage by stage", run_bench},
-    {"demo", "make captioned images that explain aliasing and antialiasing", run_demo},
-    {"signal", "analyse and filter images: spectra, convolution, resampling", run_signal},
-    {"texture", "make mip levels and normal maps of images", run_texture},
-    {"sdf", "draw shapes and text from signed distance fields", run_sdf}};
-
 const Verb* find_verb(std::string_view name) {
-  for (const Verb& verb : verbs)
+  for (const Verb& verb : all_verbs())
     if (verb.name == name) return &verb;
   return nullptr;
 }
@@ -48,14 +33,14 @@ std::string overview() {
          "\n"
          "Usage: zoneplate [VERB] ARGUMENTS\n"
          "\n" +
-         lines_of(verbs, 15) +
+         lines_of(all_verbs(), 15) +
          "\n"
          "Examples:\n"
          "  zoneplate teapot -o teapot.png\n"
          "  zoneplate render chair.glb -o chair.png --size 1024x768 --aa ssaa:n=4\n"
          "  zoneplate list methods\n"
          "\n"
-         "More: zoneplate VERB -h (short), zoneplate VERB --help (everything), zoneplate --version\n";
+         "More: zoneplate VERB -h (short), zoneplate VERB --help (everything), zoneplate man, zoneplate --version\n";
 }
 
 // A first word that is not a verb is the input of render. Throws if it is a misspelt verb or scene.
@@ -64,7 +49,7 @@ void refuse_misspelt_verb(const std::string& word) {
   if (word.starts_with('-') || word.find_first_of("./:") != std::string::npos) return;
   if (std::filesystem::exists(word, ignored)) return;
   std::vector<std::string_view> names{"help"};
-  for (const Verb& verb : verbs) names.push_back(verb.name);
+  for (const Verb& verb : all_verbs()) names.push_back(verb.name);
   const std::size_t verb_count = names.size();
   for (const BuiltinScene& scene : builtin_scenes()) names.push_back(scene.name);
   for (const BuiltinScene& scene : builtin_scenes())
@@ -111,9 +96,13 @@ void shorten_stacks_of_threads() {
   ::pthread_attr_destroy(&attributes);
 }
 
-// Signal handler: removes temporary files and exits with the shell's code for the signal.
+bool has_progress_bar = false;
+
+// Signal handler: removes temporary files and exits with the shell's code for the signal. On a terminal the prompt
+// follows on a new line, below the progress bar.
 extern "C" void leave(int signal) {
   remove_temporaries();
+  if (has_progress_bar) static_cast<void>(!::write(STDERR_FILENO, "\n", 1));
   ::_exit(128 + signal);
 }
 
@@ -137,6 +126,7 @@ int exit_code(ErrorKind kind) {
 int main(int argc, char** argv) {
   using namespace zoneplate;
   cli::occupy_closed_streams();
+  cli::has_progress_bar = cli::stderr_is_terminal();
   for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     if (std::signal(signal, cli::leave) == SIG_IGN) std::signal(signal, SIG_IGN);  // nohup ignores signals
   std::signal(SIGPIPE, SIG_IGN);  // writing to a closed stdout is an error of write(), with exit code 4

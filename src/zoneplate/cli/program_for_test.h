@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -40,6 +41,7 @@ class ProgramTest : public testing::Test {
     std::string name = (std::filesystem::temp_directory_path() / "zoneplate_program_XXXXXX").string();
     ASSERT_NE(::mkdtemp(name.data()), nullptr);
     place = name;
+    ::setenv("XDG_CONFIG_HOME", (place / "config").c_str(), 1);  // not the configuration of the user
   }
   void TearDown() override { std::filesystem::remove_all(place); }
 

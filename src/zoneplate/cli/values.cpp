@@ -12,6 +12,7 @@
 
 #include "zoneplate/base/closest.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/image/hex_color.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -48,56 +49,41 @@ std::optional<std::vector<float>> numbers_in(std::string_view text) {
   return numbers;
 }
 
-[[noreturn]] void refuse(const std::string& text, const std::string& expected) {
+[[noreturn]] void refuse_text(const std::string& text, const std::string& expected) {
   throw Error(ErrorKind::Usage, fmt::format("'{}' is not {}", text, expected));
 }
 
-// Parses the digits after the '#' of "#rgb", "#rgba", "#rrggbb", "#rrggbbaa".
-std::optional<float4> hex_color(std::string_view digits) {
-  const bool is_short = digits.size() == 3 || digits.size() == 4;
-  if (!is_short && digits.size() != 6 && digits.size() != 8) return std::nullopt;
-  const std::size_t step = is_short ? 1 : 2;
-  float channel[4] = {0, 0, 0, 1};
-  for (std::size_t i = 0; i * step < digits.size(); ++i) {
-    const std::string_view part = digits.substr(i * step, step);
-    int code = 0;
-    const auto [end, error] = std::from_chars(part.data(), part.data() + part.size(), code, 16);
-    if (error != std::errc{} || end != part.data() + part.size() || code < 0) return std::nullopt;
-    channel[i] = static_cast<float>(is_short ? code * 17 : code) / 255;
-  }
-  return float4{channel[0], channel[1], channel[2], channel[3]};
-}
-
-// The sixteen basic names of CSS and the usual synonyms, as rrggbbaa.
+// The sixteen basic names of CSS and the usual synonyms.
 // Source: W3C, CSS Color Module Level 3, section 4.1.
 struct NamedColor {
-  std::string_view name, digits;
+  std::string_view name, hex;
 };
-constexpr NamedColor named_colors[] = {{"black", "000000"},   {"silver", "c0c0c0"}, {"gray", "808080"},
-                                       {"grey", "808080"},    {"white", "ffffff"},  {"maroon", "800000"},
-                                       {"red", "ff0000"},     {"purple", "800080"}, {"fuchsia", "ff00ff"},
-                                       {"magenta", "ff00ff"}, {"green", "008000"},  {"lime", "00ff00"},
-                                       {"olive", "808000"},   {"yellow", "ffff00"}, {"orange", "ffa500"},
-                                       {"navy", "000080"},    {"blue", "0000ff"},   {"teal", "008080"},
-                                       {"aqua", "00ffff"},    {"cyan", "00ffff"},   {"transparent", "00000000"}};
+constexpr NamedColor named_colors[] = {{"black", "#000000"},   {"silver", "#c0c0c0"}, {"gray", "#808080"},
+                                       {"grey", "#808080"},    {"white", "#ffffff"},  {"maroon", "#800000"},
+                                       {"red", "#ff0000"},     {"purple", "#800080"}, {"fuchsia", "#ff00ff"},
+                                       {"magenta", "#ff00ff"}, {"green", "#008000"},  {"lime", "#00ff00"},
+                                       {"olive", "#808000"},   {"yellow", "#ffff00"}, {"orange", "#ffa500"},
+                                       {"navy", "#000080"},    {"blue", "#0000ff"},   {"teal", "#008080"},
+                                       {"aqua", "#00ffff"},    {"cyan", "#00ffff"},   {"transparent", "#00000000"}};
 
 }  // namespace
 
 double parse_number(const std::string& text, double low, double high) {
   const std::optional<double> value = number_in<double>(text);
-  if (!value || *value < low || *value > high) refuse(text, fmt::format("a number from {} to {}", low, high));
+  if (!value || *value < low || *value > high) refuse_text(text, fmt::format("a number from {} to {}", low, high));
   return *value;
 }
 
 int parse_whole(const std::string& text, int low, int high) {
   const std::optional<int> value = number_in<int>(text);
-  if (!value || *value < low || *value > high) refuse(text, fmt::format("a whole number from {} to {}", low, high));
+  if (!value || *value < low || *value > high)
+    refuse_text(text, fmt::format("a whole number from {} to {}", low, high));
   return *value;
 }
 
 float3 parse_triple(const std::string& text) {
   const auto numbers = numbers_in(text);
-  if (!numbers || numbers->size() != 3) refuse(text, "three numbers x,y,z");
+  if (!numbers || numbers->size() != 3) refuse_text(text, "three numbers x,y,z");
   return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
 }
 
@@ -105,24 +91,24 @@ int2 parse_size(const std::string& text, int max_side) {
   const auto sides = split(text, text.find('x') == std::string::npos ? ',' : 'x');
   const auto width = number_in<int>(sides.front()), height = number_in<int>(sides.back());
   if (sides.size() > 2 || !width || !height || *width < 1 || *height < 1)
-    refuse(text, "a size WIDTH,HEIGHT, WIDTHxHEIGHT or SIDE");
+    refuse_text(text, "a size WIDTH,HEIGHT, WIDTHxHEIGHT or SIDE");
   if (*width > max_side || *height > max_side)
     throw Error(ErrorKind::Usage, fmt::format("{} is too large: a side has at most {} pixels", text, max_side));
   return {*width, *height};
 }
 
 float4 parse_color(const std::string& text) {
-  std::optional<float4> color;
-  if (text.starts_with('#')) color = hex_color(std::string_view(text).substr(1));
+  std::optional<Rgba8> color = parse_hex_color(text);
   for (const NamedColor& named : named_colors)
-    if (text == named.name) color = hex_color(named.digits);
-  if (color) return *color;
+    if (text == named.name) color = parse_hex_color(named.hex);
+  const auto unit = [](std::uint8_t code) { return static_cast<float>(code) / 255; };
+  if (color) return {unit(color->r), unit(color->g), unit(color->b), unit(color->a)};
 
   const auto numbers = numbers_in(text);
   const auto in_range = [](float x) { return x >= 0 && x <= 1; };
   if (!numbers || numbers->size() < 3 || numbers->size() > 4 ||
       !std::all_of(numbers->begin(), numbers->end(), in_range))
-    refuse(text, "a colour: a name as red or white, #rgb, #rrggbb, #rrggbbaa, or r,g,b from 0 to 1");
+    refuse_text(text, "a colour: a name as red or white, #rgb, #rrggbb, #rrggbbaa, or r,g,b from 0 to 1");
   return {(*numbers)[0], (*numbers)[1], (*numbers)[2], numbers->size() == 4 ? (*numbers)[3] : 1.0f};
 }
 
@@ -133,7 +119,8 @@ std::uint64_t parse_bytes(const std::string& text) {
   if (unit != std::string_view::npos) digits.remove_suffix(1);
   const int shift = unit == std::string_view::npos ? 0 : 10 * (static_cast<int>(unit) + 1);
   const auto value = number_in<std::uint64_t>(digits);
-  if (!value || *value == 0 || *value > (~std::uint64_t{0} >> shift)) refuse(text, "a size as 1000000, 512M or 4G");
+  if (!value || *value == 0 || *value > (~std::uint64_t{0} >> shift))
+    refuse_text(text, "a size as 1000000, 512M or 4G");
   return *value << shift;
 }
 

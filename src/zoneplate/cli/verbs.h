@@ -26,7 +26,17 @@ class Difference : public std::runtime_error {
 struct Verb {
   std::string_view name, summary;
   void (*run)(std::span<const std::string> arguments);
+  std::span<const Verb> (*subcommands)() = nullptr;  ///< of a verb that only chooses one of them
 };
+
+/// The verbs of the command.
+std::span<const Verb> all_verbs();
+///@{
+/// The subcommands of these verbs.
+std::span<const Verb> signal_verbs();
+std::span<const Verb> texture_verbs();
+std::span<const Verb> sdf_verbs();
+///@}
 
 /// One line per verb, with its name in a column of `width` characters.
 inline std::string lines_of(std::span<const Verb> verbs, int width) {
@@ -51,5 +61,7 @@ void run_demo(std::span<const std::string> arguments);
 void run_signal(std::span<const std::string> arguments);
 void run_texture(std::span<const std::string> arguments);
 void run_sdf(std::span<const std::string> arguments);
+void run_completions(std::span<const std::string> arguments);
+void run_man(std::span<const std::string> arguments);
 
 }  // namespace zoneplate::cli

@@ -19,8 +19,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 static_assert(std::endian::native == std::endian::little, "words are written as they are");
 
-constexpr std::size_t zip_lines = 16;
-constexpr std::uint8_t zip_compression = 3, increasing_y = 0;
+constexpr std::uint8_t increasing_y = 0;
 
 template <class T>
 void put(Bytes& out, T value) {
@@ -45,6 +44,22 @@ Bytes values_of(T... values) {
   return out;
 }
 
+void put_attribute(Bytes& out, std::string_view name, const std::string& text) {
+  put_attribute(out, name, "string", Bytes(text.begin(), text.end()));
+}
+void put_attribute(Bytes& out, std::string_view name, float value) {
+  put_attribute(out, name, "float", values_of(value));
+}
+void put_attribute(Bytes& out, std::string_view name, ExrRational value) {
+  put_attribute(out, name, "rational", values_of(value.numerator, value.denominator));
+}
+void put_attribute(Bytes& out, std::string_view name, const ExrChromaticities& value) {
+  put_attribute(out, name, "chromaticities", values_of(value));
+}
+void put_attribute(Bytes& out, std::string_view name, const ExrMatrix& value) {
+  put_attribute(out, name, "m44f", values_of(value));
+}
+
 std::size_t size_of(ExrType type) { return type == ExrType::Half ? 2 : 4; }
 
 Bytes list_of(std::span<const ExrChannel> channels) {
@@ -60,18 +75,20 @@ Bytes list_of(std::span<const ExrChannel> channels) {
   return out;
 }
 
-Bytes header_of(int width, int height, std::span<const ExrChannel> channels, const ExrAttributes& attributes) {
+Bytes header_of(int width, int height, std::span<const ExrChannel> channels, const ExrAttributes& attributes,
+                ExrCompression compression) {
   Bytes out = {0x76, 0x2f, 0x31, 0x01, 2, 0, 0, 0};
   const Bytes window = values_of(0, 0, width - 1, height - 1);
   put_attribute(out, "channels", "chlist", list_of(channels));
-  put_attribute(out, "compression", "compression", {zip_compression});
+  put_attribute(out, "compression", "compression", {static_cast<std::uint8_t>(compression)});
   put_attribute(out, "dataWindow", "box2i", window);
   put_attribute(out, "displayWindow", "box2i", window);
   put_attribute(out, "lineOrder", "lineOrder", {increasing_y});
   put_attribute(out, "pixelAspectRatio", "float", values_of(1.0f));
   put_attribute(out, "screenWindowCenter", "v2f", values_of(0.0f, 0.0f));
   put_attribute(out, "screenWindowWidth", "float", values_of(1.0f));
-  for (const auto& [name, text] : attributes) put_attribute(out, name, "string", Bytes(text.begin(), text.end()));
+  for (const ExrAttributes::value_type& attribute : attributes)
+    std::visit([&](const auto& value) { put_attribute(out, attribute.first, value); }, attribute.second);
   out.push_back(0);
   return out;
 }
@@ -125,17 +142,19 @@ Bytes packed(Bytes raw) {
 }  // namespace
 
 std::vector<std::uint8_t> encode_exr(int width, int height, std::vector<ExrChannel> channels,
-                                     const ExrAttributes& attributes) {
+                                     const ExrAttributes& attributes, ExrCompression compression) {
   assert(width > 0 && height > 0 && !channels.empty());
   std::ranges::sort(channels, {}, &ExrChannel::name);
   const auto lines = static_cast<std::size_t>(height);
-  std::vector<Bytes> blocks((lines + zip_lines - 1) / zip_lines);
+  const std::size_t block_lines = compression == ExrCompression::Zip ? 16 : 1;
+  std::vector<Bytes> blocks((lines + block_lines - 1) / block_lines);
   parallel_for(blocks.size(), [&](std::size_t i) {
-    const std::size_t first = i * zip_lines, end = std::min(lines, first + zip_lines);
-    blocks[i] = packed(rows_of(channels, static_cast<std::size_t>(width), first, end));
+    const std::size_t first = i * block_lines, end = std::min(lines, first + block_lines);
+    Bytes rows = rows_of(channels, static_cast<std::size_t>(width), first, end);
+    blocks[i] = compression == ExrCompression::None ? std::move(rows) : packed(std::move(rows));
   });
 
-  Bytes out = header_of(width, height, channels, attributes);
+  Bytes out = header_of(width, height, channels, attributes, compression);
   // The table of block offsets, then the blocks: first row, size, bytes.
   std::uint64_t at = out.size() + 8 * blocks.size();
   for (const Bytes& block : blocks) {
@@ -144,7 +163,7 @@ std::vector<std::uint8_t> encode_exr(int width, int height, std::vector<ExrChann
   }
   out.reserve(static_cast<std::size_t>(at));
   for (std::size_t i = 0; i < blocks.size(); ++i) {
-    put(out, static_cast<std::int32_t>(i * zip_lines));
+    put(out, static_cast<std::int32_t>(i * block_lines));
     put(out, static_cast<std::uint32_t>(blocks[i].size()));
     out.insert(out.end(), blocks[i].begin(), blocks[i].end());
   }

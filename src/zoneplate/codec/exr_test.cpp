@@ -65,6 +65,14 @@ TEST(Exr, TheLibraryReadsFloatsAsTheyWereWritten) {
   }
 }
 
+TEST(Exr, EveryCompressionHoldsTheSameImage) {
+  const LinearImage image = make_image(33, 40);
+  for (const ExrCompression compression : {ExrCompression::None, ExrCompression::Zips, ExrCompression::Zip}) {
+    const Bytes bytes = encode_exr(33, 40, channels_of(image, ExrType::Float), {}, compression);
+    EXPECT_EQ(decode_exr(bytes, "a.exr"), image) << static_cast<int>(compression);
+  }
+}
+
 TEST(Exr, HalvesAreTheNearest) {
   const LinearImage image = make_image(20, 30);
   const LinearImage out = decode_exr(exr_of(image, ExrType::Half), "a.exr");

@@ -13,7 +13,7 @@
 
 namespace zoneplate {
 
-std::vector<std::uint8_t> encode_jpeg(const Rgba8Image& image) {
+std::vector<std::uint8_t> encode_jpeg(const Rgba8Image& image, int quality) {
   if (image.width() < 1 || image.height() < 1 || image.width() > JPEG_MAX_DIMENSION ||
       image.height() > JPEG_MAX_DIMENSION)
     throw Error(ErrorKind::Failed, "an image of " + std::to_string(image.width()) + " x " +
@@ -31,7 +31,7 @@ std::vector<std::uint8_t> encode_jpeg(const Rgba8Image& image) {
   jpeg.input_components = 4;
   jpeg.in_color_space = JCS_EXT_RGBX;
   jpeg_set_defaults(&jpeg);
-  jpeg_set_quality(&jpeg, 92, TRUE);
+  jpeg_set_quality(&jpeg, quality, TRUE);
   jpeg.dct_method = JDCT_ISLOW;
   jpeg.optimize_coding = TRUE;
   for (int c = 0; c < jpeg.num_components; ++c) jpeg.comp_info[c].h_samp_factor = jpeg.comp_info[c].v_samp_factor = 1;

@@ -8,10 +8,13 @@
 
 namespace zoneplate {
 
-/// A JPEG file of quality 92 without chroma subsampling; alpha is omitted.
+/// libjpeg's quality of files for which no other one is chosen, 1 to 100.
+inline constexpr int usual_jpeg_quality = 92;
+
+/// A JPEG file without chroma subsampling; alpha is omitted.
 ///
 /// Exact     the integer transform: the same bytes with the same version of libjpeg.
 /// Errors    ErrorKind::Failed: sides above 65500 pixels.
-std::vector<std::uint8_t> encode_jpeg(const Rgba8Image& image);
+std::vector<std::uint8_t> encode_jpeg(const Rgba8Image& image, int quality = usual_jpeg_quality);
 
 }  // namespace zoneplate

@@ -53,14 +53,19 @@ Rgba8Image decode_webp(std::span<const std::uint8_t> bytes, const std::string& n
   return image;
 }
 
-std::vector<std::uint8_t> encode_webp(const Rgba8Image& image, bool has_alpha) {
+std::vector<std::uint8_t> encode_webp(const Rgba8Image& image, bool has_alpha, std::optional<int> quality) {
   WebPConfig config;
   WebPPicture picture;
   if (WebPConfigInit(&config) == 0 || WebPPictureInit(&picture) == 0)
     throw Error(ErrorKind::Failed, "libwebp has another version than its headers");
-  config.lossless = 1;
-  config.exact = 1;     // keeps the colours of transparent pixels, because filters blend them
-  config.quality = 70;  // the effort, the same as in libwebp's simple API
+  if (quality) {
+    config.quality = static_cast<float>(*quality);
+    config.use_sharp_yuv = 1;  // less colour bleeding at edges
+  } else {
+    config.lossless = 1;
+    config.exact = 1;     // keeps the colours of transparent pixels, because filters blend them
+    config.quality = 70;  // the effort, the same as in libwebp's simple API
+  }
 
   WebPMemoryWriter writer;
   WebPMemoryWriterInit(&writer);

@@ -23,11 +23,12 @@ std::optional<int2> find_webp_size(std::span<const std::uint8_t> bytes);
 /// Errors    ErrorKind::Input with `name` in front: corrupt, animated, more than `max_pixels`.
 Rgba8Image decode_webp(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
 
-/// Encodes a lossless WebP file, including the colours of transparent pixels; without `has_alpha`, alpha is not
-/// written.
+/// Encodes a WebP file: lossless, including the colours of transparent pixels, or of a quality from 0 to 100 with
+/// chroma subsampling. Without `has_alpha`, alpha is not written; with it, alpha is lossless.
 ///
 /// Exact     the same bytes with the same version of libwebp.
 /// Errors    ErrorKind::Failed: sides above 16383 pixels.
-std::vector<std::uint8_t> encode_webp(const Rgba8Image& image, bool has_alpha);
+std::vector<std::uint8_t> encode_webp(const Rgba8Image& image, bool has_alpha,
+                                      std::optional<int> quality = std::nullopt);
 
 }  // namespace zoneplate

@@ -196,7 +196,10 @@ class FileWriter::Temporary {
       if (fd_ >= 0) return;
       const int error = errno;
       leave(slot_);
-      if (error == ENOENT) throw write_error(name, "no directory " + target.parent_path().string());
+      std::error_code ignored;
+      const std::filesystem::path folder = target.parent_path();
+      if (error == ENOENT && !std::filesystem::is_directory(folder.empty() ? "." : folder, ignored))
+        throw write_error(name, "no directory " + folder.string());
       if (error != EEXIST) throw write_error(name, cause_of(error));
     }
     throw write_error(name, "its temporary names are taken, as " + path_);

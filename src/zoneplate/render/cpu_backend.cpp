@@ -300,8 +300,7 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
   const float4x4 clip_from_camera = camera.clip_from_camera(aspect_of(options));
   const float4x4 clip_from_world = clip_from_camera * inverse(camera.world_from_camera);
   SceneDraws draws = growing("draws", [&] { return make_draws(scene, clip_from_world, options); });
-  const RasterRules rules{
-      .edge_rule = options.edge_rule, .visibility = options.visibility, .capacity = options.capacity};
+  RasterRules rules{.edge_rule = options.edge_rule, .visibility = options.visibility, .capacity = options.capacity};
   ViewUniforms view = view_uniforms_of(prepared.lighting(), scene.up, camera, clip_from_camera, options);
   if (request.content == Content::Colour) view.visibility = shadows_.of_frame(prepared, view, options);
   std::optional<Ground> ground;
@@ -316,6 +315,7 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
     backdrop = make_backdrop(prepared, view, draws.draws, shadow_catcher, clip_from_world, rules, options, memory_);
   if (backdrop) view.backdrop = backdrop->view();
   const SceneFragmentShader points(prepared, view, shadow_catcher);
+  if (options.progress) rules.progress = &options.progress;
 
   Frame frame;
   frame.x = crop.x, frame.y = crop.y;

@@ -85,11 +85,19 @@ void convert_material(Material& material, ShadingModel model) {
 }
 
 Lighting make_lighting(const Scene& scene, const LightingOptions& options) {
-  Lighting lighting{scene.lights, scene.environment, scene.ambient_light};
+  Lighting lighting;
+  if (options.source != LightSource::Default) lighting = {scene.lights, scene.environment, scene.ambient_light};
+  const bool is_unlit = lighting.lights.empty() && lighting.environment == Environment{};
   if (options.environment) {
     lighting.environment = *options.environment;
-  } else if (scene.lights.empty() && scene.environment == Environment{}) {
-    lighting = is_mirroring(scene) ? studio_lighting(options) : three_lights(scene);
+  } else if (is_unlit || options.source == LightSource::Both) {
+    Lighting added = is_mirroring(scene) ? studio_lighting(options) : three_lights(scene);
+    if (is_unlit) {
+      lighting = std::move(added);
+    } else {
+      lighting.lights.insert(lighting.lights.end(), added.lights.begin(), added.lights.end());
+      if (lighting.environment == Environment{}) lighting.environment = std::move(added.environment);
+    }
   }
   for (Light& light : lighting.lights) light.intensity *= options.intensity;
   if (lighting.ambient_light == float3{}) lighting.ambient_light = mean_radiance(lighting.environment);

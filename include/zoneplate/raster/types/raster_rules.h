@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
 
 #pragma GCC visibility push(default)
@@ -31,6 +32,8 @@ struct RasterRules {
   EdgeRule edge_rule = EdgeRule::TopLeft;       ///< TopLeft, except for teaching
   Visibility visibility = Visibility::ZBuffer;  ///< ZBuffer, except for teaching
   RasterCapacity capacity;                      ///< trades memory for time; changes no bit of an image
+  /// Called by any thread after each tile, with the fraction of tiles that are complete; null: not called.
+  const std::function<void(double)>* progress = nullptr;
 };
 
 }  // namespace zoneplate

@@ -84,9 +84,10 @@ Syntax compare_syntax(CompareArgs& args) {
        [&](auto& text) { args.metrics = text; }},
       {"--turns", "N", "Frames rendered by each method, of which the fastest counts; default 3", group, false,
        [&](auto& text) { args.turns = parse_whole(text, 1, 1000); }}};
-  constexpr std::string_view left_out[] = {"--output",  "--anti-aliasing", "--no-background", "--crop",
-                                           "--aov",     "--dither",        "--bit-depth",     "--output-format",
-                                           "--upscale", "--render-scale"};
+  constexpr std::string_view left_out[] = {
+      "--output",       "--anti-aliasing",   "--no-background",   "--crop",      "--aov",         "--dither",
+      "--bit-depth",    "--output-format",   "--preset",          "--no-config", "--dry-run",     "--jpeg-quality",
+      "--webp-quality", "--png-compression", "--exr-compression", "--upscale",   "--render-scale"};
   for (Option& option : render_syntax(args.render).options) {
     const std::string first = option.names.substr(0, option.names.find(','));
     if (option.group == "Sequences" || option.group == "Batches") continue;
@@ -205,6 +206,7 @@ SceneTrials compare_scene(const CompareArgs& args, const std::string& name, cons
       scene, view, static_cast<float>(settings.options.width) / static_cast<float>(settings.options.height));
   set_look(args.render, scene);
   const PreparedScene prepared(std::move(scene), args.render.mips);
+  if (args.render.meters_exposure) settings.options.display.exposure = metered_exposure(prepared, camera, args.render);
   SceneTrials out = run_trials({prepared, camera, settings}, options, progress);
   out.scene = name;
   if (const BuiltinScene* listed = find_builtin_scene(name))

@@ -37,15 +37,6 @@ sdf::ShapePtr emblem() {
   return combined(Shape::Kind::Union, {badge, cloud});
 }
 
-Rgba8Image black_on_white(const Plane<float>& coverage) {
-  Rgba8Image out(coverage.width(), coverage.height());
-  std::ranges::transform(coverage.values(), out.values().begin(), [](float c) {
-    const std::uint8_t code = encode_srgb8(1 - c);
-    return Rgba8{code, code, code, 255};
-  });
-  return out;
-}
-
 /// The middle part of an image, or the image on white if it is smaller.
 Rgba8Image fitted_to(const Rgba8Image& image, int width, int height) {
   Rgba8Image out(width, height, Rgba8{255, 255, 255, 255});

@@ -8,14 +8,17 @@
 #include <filesystem>
 #include <iterator>
 
+#include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/spec.h"
+#include "zoneplate/cli/config/config.h"
+#include "zoneplate/cli/look/shadow_args.h"
+#include "zoneplate/cli/look/solid_texture.h"
 #include "zoneplate/cli/render/environment_file.h"
 #include "zoneplate/cli/render/film.h"
 #include "zoneplate/cli/render/frame_name.h"
+#include "zoneplate/cli/render/input_names.h"
 #include "zoneplate/cli/render/output_name.h"
-#include "zoneplate/cli/render/shadow_args.h"
-#include "zoneplate/cli/render/solid_texture.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/elementary.h"
@@ -42,23 +45,35 @@ constexpr const char* notes =
     "\n"
     "Light: a scene without lights gets a studio made in code, which turns with the camera: soft boxes, which metals\n"
     "reflect, and a key light. (Blinn-)Phong materials get a key, a fill and a back light instead. --hdri-file and\n"
-    "--environment replace them. A file with lights of its own has no environment without these options.\n"
+    "--environment replace them. A file with lights of its own has no environment without these options; --lights\n"
+    "default ignores its lights, --lights both adds the studio, and --exposure auto adapts to lights of any strength.\n"
     "\n"
     "Sequences: frame F has the time F / rate seconds of the animation. OUT contains the frame number, as\n"
     "chair.####.png, chair.@@@@.png, chair.$F4.png, chair%04d.png or chair_{frame:04}.png, or is a video. GIF, MP4 and "
     "WebM require the program\n"
     "ffmpeg; their colours are BT.709, and tagged so.\n"
     "\n"
+    ".exr and .pfm: linear light without tone mapping. An .exr is transparent unless --background is given; its "
+    "header\n"
+    "has the camera, worldToCamera and worldToNDC, and the frame rate of a sequence.\n"
+    "\n"
     "Batches: several IN require a folder as OUT, as thumbs/, or a name with placeholders: {model} and {ext} (file "
     "name\n"
     "and extension of IN), {dir} (its folder), {index} or {index:4} (its number). Each item prints one line, which is\n"
-    "JSON if stdout is not a terminal. Two items never write the same file.\n"
+    "JSON if stdout is not a terminal. Two items never write the same file. A folder as IN stands for all models in "
+    "it\n"
+    "and in its folders; the folders of outputs with placeholders are created.\n"
+    "\n"
+    "Configuration: lines of the form `size = 512` or `no-background` are options of every run; those after a line\n"
+    "[NAME] belong to --preset NAME. Options of the command line take precedence.\n"
     "\n"
     "Colours are sRGB: red, #f80, #ff8800, #ff880080 or 1,0.5,0.\n"
     "\n"
     "Exit codes: 0 success, 1 rendering failed, 2 wrong usage, 3 input missing, corrupt or unsupported,\n"
     "4 output cannot be written, 5 some of several items failed, 128+n terminated by signal n. No partial files\n"
     "remain.\n";
+
+using Choices = std::vector<std::string_view>;
 
 /// The options of a level of --quality: 0 fast, 1 default, 2 best.
 void set_quality(RenderArgs& a, int level) {
@@ -97,14 +112,50 @@ Crop parse_crop(const std::string& text) {
   return {numbers[0], numbers[1], numbers[2], numbers[3]};
 }
 
-std::vector<const Aov*> parse_aovs(const std::string& text) {
+Choices stdout_formats() { return {"png", "jpg", "webp", "exr", "pfm", "rgba"}; }
+
+// The number of --quality's level. A number is what --quality means in other programs.
+int parse_quality(const std::string& text) {
+  if (!text.empty() && text.find_first_not_of("0123456789") == text.npos)
+    throw Error(ErrorKind::Usage,
+                fmt::format("'{}' is not one of fast, default, best; did you mean --jpeg-quality {} or "
+                            "--webp-quality {}?",
+                            text, text, text));
+  return static_cast<int>(parse_choice(text, {"fast", "default", "best"}));
+}
+
+Choices method_names() {
+  std::vector<std::string_view> names;
+  for (const Method& method : antialias::methods()) names.push_back(method.name);
+  return names;
+}
+
+Choices upscaler_names() {
+  Choices names;
+  for (const Upscaler& upscaler : upscale::upscalers()) names.push_back(upscaler.name);
+  return names;
+}
+
+Choices aov_names() {
   std::vector<std::string_view> names;
   for (const Aov& aov : aovs()) names.push_back(aov.name);
+  return names;
+}
+
+std::vector<const Aov*> parse_aovs(const std::string& text) {
+  const std::vector<std::string_view> names = aov_names();
   std::vector<const Aov*> found;
   std::size_t at = 0;
   while (at <= text.size()) {
     const std::size_t comma = std::min(text.find(',', at), text.size());
-    found.push_back(&aovs()[parse_choice(text.substr(at, comma - at), names)]);
+    const std::string name = text.substr(at, comma - at);
+    if (name == "all") {
+      for (const Aov& aov : aovs())
+        if (aov.plane != &Planes::motion && aov.plane != &Planes::flow && aov.plane != &Planes::error)
+          found.push_back(&aov);
+    } else {
+      found.push_back(&aovs()[parse_choice(name, names)]);
+    }
     at = comma + 1;
   }
   return found;
@@ -133,12 +184,13 @@ void append_upscaler(RenderArgs& args) {
   args.upscaler.clear(), args.render_scale.reset();
 }
 
-std::string texture_filter_names() {
-  std::string names;
-  for (const TextureFilterEntry& entry : texture_filters())
-    names += (names.empty() ? "" : ", ") + std::string(entry.name);
+Choices texture_filter_list() {
+  std::vector<std::string_view> names;
+  for (const TextureFilterEntry& entry : texture_filters()) names.push_back(entry.name);
   return names;
 }
+
+std::string texture_filter_names() { return fmt::format("{}", fmt::join(texture_filter_list(), ", ")); }
 
 struct MipFilterRow {
   std::string_view name;
@@ -225,12 +277,9 @@ std::vector<Option> picture_options(RenderArgs& a) {
        "Image to write: .png, .jpg, .webp, .exr, .pfm or .rgba, or - for stdout; or a video: .apng, .webp, .gif, "
        ".mp4, .mov, .mkv, .webm",
        group, true, [&](auto& text) { a.output = text; }},
-      {"--output-format", "FORMAT", "Image format on stdout: png, jpg, webp, exr, pfm or rgba; default png", group,
-       false,
-       [&](auto& text) {
-         const std::vector<std::string_view> formats = {"png", "jpg", "webp", "exr", "pfm", "rgba"};
-         a.stdout_format = formats[parse_choice(text, formats)];
-       }},
+      choice_option("--output-format", "FORMAT",
+                    "Image format on stdout: png, jpg, webp, exr, pfm or rgba; default png", group, false,
+                    stdout_formats(), [&](std::size_t i) { a.stdout_format = stdout_formats()[i]; }),
       {"--resolution,--size", "W,H", "Size in pixels, 800,600 or 800x600, or 512 for a square; default 800,600", group,
        true,
        [&](auto& text) {
@@ -238,24 +287,22 @@ std::vector<Option> picture_options(RenderArgs& a) {
          a.options.width = size.x, a.options.height = size.y;
        }},
       {"--quality", "LEVEL",
-       "Sets several options, which options after it change: fast is --aa msaa:n=4; default; best is --aa msaa:n=16 "
-       "--shadows soft:samples=64 --ambient-occlusion rays --ground shadow",
-       group, true,
-       [&](auto& text) {
-         set_quality(a, static_cast<int>(parse_choice(text, {"fast", "default", "best"})));
-       }},
+       "Sets several options, which other options change: fast is --aa msaa:n=4; default; best is --aa msaa:n=16 "
+       "--shadows soft:samples=64 --ambient-occlusion rays --ground shadow; the compression of files is --jpeg-quality "
+       "and --webp-quality",
+       group, true, [&](auto& text) { set_quality(a, parse_quality(text)); }, Choices{"fast", "default", "best"}},
       {"--anti-aliasing,--aa", "METHOD",
        "Method with its parameters, for example ssaa:n=4 (zoneplate list methods); default msaa:n=8", group, true,
-       [&](auto& text) { a.method = text, a.has_method = true; }},
+       [&](auto& text) { a.method = text, a.has_method = true; }, method_names()},
       {"--upscale", "METHOD",
        "Render a smaller frame and upscale it, for example fsr1 or lanczos:lobes=2 (zoneplate list upscalers); "
-       "textures "
-       "are filtered for the pixels of the image",
-       group, true, [&](auto& text) { a.upscaler = text; }},
+       "textures are filtered for the pixels of the image",
+       group, true, [&](auto& text) { a.upscaler = text; }, upscaler_names()},
       {"--render-scale", "RATIO",
        "Image size over frame size per axis, from 1 to 4, or ultra-quality (1.3), quality (1.5), balanced (1.7), "
        "performance (2), ultra-performance (3); default 1.5",
-       group, true, [&](auto& text) { a.render_scale = parse_render_scale(text); }},
+       group, true, [&](auto& text) { a.render_scale = parse_render_scale(text); },
+       Choices{"ultra-quality", "quality", "balanced", "performance", "ultra-performance"}},
       {"--background-color,--background", "COLOR",
        "Background colour, or environment: the light's image; default #333333", group, true,
        [&](auto& text) {
@@ -266,33 +313,57 @@ std::vector<Option> picture_options(RenderArgs& a) {
        }},
       {"--background-blur", "AMOUNT", "Blur of --background environment, from 0 to 1; default 0", group, false,
        [&](auto& text) { a.background_blur = static_cast<float>(parse_number(text, 0, 1)); }},
-      {"--no-background", "", "Transparent background", group, true, [&](auto&) { a.display.is_transparent = true; }},
-      {"--tone-mapping", "CURVE", "Tone-mapping curve: none, aces, neutral, agx or filmic; default none", group, false,
+      {"--no-background", "", "Transparent background: the default of .exr", group, true,
+       [&](auto&) { a.display.is_transparent = true; }},
+      choice_option("--tone-mapping", "CURVE",
+                    "Tone-mapping curve of images that are not linear: none, aces, neutral, agx or filmic; default "
+                    "none",
+                    group, false, {"none", "aces", "neutral", "agx", "filmic"},
+                    [&](std::size_t i) {
+                      constexpr ToneMapping curves[] = {ToneMapping::None, ToneMapping::Aces, ToneMapping::Neutral,
+                                                        ToneMapping::Agx, ToneMapping::Filmic};
+                      a.display.mapping = curves[i];
+                    }),
+      {"--exposure", "STOPS",
+       "Exposure in stops: each stop doubles the brightness, negative ones halve it; or auto: 95 % of the surfaces' "
+       "pixels have no channel above 0.8, in a sequence those of its first frame; default 0",
+       group, false,
        [&](auto& text) {
-         constexpr ToneMapping curves[] = {ToneMapping::None, ToneMapping::Aces, ToneMapping::Neutral, ToneMapping::Agx,
-                                           ToneMapping::Filmic};
-         a.display.mapping = curves[parse_choice(text, {"none", "aces", "neutral", "agx", "filmic"})];
-       }},
-      {"--exposure", "STOPS", "Exposure in stops: each stop doubles the brightness, negative ones halve it; default 0",
-       group, false, [&](auto& text) { a.display.exposure = exp2(static_cast<float>(parse_number(text, -32, 32))); }},
-      {"--bit-depth", "BITS", "Bits per channel of .png and .rgba: 8 or 16; default 8", group, false,
-       [&](auto& text) {
-         a.bit_depth = parse_choice(text, {"8", "16"}) == 1 ? 16 : 8;
-       }},
+         a.meters_exposure = text == "auto";
+         a.display.exposure = a.meters_exposure ? 1 : exp2(static_cast<float>(parse_number(text, -32, 32)));
+       },
+       Choices{"auto"}},
+      choice_option("--bit-depth", "BITS", "Bits per channel of .png and .rgba: 8 or 16; default 8", group, false,
+                    {"8", "16"}, [&](std::size_t i) { a.bit_depth = i == 1 ? 16 : 8; }),
+      {"--jpeg-quality", "N", "Quality of .jpg, 1 to 100: smaller files below, fewer artifacts above; default 92",
+       group, false, [&](auto& text) { a.file.jpeg_quality = parse_whole(text, 1, 100); }},
+      {"--webp-quality", "N", "Quality of .webp, 0 to 100, with loss; default: lossless", group, false,
+       [&](auto& text) { a.file.webp_quality = parse_whole(text, 0, 100); }},
+      choice_option("--png-compression", "KIND",
+                    "Compression of .png: fast, or small: some 30 % smaller, several "
+                    "times slower; default fast",
+                    group, false, {"fast", "small"}, [&](std::size_t i) { a.file.is_small_png = i == 1; }),
+      choice_option(
+          "--exr-compression", "KIND",
+          "Compression of .exr: zip, in blocks of 16 rows, zips, row by row, or none; default zip", group, false,
+          {"zip", "zips", "none"},
+          [&](std::size_t i) {
+            constexpr ExrCompression kinds[] = {ExrCompression::Zip, ExrCompression::Zips, ExrCompression::None};
+            a.file.exr_compression = kinds[i];
+          }),
       {"--dither", "", "Ordered dithering of 8-bit images, against banding", group, false,
        [&](auto&) { a.dithers = true; }},
       {"--crop", "X,Y,W,H", "Render only this rectangle, with the same bits as in the whole image", group, false,
        [&](auto& text) { a.options.crop = parse_crop(text); }},
       {"--aov", "NAMES",
        "Data passes to write as well: depth, normal, position, albedo, uv, motion, flow, object-id, material-id, "
-       "primitive-id, crypto-object, crypto-material, mip-level, anisotropy, coverage, error; layers of the image if "
-       "it is an .exr",
-       group, false, [&](auto& text) { a.aovs = parse_aovs(text); }},
-      {"--color-management", "MODE",
-       "srgb, or raw: neither sRGB decoding of textures nor encoding of the image; default srgb", group, false,
-       [&](auto& text) {
-         a.display.raw = a.mips.raw_colors = parse_choice(text, {"srgb", "raw"}) == 1;
-       }},
+       "primitive-id, crypto-object, crypto-material, mip-level, anisotropy, coverage, error, or all that a still of "
+       "any method "
+       "has; layers of the image if it is an .exr",
+       group, false, [&](auto& text) { a.aovs = parse_aovs(text); }, aov_names()},
+      choice_option("--color-management", "MODE",
+                    "srgb, or raw: neither sRGB decoding of textures nor encoding of the image; default srgb", group,
+                    false, {"srgb", "raw"}, [&](std::size_t i) { a.display.raw = a.mips.raw_colors = i == 1; }),
   };
 }
 
@@ -323,12 +394,26 @@ std::vector<Option> camera_options(RenderArgs& a) {
 std::vector<Option> scene_options(RenderArgs& a) {
   const std::string group = "Materials and lights";
   return {
-      {"--shading-model", "MODEL", "Shading model of all materials: blinn-phong, phong, pbr or unlit", group, false,
+      {"--color", "COLOR", "Colour of surfaces without a material, as in STL files; multiplies colours of vertices",
+       group, false,
        [&](auto& text) {
-         constexpr ShadingModel models[] = {ShadingModel::BlinnPhong, ShadingModel::Phong,
-                                            ShadingModel::MetallicRoughness, ShadingModel::Unlit};
-         a.shading_model = models[parse_choice(text, {"blinn-phong", "phong", "pbr", "unlit"})];
+         const float3 light = linear_color(text);
+         a.default_material.color = float4{light.x, light.y, light.z, parse_color(text).w};
        }},
+      {"--texture", "FILE",
+       "Image for surfaces without a material: .png, .jpg, .webp, .hdr, .exr or .ktx2; times --color, if given", group,
+       false, [&](auto& text) { a.default_material.texture = text; }},
+      {"--metallic", "M", "Metalness of surfaces without a material, from 0, a dielectric, to 1, a metal", group, false,
+       [&](auto& text) { a.default_material.metallic = static_cast<float>(parse_number(text, 0, 1)); }},
+      {"--roughness", "R", "Roughness of surfaces without a material, from 0, a mirror, to 1", group, false,
+       [&](auto& text) { a.default_material.roughness = static_cast<float>(parse_number(text, 0, 1)); }},
+      choice_option("--shading-model", "MODEL", "Shading model of all materials: blinn-phong, phong, pbr or unlit",
+                    group, false, {"blinn-phong", "phong", "pbr", "unlit"},
+                    [&](std::size_t i) {
+                      constexpr ShadingModel models[] = {ShadingModel::BlinnPhong, ShadingModel::Phong,
+                                                         ShadingModel::MetallicRoughness, ShadingModel::Unlit};
+                      a.shading_model = models[i];
+                    }),
       {"--displacement", "TOLERANCE",
        "Turn height textures into geometry instead of bumps: refine meshes until they are this near to the heights,\n"
        "relative to their longest side, for example 0.001",
@@ -336,6 +421,15 @@ std::vector<Option> scene_options(RenderArgs& a) {
       {"--solid-texture", "PATTERN",
        "Procedural texture of all materials, for example marble:scale=6: " + solid_texture_names(), group, false,
        [&](auto& text) { a.solid_texture = check_solid_texture(text); }},
+      choice_option("--lights", "SOURCE",
+                    "Lights: file, those of the model, or the default light where it has none; default, the default "
+                    "light, or --environment or --hdri-file alone; or both, the model's and the default light; default "
+                    "file",
+                    group, false, {"file", "default", "both"},
+                    [&](std::size_t i) {
+                      constexpr LightSource sources[] = {LightSource::Scene, LightSource::Default, LightSource::Both};
+                      a.lighting.source = sources[i];
+                    }),
       {"--light-intensity", "FACTOR", "Factor of all lights; default 1", group, false,
        [&](auto& text) { a.lighting.intensity = static_cast<float>(parse_number(text, 0, 1e6)); }},
       {"--environment", "COLOR",
@@ -350,15 +444,16 @@ std::vector<Option> scene_options(RenderArgs& a) {
        "Image-based light, instead of the default lights: .hdr, .exr, .png, .jpg or .webp; {face} in the name stands "
        "for px, nx, py, ny, pz and nz, the six squares of a cube map",
        group, false, [&](auto& text) { a.hdri_file = text; }},
-      {"--hdri-layout", "NAME",
-       "equirectangular, cross or strip of a cube map, mirror-ball, or angular (light probe); default by the aspect",
-       group, false,
-       [&](auto& text) {
-         constexpr EnvironmentLayout layouts[] = {EnvironmentLayout::Equirectangular, EnvironmentLayout::Cross,
-                                                  EnvironmentLayout::Strip, EnvironmentLayout::MirrorBall,
-                                                  EnvironmentLayout::AngularMap};
-         a.hdri_layout = layouts[parse_choice(text, {"equirectangular", "cross", "strip", "mirror-ball", "angular"})];
-       }},
+      choice_option("--hdri-layout", "NAME",
+                    "equirectangular, cross or strip of a cube map, mirror-ball, or angular (light probe); default by "
+                    "the aspect",
+                    group, false, {"equirectangular", "cross", "strip", "mirror-ball", "angular"},
+                    [&](std::size_t i) {
+                      constexpr EnvironmentLayout layouts[] = {
+                          EnvironmentLayout::Equirectangular, EnvironmentLayout::Cross, EnvironmentLayout::Strip,
+                          EnvironmentLayout::MirrorBall, EnvironmentLayout::AngularMap};
+                      a.hdri_layout = layouts[i];
+                    }),
       {"--hdri-rotation", "DEG", "Turn of the image about the up axis, counter-clockwise from above; default 0", group,
        false, [&](auto& text) { a.hdri_rotation = radians(text, -360, 360); }},
       {"--hdri-intensity", "FACTOR", "Factor of the image's light; default 1", group, false,
@@ -367,19 +462,18 @@ std::vector<Option> scene_options(RenderArgs& a) {
        "Shadows of the lights: none; hard, one ray from each fragment to each light; soft:samples=N,angle=DEG, N rays "
        "to a light of this angular radius, default 32 and 3; or map:filter=F,size=N, depth images from the lights with "
        "the filter nearest, pcf, pcss or evsm, default pcf and 2048; default none",
-       group, false, [&](auto& text) { a.options.shadows = parse_shadows(text); }},
+       group, false, [&](auto& text) { a.options.shadows = parse_shadows(text); },
+       Choices{"none", "hard", "soft", "map"}},
       {"--ambient-occlusion", "METHOD",
        "What hides the environment's light: none, or rays:samples=N,distance=D, surfaces within D world units, default "
        "a quarter of the scene's diagonal; default none",
-       group, false, [&](auto& text) { a.options.occlusion = parse_occlusion(text); }},
-      {"--ground", "KIND",
-       "What lies under the scene: none, or shadow: a plane that shows the shadows on it alone, over the background "
-       "or, "
-       "with --no-background, as alpha; requires --shadows or --ambient-occlusion; default none",
-       group, false,
-       [&](auto& text) {
-         a.options.ground = parse_choice(text, {"none", "shadow"}) == 1 ? GroundKind::Shadow : GroundKind::None;
-       }},
+       group, false, [&](auto& text) { a.options.occlusion = parse_occlusion(text); }, Choices{"none", "rays"}},
+      choice_option(
+          "--ground", "KIND",
+          "What lies under the scene: none, or shadow: a plane that shows the shadows on it alone, over the "
+          "background or, with --no-background, as alpha; requires --shadows or --ambient-occlusion; default none",
+          group, false, {"none", "shadow"},
+          [&](std::size_t i) { a.options.ground = i == 1 ? GroundKind::Shadow : GroundKind::None; }),
       {"--no-cull", "", "Draw back faces of single-sided materials", group, false,
        [&](auto&) { a.options.cull_back_faces = false; }},
       {"--point-size", "PX", "Size of points, which are drawn as squares; default 1", group, false,
@@ -389,19 +483,17 @@ std::vector<Option> scene_options(RenderArgs& a) {
       {"--texture-filter", "FILTER",
        "Filter of all textures, in place of the scene's own: " + texture_filter_names() +
            "; for example ewa:anisotropy=16 (zoneplate list texture-filters)",
-       group, false, [&](auto& text) { a.options.texture_filter = parse_texture_filter(text); }},
+       group, false, [&](auto& text) { a.options.texture_filter = parse_texture_filter(text); }, texture_filter_list()},
       {"--mip-filter", "FILTER",
        "Filter that makes mip levels: box, kaiser or lanczos; :alpha=coverage keeps the fraction of an alpha-tested "
        "texture that is opaque; default box",
-       group, false, [&](auto& text) { set_mip_filter(text, a.mips); }},
-      {"--specular-aa", "KIND",
-       "Widen highlights by the normals' variance in a pixel: none, geometric (curvature), toksvig or lean (normal "
-       "maps), or full (geometric and lean); default none",
-       group, false,
-       [&](auto& text) {
-         a.options.specular_aa =
-             static_cast<SpecularAntialiasing>(parse_choice(text, {"none", "geometric", "toksvig", "lean", "full"}));
-       }},
+       group, false, [&](auto& text) { set_mip_filter(text, a.mips); }, Choices{"box", "kaiser", "lanczos"}},
+      choice_option(
+          "--specular-aa", "KIND",
+          "Widen highlights by the normals' variance in a pixel: none, geometric (curvature), toksvig or lean (normal "
+          "maps), or full (geometric and lean); default none",
+          group, false, {"none", "geometric", "toksvig", "lean", "full"},
+          [&](std::size_t i) { a.options.specular_aa = static_cast<SpecularAntialiasing>(i); }),
       {"--line-width", "PX", "Width of lines; default 1", group, false,
        [&](auto& text) { a.options.line_width = static_cast<float>(parse_number(text, 0.01, 1024)); }},
   };
@@ -410,27 +502,25 @@ std::vector<Option> scene_options(RenderArgs& a) {
 std::vector<Option> teaching_options(RenderArgs& a) {
   const std::string group = "Teaching";
   return {
-      {"--edge-rule", "RULE", "Fill rule: top-left, or inside: every triangle includes its edges; default top-left",
-       group, false,
-       [&](auto& text) {
-         a.options.edge_rule = parse_choice(text, {"top-left", "inside"}) == 0 ? EdgeRule::TopLeft : EdgeRule::Inside;
-       }},
-      {"--visibility", "RULE",
-       "Hidden-surface removal: z-buffer, or painter: triangles sorted back to front, no depth test; default z-buffer",
-       group, false,
-       [&](auto& text) {
-         a.options.visibility =
-             parse_choice(text, {"z-buffer", "painter"}) == 0 ? Visibility::ZBuffer : Visibility::Painter;
-       }},
-      {"--shading-frequency", "RULE",
-       "Where lights are evaluated: flat: once for each triangle; gouraud: at vertices, and interpolated; phong: at "
-       "every fragment; default phong",
-       group, false,
-       [&](auto& text) {
-         constexpr ShadingFrequency rules[] = {ShadingFrequency::Triangle, ShadingFrequency::Vertex,
-                                               ShadingFrequency::Fragment};
-         a.options.shading_frequency = rules[parse_choice(text, {"flat", "gouraud", "phong"})];
-       }},
+      choice_option("--edge-rule", "RULE",
+                    "Fill rule: top-left, or inside: every triangle includes its edges; default top-left", group, false,
+                    {"top-left", "inside"},
+                    [&](std::size_t i) { a.options.edge_rule = i == 0 ? EdgeRule::TopLeft : EdgeRule::Inside; }),
+      choice_option("--visibility", "RULE",
+                    "Hidden-surface removal: z-buffer, or painter: triangles sorted back to front, no depth test; "
+                    "default z-buffer",
+                    group, false, {"z-buffer", "painter"},
+                    [&](std::size_t i) { a.options.visibility = i == 0 ? Visibility::ZBuffer : Visibility::Painter; }),
+      choice_option("--shading-frequency", "RULE",
+                    "Where lights are evaluated: flat: once for each triangle; gouraud: at vertices, and "
+                    "interpolated; phong: at every "
+                    "fragment; default phong",
+                    group, false, {"flat", "gouraud", "phong"},
+                    [&](std::size_t i) {
+                      constexpr ShadingFrequency rules[] = {ShadingFrequency::Triangle, ShadingFrequency::Vertex,
+                                                            ShadingFrequency::Fragment};
+                      a.options.shading_frequency = rules[i];
+                    }),
   };
 }
 
@@ -441,11 +531,17 @@ std::vector<Option> run_options(RenderArgs& a) {
        [&](auto& text) { a.threads = parse_whole(text, 0, 1024); }},
       {"--isa", "SET",
        "Instruction set: scalar, sse4, avx2 or avx512, all with the same bits; default: the best available", group,
-       false, [&](auto& text) { a.isa = parse_isa(text); }},
+       false, [&](auto& text) { a.isa = parse_isa(text); }, Choices{"scalar", "sse4", "avx2", "avx512"}},
+      {"--dry-run", "", "Check options, inputs and outputs, and print the items without rendering them", group, false,
+       [&](auto&) { a.is_dry_run = true; }},
+      {"--preset", "NAME",
+       "Apply a preset of the configuration, $XDG_CONFIG_HOME/zoneplate/config or ~/.config/zoneplate/config", group,
+       false, [&](auto& text) { a.preset = text; }},
+      {"--no-config", "", "Ignore the configuration", group, false, [&](auto&) { a.reads_config = false; }},
       {"--json", "", "Print a report as one line of JSON (to stderr if OUT is -)", group, false,
        [&](auto&) { a.prints_json = true; }},
       {"--progress", "KIND", "Progress on stderr: auto (a bar on a terminal), bar, json or none; default auto", group,
-       false, [&](auto& text) { a.progress = parse_progress(text); }},
+       false, [&](auto& text) { a.progress = parse_progress(text); }, Choices{"auto", "bar", "json", "none"}},
       {"--quiet,-q", "", "Print errors only", group, false, [&](auto&) { a.verbosity = Verbosity::Quiet; }},
       {"--verbose,-v", "", "Print a summary with times", group, false,
        [&](auto&) { a.verbosity = Verbosity::Verbose; }},
@@ -558,6 +654,7 @@ void check_args(RenderArgs& args) {
   check_output(args);
   check_environment(args);
   const std::string ending = extension_of(args.named_output());
+  if (ending == ".exr" && !args.background && !args.options.background) args.display.is_transparent = true;
   if (args.output != "-" && args.stdout_format != "png")
     throw Error(ErrorKind::Usage, "--output-format requires -o -: otherwise the extension of OUT selects the format");
   if (args.options.ground == GroundKind::Shadow && !has_visibility(args.options))
@@ -591,11 +688,44 @@ void check_args(RenderArgs& args) {
                                                 args.options.width, args.options.height));
 }
 
+namespace {
+
+// Refuses options of the command line that change nothing for this kind of output. Those of the configuration are for
+// all kinds.
+void check_effects(const RenderArgs& args, const std::string& ending) {
+  const auto refuse = [](const std::string& cause) { throw Error(ErrorKind::Usage, cause); };
+  const SequenceArgs& sequence = args.sequence;
+  const bool is_linear = ending == ".exr" || ending == ".pfm";
+  const bool is_frame = !sequence.is_sequence() || has_frame_number(args.output);
+  if (args.file.jpeg_quality && ending != ".jpg" && ending != ".jpeg")
+    refuse("--jpeg-quality is for .jpg; --webp-quality is for .webp, and --png-compression for .png");
+  if (args.file.webp_quality && (ending != ".webp" || !is_frame)) refuse("--webp-quality is for .webp with one image");
+  if (args.file.is_small_png && ending != ".png") refuse("--png-compression is for .png");
+  if (args.file.exr_compression && ending != ".exr") refuse("--exr-compression is for .exr");
+  if (args.display.mapping != ToneMapping::None && is_linear)
+    refuse("--tone-mapping: .exr and .pfm contain linear light, before tone mapping");
+  if (args.display.mapping != ToneMapping::None && args.display.raw)
+    refuse("--tone-mapping does not go with --color-management raw");
+  if (!sequence.is_sequence() && sequence.rate != SequenceArgs{}.rate)
+    refuse("--frame-rate requires a sequence: --frames, --frame-start, --frame-end or --turntable");
+  if (!sequence.shutter && sequence.shutter_samples != SequenceArgs{}.shutter_samples)
+    refuse("--shutter-samples requires --shutter");
+}
+
+}  // namespace
+
 std::optional<RenderArgs> parse_render_args(std::span<const std::string> arguments) {
+  // The command line is parsed twice: first for the choice of a preset, then on top of the configuration.
+  RenderArgs first;
+  Syntax first_syntax = render_syntax(first);
+  if (!parse(first_syntax, arguments)) return std::nullopt;
   RenderArgs args;
   Syntax syntax = render_syntax(args);
-  if (!parse(syntax, arguments)) return std::nullopt;
-  args.inputs = syntax.found_operands;
+  if (!first.reads_config && !first.preset.empty())
+    throw Error(ErrorKind::Usage, "--preset requires the configuration, which --no-config ignores");
+  if (first.reads_config) apply_config(user_config(), first.preset, syntax);
+  parse(syntax, arguments);
+  args.inputs = with_folders_listed(syntax.found_operands);
   if (!args.manifest.empty()) {
     if (!args.inputs.empty())
       throw Error(ErrorKind::Usage, "--manifest lists the inputs: remove " + args.inputs.front());
@@ -606,7 +736,8 @@ std::optional<RenderArgs> parse_render_args(std::span<const std::string> argumen
   if (args.inputs.size() > 1 && !args.has_placeholders) refuse_single_output(args);
   args.input = args.inputs.front();
   const std::string pattern = args.output;
-  args.output = output_name(pattern, args.input, 0);
+  args.output = first.output = output_name(pattern, args.input, 0);
+  check_effects(first, extension_of(args.named_output()));
   check_args(args);
   if (args.is_batch()) args.output = pattern;
   return args;

@@ -10,8 +10,10 @@
 #include "zoneplate/cli/aov.h"
 #include "zoneplate/cli/args.h"
 #include "zoneplate/cli/log.h"
+#include "zoneplate/cli/look/default_material.h"
 #include "zoneplate/cli/progress.h"
 #include "zoneplate/cli/render/shard.h"
+#include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/save.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/image/tonemap.h"
@@ -34,6 +36,14 @@ struct SequenceArgs {
   bool is_sequence() const { return turntable || count || first || last || is_film; }
 };
 
+/// How files of encoded images are compressed.
+struct FileOptions {
+  std::optional<int> jpeg_quality;                ///< 1 to 100; none: usual_jpeg_quality
+  std::optional<int> webp_quality;                ///< 0 to 100; none: lossless
+  bool is_small_png = false;                      ///< slower, smaller
+  std::optional<ExrCompression> exr_compression;  ///< none: Zip
+};
+
 /// The arguments of `zoneplate render`.
 struct RenderArgs {
   std::string input, output;
@@ -46,6 +56,7 @@ struct RenderArgs {
   bool has_animation_time = false;
   int bit_depth = 8;
   bool dithers = false;
+  FileOptions file;
   std::string stdout_format = "png";
   std::string method = "msaa:n=8";
   bool has_method = false;             ///< --anti-aliasing is given
@@ -53,13 +64,15 @@ struct RenderArgs {
   std::optional<double> render_scale;  ///< of `upscaler`
   RenderOptions options;
   DisplayOptions display;
+  bool meters_exposure = false;      ///< --exposure auto: `display.exposure` is set by metered_exposure
   std::optional<float4> background;  ///< sRGB code; none: the scene's own or the usual one
   float background_blur = 0;
   View view;
   MipOptions mips;                            ///< how images are decoded and reduced
   std::optional<ShadingModel> shading_model;  ///< for every material
   std::optional<float> displacement;          ///< DisplacementOptions::tolerance; none: height textures are bumps
-  std::string solid_texture;                  ///< of every material, in the form of cli/render/solid_texture.h
+  DefaultMaterial default_material;
+  std::string solid_texture;  ///< of every material, in the form of cli/look/solid_texture.h
   LightingOptions lighting;
   std::optional<float3> environment_color;       ///< linear radiance of --environment
   std::string cache;                             ///< folder of prepared environments; empty: none is kept
@@ -74,6 +87,9 @@ struct RenderArgs {
   Isa isa = current_isa();                                       ///< instruction set of every kernel of the run
   double max_seconds = std::numeric_limits<double>::infinity();  ///< limit of a whole item
   bool is_sandboxed = true;                                      ///< if the kernel supports sandboxes
+  bool is_dry_run = false;                                       ///< report the items, and render none
+  std::string preset;                                            ///< section of the configuration; empty: none
+  bool reads_config = true;
   bool prints_json = false;
   Verbosity verbosity = Verbosity::Normal;
   std::optional<ProgressKind> progress;  ///< nothing: a bar on a terminal

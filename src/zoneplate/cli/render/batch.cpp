@@ -12,6 +12,7 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/render/frame_name.h"
+#include "zoneplate/cli/render/input_names.h"
 #include "zoneplate/cli/render/items.h"
 #include "zoneplate/cli/render/output_name.h"
 #include "zoneplate/cli/report_version.h"
@@ -81,7 +82,8 @@ class Jobs {
       view.fail(key + " is neither a text, nor a number, nor true or false");
     const std::string text = value.kind == Kind::Number ? fmt::format("{}", value.number) : value.text;
     if (text.find('\0') != text.npos) view.fail(key + " has a character of code 0");
-    if (key == "manifest" || key == "shard") view.fail(key + " is for all jobs together, not for one");
+    for (const char* common : {"manifest", "shard", "preset", "no-config", "dry-run"})
+      if (key == common) view.fail(key + " is for all jobs together, not for one");
     if (key == "input" && value.kind != Kind::Boolean)
       args_.input = text;
     else if (value.kind != Kind::Boolean)
@@ -138,14 +140,17 @@ class Batch {
     std::vector<RenderArgs> to_render;
     std::vector<bool> is_rendered;
     for (const Item& item : items) {
-      is_rendered.push_back(!is_skipped(item.args));
+      is_rendered.push_back(!common_.is_dry_run && !is_skipped(item.args));
       if (is_rendered.back()) to_render.push_back(item.args);
     }
     std::optional<RenderItems> process;
     if (!to_render.empty()) process.emplace(std::move(to_render));
     for (std::size_t i = 0; i < items.size(); ++i) {
       const Stopwatch watch;
-      report(is_rendered[i] ? render(items[i], *process) : skipped(items[i]), watch);
+      report(is_rendered[i]       ? render(items[i], *process)
+             : common_.is_dry_run ? planned(items[i])
+                                  : skipped(items[i]),
+             watch);
     }
   }
 
@@ -170,11 +175,12 @@ class Batch {
   }
   Json::Object skipped(const Item& item) {
     print_text(fmt::format("{}: {} exists already", item.name, item.args.output));
-    return {{"format", "zoneplate-render"},
-            {"version", report_version},
-            {"input", item.args.input},
-            {"output", item.args.output},
-            {"status", "skipped"}};
+    return plan_json(item.args, "skipped");
+  }
+  Json::Object planned(const Item& item) {
+    const bool is_left_out = is_skipped(item.args);
+    print_text(is_left_out ? fmt::format("{}: {} exists already", item.name, item.args.output) : plan_text(item.args));
+    return plan_json(item.args, is_left_out ? "skipped" : "planned");
   }
 
   Json::Object failure(const std::string& name, const std::exception& error) {
@@ -252,12 +258,13 @@ void check_output_names(BatchItems& items) {
   }
 }
 
-// Makes the folder of an output such as thumbs/.
+// Makes the folder of an output whose name depends on its input, such as thumbs/{dir}/{model}.png.
 void make_folder(const std::string& output) {
-  if (!output.ends_with('/')) return;
+  const std::filesystem::path folder = std::filesystem::path(output).parent_path();
+  if (folder.empty()) return;
   std::error_code error;
-  std::filesystem::create_directories(output, error);
-  if (error) throw Error(ErrorKind::Output, fmt::format("{}: {}", output, error.message()));
+  std::filesystem::create_directories(folder, error);
+  if (error) throw Error(ErrorKind::Output, fmt::format("{}: {}", folder.string(), error.message()));
 }
 
 }  // namespace
@@ -265,12 +272,16 @@ void make_folder(const std::string& output) {
 void render_batch(const RenderArgs& common) {
   BatchItems items(common);
   check_output_names(items);
-  make_folder(common.output);
   Batch batch(common, common.shard.size_of(items.count()));
   for (std::uint64_t i = 0; i < items.count(); ++i) {
     if (!common.shard.has(i)) continue;
     batch.add(items.name(i), [&] {
       RenderArgs args = items.args(i);
+      if (common.is_dry_run) {
+        check_input(args.input, args.load.format);
+        return args;
+      }
+      if (names_input(common.output)) make_folder(args.output);
       check_outputs(args);
       return args;
     });

@@ -11,6 +11,7 @@
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/render/environment_file.h"
+#include "zoneplate/cli/render/input_names.h"
 #include "zoneplate/cli/render/item_process.h"
 #include "zoneplate/cli/render/picture.h"
 #include "zoneplate/cli/values.h"
@@ -70,6 +71,7 @@ std::vector<std::uint8_t> render_cell(RenderArgs render, ItemSender& sender) {
   const Camera camera = choose_camera(scene, render.view, aspect);
   set_look(render, scene);
   Renderer renderer(PreparedScene(std::move(scene)), upscale::make_method(render.method));
+  if (render.meters_exposure) render.display.exposure = metered_exposure(renderer.scene(), camera, render);
   const Rgba8Image picture = renderer.render_still(camera, settings_of(render, "")).display;
   const auto* first = reinterpret_cast<const std::uint8_t*>(picture.values().data());
   return {first, first + picture.values().size_bytes()};
@@ -97,6 +99,7 @@ Cell cell_of(const SheetArgs& args, const std::string& input, const std::string&
     render.input = input;
     std::vector<std::string> readable = readable_paths(input, render.load);
     for (std::string& path : environment_files(render)) readable.push_back(std::move(path));
+    if (!render.default_material.texture.empty()) readable.push_back(render.default_material.texture);
     ItemProcess process({.name = input,
                          .load = render.load.limits,
                          .seconds = render.max_seconds,
@@ -151,9 +154,9 @@ Syntax make_syntax(SheetArgs& args) {
                     {"--columns", "N", "Images per row; default: the number that makes the sheet closest to 4:3",
                      "Sheet", true, [&](auto& text) { args.columns = parse_whole(text, 1, 1000); }},
                     {"--title", "TEXT", "Title of the sheet", "Sheet", false, [&](auto& text) { args.title = text; }}};
-  constexpr std::string_view left_out[] = {"--output", "--output-format", "--bit-depth",
-                                           "--crop",   "--aov",           "--no-background",
-                                           "--json",   "--verbose",       "--displacement"};
+  constexpr std::string_view left_out[] = {
+      "--output",  "--output-format", "--bit-depth",       "--crop",   "--aov",       "--no-background", "--json",
+      "--verbose", "--displacement",  "--exr-compression", "--preset", "--no-config", "--dry-run"};
   for (Option& option : render_syntax(args.render).options) {
     const std::string first = option.names.substr(0, option.names.find(','));
     if (option.group == "Sequences" || option.group == "Batches") continue;
@@ -183,7 +186,8 @@ void run_contact_sheet(std::span<const std::string> arguments) {
     throw Error(ErrorKind::Usage, "--output: a contact sheet is display-referred: .png, .jpg, .webp or .rgba");
   check_outputs(args.render);
 
-  const std::vector<std::string> names = short_names(syntax.found_operands);
+  const std::vector<std::string> inputs = with_folders_listed(syntax.found_operands);
+  const std::vector<std::string> names = short_names(inputs);
   std::vector<Panel> panels;
   Rendered sheet;
   std::size_t failed = 0;
@@ -195,7 +199,7 @@ void run_contact_sheet(std::span<const std::string> arguments) {
     for (std::size_t i = 0; i < names.size(); ++i) {
       progress.begin(fmt::format("{} of {}: {}", i + 1, names.size(), names[i]),
                      static_cast<double>(i) / static_cast<double>(names.size()));
-      Cell cell = cell_of(args, syntax.found_operands[i], names[i]);
+      Cell cell = cell_of(args, inputs[i], names[i]);
       failed += cell.has_failed;
       panels.push_back(std::move(cell.panel));
     }
@@ -203,7 +207,7 @@ void run_contact_sheet(std::span<const std::string> arguments) {
     sheet.image = compose(lay_out(args, std::move(panels)), {.text_px = 12, .gap_px = 10});
   };
   with_isa(args.render.isa, [&] { with_threads(args.render.threads, render_all); });
-  save_bytes(args.output, encode_picture(sheet, args.output));
+  save_bytes(args.output, encode_picture(sheet, args.output, args.render.file));
   if (failed > 0) throw PartialFailure(fmt::format("{} of {} models failed", failed, names.size()));
 }
 

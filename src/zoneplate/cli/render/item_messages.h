@@ -33,6 +33,9 @@ class ItemSender {
   /// Sends a whole file. `frame` is its number in a sequence, or -1; `layer` is its index among the data passes, or -1
   /// for the image. The receiver determines the file's name from both.
   void file(int frame, int layer, std::span<const std::uint8_t> bytes);
+  /// A function that sends the progress of a stage which begins at `from` and ends at `to`, in whole per cents that
+  /// only rise; any thread may call it with the fraction of the stage that is complete.
+  std::function<void(double)> progress_of(std::string stage, double from, double to);
   /// Sends a frame of a film that the receiver encodes.
   void film_frame(const Rgba8Image& image);
   /// A prepared environment for the cache, by its key (environment_file.h).

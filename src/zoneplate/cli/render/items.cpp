@@ -21,6 +21,7 @@ ItemLimits limits_of(const std::vector<RenderArgs>& items) {
   for (const RenderArgs& item : items) {
     for (std::string& path : environment_files(item)) readable.push_back(std::move(path));
     if (!item.cache.empty()) readable.push_back(item.cache);
+    if (!item.default_material.texture.empty()) readable.push_back(item.default_material.texture);
   }
   return {.name = args.input == "-" ? "standard input" : args.input,
           .load = args.load.limits,

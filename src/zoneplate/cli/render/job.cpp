@@ -18,12 +18,15 @@ namespace zoneplate::cli {
 std::string model_key(const RenderArgs& args) {
   const SceneChoice& c = args.load.choice;
   const LoadLimits& l = args.load.limits;
-  return fmt::format("{} {}\n{}\n{}\n{} {} {} {:a} {} {} {} {} {} {} {} {} {} {}", l.is_strict, args.input,
-                     args.load.format, c.animation_name, c.scene.value_or(-1), c.variant, c.animation.value_or(-1),
-                     c.time, l.memory, l.pixels, l.seconds, fmt::join(l.allowed_paths, "\n"), args.mips.raw_colors,
-                     static_cast<int>(args.mips.filter), args.mips.keeps_coverage,
+  const DefaultMaterial& m = args.default_material;
+  const float4 color = m.color.value_or(float4{-1, 0, 0, 0});
+  return fmt::format("{} {}\n{}\n{}\n{} {} {} {:a} {} {} {} {} {} {} {} {} {} {} {:a} {:a} {:a} {:a} {:a} {:a} {}",
+                     l.is_strict, args.input, args.load.format, c.animation_name, c.scene.value_or(-1), c.variant,
+                     c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds, fmt::join(l.allowed_paths, "\n"),
+                     args.mips.raw_colors, static_cast<int>(args.mips.filter), args.mips.keeps_coverage,
                      args.shading_model ? static_cast<int>(*args.shading_model) : -1, args.solid_texture,
-                     args.displacement.value_or(-1));
+                     args.displacement.value_or(-1), color.x, color.y, color.z, color.w, m.metallic.value_or(-1),
+                     m.roughness.value_or(-1), m.texture);
 }
 
 std::optional<Scene> RenderJobs::read(const RenderArgs& args) {
@@ -69,21 +72,26 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
   const Camera camera = choose_camera(scene, args.view, aspect);
   summary.warnings = scene.warnings;
-  out.progress("render", 0.2);
+  out.progress("render", 0.1);
   check_passes(args, method->request({}));
   RenderedImage image;
   {
     Renderer renderer(scene_->lit(make_lighting(scene, args.lighting)), std::move(method));
-    image = renderer.render_still(camera, settings_of(args, args.named_output()));
+    if (args.meters_exposure) args.display.exposure = metered_exposure(renderer.scene(), camera, args);
+    RenderSettings settings = settings_of(args, args.named_output());
+    settings.options.progress = out.progress_of("render", 0.1, 0.9);
+    image = renderer.render_still(camera, settings);
   }
-  const Rendered picture = finish_picture(args, std::move(image), scene, args.named_output(), summary);
+  summary.exposure = args.display.exposure;
+  const Rendered picture = finish_picture(args, std::move(image), scene, camera, args.named_output(), summary);
+  if (std::string warning = clipping(args, picture); !warning.empty()) summary.warnings.push_back(std::move(warning));
   if (summary.counts.triangles_set_up == 0) summary.warnings.push_back(emptiness(args, summary.counts));
 
-  out.progress("encode", 0.8);
+  out.progress("encode", 0.9);
   const Stopwatch encode_watch;
-  const std::vector<std::uint8_t> bytes = encode_picture(picture, args.named_output());
+  const std::vector<std::uint8_t> bytes = encode_picture(picture, args.named_output(), args.file);
   summary.times.emplace_back("encode", encode_watch.ms());
-  out.progress("write", 0.95);
+  out.progress("write", 0.99);
   const Stopwatch write_watch;
   out.file(-1, -1, bytes);
   for (const LayerFile& file : picture.layers) out.file(-1, file.aov, file.bytes);
@@ -105,6 +113,7 @@ Json::Object summary_json(const RenderArgs& args, const Summary& summary) {
                       {"width", summary.width},
                       {"height", summary.height},
                       {"method", args.method},
+                      {"exposure", summary.exposure},
                       {"frames", summary.frames},
                       {"triangles", summary.counts.triangles},
                       {"triangles_set_up", summary.counts.triangles_set_up},
@@ -114,6 +123,20 @@ Json::Object summary_json(const RenderArgs& args, const Summary& summary) {
                       {"stage_ms", std::move(times)},
                       {"peak_memory_bytes", summary.peak_memory},
                       {"warnings", Json::Array(summary.warnings.begin(), summary.warnings.end())}};
+}
+
+std::string plan_text(const RenderArgs& args) {
+  const std::optional<Crop>& crop = args.options.crop;
+  return fmt::format("{} -> {}, {} × {}, {}", args.input, args.output, crop ? crop->width : args.options.width,
+                     crop ? crop->height : args.options.height, args.method);
+}
+
+Json::Object plan_json(const RenderArgs& args, std::string_view status) {
+  return {{"format", "zoneplate-render"},
+          {"version", report_version},
+          {"input", args.input},
+          {"output", args.output},
+          {"status", status}};
 }
 
 }  // namespace zoneplate::cli

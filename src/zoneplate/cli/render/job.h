@@ -34,4 +34,8 @@ std::string model_key(const RenderArgs& args);
 /// The result as JSON.
 Json::Object summary_json(const RenderArgs& args, const Summary& summary);
 
+/// The line of --dry-run about an item, and its report as JSON with this status.
+std::string plan_text(const RenderArgs& args);
+Json::Object plan_json(const RenderArgs& args, std::string_view status);
+
 }  // namespace zoneplate::cli

@@ -8,16 +8,19 @@
 #include <bit>
 #include <filesystem>
 
+#include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/look/solid_texture.h"
+#include "zoneplate/cli/render/exr_header.h"
 #include "zoneplate/cli/render/frame_name.h"
-#include "zoneplate/cli/render/solid_texture.h"
 #include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/webp_still.h"
+#include "zoneplate/image/auto_exposure.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/scene/geometry/displacement.h"
 
@@ -40,10 +43,13 @@ DisplayOptions display_of(const RenderArgs& args) {
   return display;
 }
 
-std::vector<std::uint8_t> exr_of(const LinearImage& color, const DataChannels& data) {
+std::vector<std::uint8_t> exr_of(const LinearImage& color, const DataChannels& data, ExrAttributes attributes,
+                                 const FileOptions& options) {
   std::vector<ExrChannel> channels = rgba_channels(color);
   add_exr_channels(data, channels);
-  return encode_exr(color.width(), color.height(), std::move(channels), data.attributes);
+  attributes.insert(attributes.end(), data.attributes.begin(), data.attributes.end());
+  return encode_exr(color.width(), color.height(), std::move(channels), attributes,
+                    options.exr_compression.value_or(ExrCompression::Zip));
 }
 
 // The encoded values in memory order, rows from the top.
@@ -67,7 +73,7 @@ void add_passes(const RenderArgs& args, const Scene& scene, const Frame& frame, 
     std::optional<std::vector<std::uint8_t>> pfm = is_pfm(output) ? encode_data_pfm(*aov, frame, scene) : std::nullopt;
     out.layers.push_back({static_cast<int>(i), pfm ? std::move(*pfm) : encode_data_png(*aov, frame, scene)});
   }
-  if (is_exr(output)) out.exr = exr_of(out.linear, data);
+  if (is_exr(output)) out.exr = exr_of(out.linear, data, out.attributes, args.file);
 }
 
 // Checks the memory of a frame's planes and of its copies for encoding, in bytes per pixel: see Frame, DisplayImage,
@@ -124,6 +130,7 @@ void check_passes(const RenderArgs& args, const Request& request) {
 }
 
 void convert_materials(const RenderArgs& args, Scene& scene) {
+  set_default_material(args.default_material, args.load.limits, scene);
   if (args.shading_model)
     for (Material& material : scene.materials) convert_material(material, *args.shading_model);
   if (args.displacement) displace_surfaces(scene, {.tolerance = *args.displacement});
@@ -149,14 +156,30 @@ RenderSettings settings_of(const RenderArgs& args, const std::string& output) {
   return settings;
 }
 
-Rendered finish_picture(const RenderArgs& args, RenderedImage image, const Scene& scene, const std::string& output,
-                        Summary& summary) {
+float metered_exposure(const PreparedScene& scene, const Camera& camera, const RenderArgs& args) {
+  constexpr int most_side = 256;
+  RenderSettings settings{.options = args.options, .form = ImageForm::Linear};
+  RenderOptions& options = settings.options;
+  options.crop.reset();
+  options.background.reset();
+  const int longest = std::max(options.width, options.height);
+  if (longest > most_side) {
+    options.width = std::max(1, options.width * most_side / longest);
+    options.height = std::max(1, options.height * most_side / longest);
+  }
+  Renderer renderer(scene, make_resolver(antialias::methods(), "none"));
+  return auto_exposure(renderer.render(camera, settings).linear);
+}
+
+Rendered finish_picture(const RenderArgs& args, RenderedImage image, const Scene& scene, const Camera& camera,
+                        const std::string& output, Summary& summary) {
   const Stopwatch watch;
   const DisplayOptions display = display_of(args);
   Rendered out;
   out.image = std::move(image.display);
   out.image16 = std::move(image.display16);
   if (is_linear(output)) out.linear = over_background(std::move(image.linear), display);
+  if (is_exr(output)) out.attributes = exr_header(args, camera);
   out.has_alpha = display.is_transparent || display.background.w < 1;
   if (!args.aovs.empty()) add_passes(args, scene, image.data, output, out);
   const std::optional<Crop>& crop = args.options.crop;
@@ -171,15 +194,37 @@ Rendered finish_picture(const RenderArgs& args, RenderedImage image, const Scene
   return out;
 }
 
-std::vector<std::uint8_t> encode_picture(const Rendered& picture, const std::string& output) {
+std::vector<std::uint8_t> encode_picture(const Rendered& picture, const std::string& output,
+                                         const FileOptions& options) {
   const std::string extension = extension_of(output);
   if (extension == ".rgba") return picture.image16.empty() ? raw_of(picture.image) : raw_of(picture.image16);
   if (extension == ".pfm") return encode_pfm(picture.linear);
-  if (extension == ".exr") return picture.exr.empty() ? exr_of(picture.linear, {}) : picture.exr;
-  if (extension == ".jpg" || extension == ".jpeg") return encode_jpeg(picture.image);
-  if (extension == ".webp") return encode_webp(picture.image, picture.has_alpha);
-  if (!picture.image16.empty()) return encode_png(picture.image16, {.has_alpha = picture.has_alpha});
-  return encode_png(picture.image, {.has_alpha = picture.has_alpha});
+  if (extension == ".exr")
+    return picture.exr.empty() ? exr_of(picture.linear, {}, picture.attributes, options) : picture.exr;
+  if (extension == ".jpg" || extension == ".jpeg")
+    return encode_jpeg(picture.image, options.jpeg_quality.value_or(usual_jpeg_quality));
+  if (extension == ".webp") return encode_webp(picture.image, picture.has_alpha, options.webp_quality);
+  const PngOptions png{.has_alpha = picture.has_alpha, .is_small = options.is_small_png};
+  return picture.image16.empty() ? encode_png(picture.image, png) : encode_png(picture.image16, png);
+}
+
+std::string clipping(const RenderArgs& args, const Rendered& picture) {
+  constexpr double least = 0.25;
+  const float4 b = background_of(args);
+  const auto code = [](float x) { return static_cast<std::uint8_t>(x * 255 + 0.5f); };
+  const Rgba8 background{code(b.x), code(b.y), code(b.z), code(b.w)};
+  std::size_t surfaces = 0, white = 0;
+  for (const Rgba8 c : picture.image.values()) {
+    if (c.a == 0 || c == background) continue;
+    ++surfaces;
+    white += c.r == 255 && c.g == 255 && c.b == 255;
+  }
+  const double part = static_cast<double>(white) / static_cast<double>(std::max<std::size_t>(surfaces, 1));
+  if (part < least) return {};
+  return fmt::format(
+      "{}: {:.0f} % of the surfaces are clipped to white; see --exposure auto, --lights and "
+      "--tone-mapping",
+      args.input, 100 * part);
 }
 
 std::string emptiness(const RenderArgs& args, const RenderCounts& counts) {

@@ -8,6 +8,7 @@
 
 #include "zoneplate/cli/render/args.h"
 #include "zoneplate/cli/render/summary.h"
+#include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/render/renderer.h"
 
 namespace zoneplate::cli {
@@ -24,6 +25,7 @@ struct Rendered {
   Rgba16Image image16;            ///< used instead of `image` for 16 bits
   LinearImage linear;             ///< for PFM and EXR output: linear light over the background, before tone mapping
   std::vector<std::uint8_t> exr;  ///< for EXR output with data passes: the whole file
+  ExrAttributes attributes;       ///< for EXR output without data passes
   bool has_alpha = false;
   std::vector<LayerFile> layers;
 };
@@ -57,13 +59,21 @@ void set_look(const RenderArgs& args, Scene& scene);
 /// The settings of each frame from the arguments. The extension of `output` determines the image format.
 RenderSettings settings_of(const RenderArgs& args, const std::string& output);
 
-/// Converts a rendered image of `scene` to the formats of the output's extension, with its data passes. Its counts,
-/// times and size are stored in `summary`.
-Rendered finish_picture(const RenderArgs& args, RenderedImage image, const Scene& scene, const std::string& output,
-                        Summary& summary);
+/// The exposure of --exposure auto: auto_exposure (image/auto_exposure.h) of an image of at most 256 pixels a side,
+/// with one sample per pixel, of the whole view.
+float metered_exposure(const PreparedScene& scene, const Camera& camera, const RenderArgs& args);
+
+/// Converts a rendered image of `scene` by `camera` to the formats of the output's extension, with its data passes. Its
+/// counts, times and size are stored in `summary`.
+Rendered finish_picture(const RenderArgs& args, RenderedImage image, const Scene& scene, const Camera& camera,
+                        const std::string& output, Summary& summary);
 
 /// Encodes the image in the format of its name: PNG, JPEG, WebP, PFM, EXR or raw RGBA.
-std::vector<std::uint8_t> encode_picture(const Rendered& picture, const std::string& output);
+std::vector<std::uint8_t> encode_picture(const Rendered& picture, const std::string& output,
+                                         const FileOptions& options = {});
+
+/// The warning about an image of which a quarter of the surfaces or more is clipped to white; empty for others.
+std::string clipping(const RenderArgs& args, const Rendered& picture);
 
 /// The warning about an image without visible surfaces; empty if there are any.
 std::string emptiness(const RenderArgs& args, const RenderCounts& counts);

@@ -4,6 +4,7 @@
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/render/batch.h"
+#include "zoneplate/cli/render/input_names.h"
 #include "zoneplate/cli/render/items.h"
 #include "zoneplate/cli/usage.h"
 #include "zoneplate/cli/verbs.h"
@@ -49,6 +50,10 @@ void run_render(std::span<const std::string> arguments) {
     return;
   }
   static_cast<void>(upscale::make_method(args.method));
+  if (args.is_dry_run) {
+    check_input(args.input, args.load.format);
+    return print(args.prints_json ? Json(plan_json(args, "planned")).text() + '\n' : plan_text(args) + '\n');
+  }
   check_outputs(args);
   if (args.skip_existing && exists(args.output)) return;
   Summary summary;

@@ -112,22 +112,31 @@ class Plan {
 
 // Renders a frame; its shutter opens at the frame's time.
 Rendered render_frame(const RenderArgs& args, Sequence& sequence, int frame, const std::string& output,
-                      Renderer& renderer, Summary& summary) {
+                      Renderer& renderer, std::function<void(double)> progress, Summary& summary) {
   RenderSettings settings = settings_of(args, output);
+  settings.options.progress = std::move(progress);
   const int samples = args.sequence.shutter ? args.sequence.shutter_samples : 1;
   RenderedImage image;
+  Camera camera;
   if (samples > 1) {
     const double open = *args.sequence.shutter / 360;
     image = renderer.render_mean(
-        samples, [&](int i) { return sequence.view(shutter_time(frame, open, i, samples)); }, settings);
+        samples,
+        [&](int i) {
+          SceneView view = sequence.view(shutter_time(frame, open, i, samples));
+          if (i == 0) camera = view.camera;
+          return view;
+        },
+        settings);
   } else {
     if (settings.planes.motion) settings.options.last = sequence.moment(frame - args.sequence.jump);
     if (settings.planes.flow) settings.options.next = sequence.moment(frame + args.sequence.jump);
     SceneView view = sequence.view(frame);
     renderer.set_scene(std::move(view.scene));
-    image = renderer.render(view.camera, settings);
+    camera = view.camera;
+    image = renderer.render(camera, settings);
   }
-  return finish_picture(args, std::move(image), renderer.scene().scene(), output, summary);
+  return finish_picture(args, std::move(image), renderer.scene().scene(), camera, output, summary);
 }
 
 void check_film(const RenderArgs& args, std::size_t frames) {
@@ -165,28 +174,44 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
   Renderer renderer(sequence.scene(plan.frames().front()), std::move(method));
   summary.warnings = renderer.scene().scene().warnings;
   if (!plan.note().empty()) summary.warnings.push_back(plan.note());
+  if (!is_numbered && plan.frames().size() == 1 && !is_one_frame(args.sequence))
+    summary.warnings.push_back(
+        fmt::format("{}: has no animation, so that {} has one frame; see --turntable", args.input, args.output));
   args.view.up = args.up.value_or(renderer.scene().scene().up);
   const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
   if (!is_numbered) check_film(args, plan.frames().size());
   sequence.set_view(args.view, aspect);
+  // One exposure for all frames, so that the sequence does not flicker.
+  if (args.meters_exposure) {
+    const SceneView first = sequence.view(plan.frames().front());
+    args.display.exposure = metered_exposure(first.scene, first.camera, args);
+  }
+  summary.exposure = args.display.exposure;
 
   Animation film = film_of(args.sequence.rate);
   Background background;
   std::size_t done = 0;
   for (const int frame : plan.frames()) {
     const std::size_t count = plan.frames().size();
-    out.progress(fmt::format("frame {} of {}", done + 1, count),
-                 static_cast<double>(done) / static_cast<double>(count));
+    const std::string stage = fmt::format("frame {} of {}", done + 1, count);
+    const double begin = static_cast<double>(done) / static_cast<double>(count);
+    out.progress(stage, begin);
     ++done;
     const std::string output = is_numbered ? output_path(args, frame, -1) : args.output;
     if (is_numbered && args.skip_existing && exists(output)) {
       renderer.begin_sequence();
       continue;
     }
-    Rendered picture = render_frame(args, sequence, frame, output, renderer, summary);
+    const double end = static_cast<double>(done) / static_cast<double>(count);
+    Rendered picture =
+        render_frame(args, sequence, frame, output, renderer, out.progress_of(stage, begin, end), summary);
+    if (frame == plan.frames().front())
+      if (std::string warning = clipping(args, picture); !warning.empty())
+        summary.warnings.push_back(std::move(warning));
     if (is_numbered) {
-      const auto send = [&out, picture = std::make_shared<Rendered>(std::move(picture)), output, frame] {
-        out.file(frame, -1, encode_picture(*picture, output));
+      const auto send = [&out, picture = std::make_shared<Rendered>(std::move(picture)), output, frame,
+                         compression = args.file] {
+        out.file(frame, -1, encode_picture(*picture, output, compression));
         for (const LayerFile& file : picture->layers) out.file(frame, file.aov, file.bytes);
       };
       // PNG encoding uses all threads itself.

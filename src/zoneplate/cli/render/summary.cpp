@@ -7,7 +7,8 @@ namespace zoneplate::cli {
 
 std::vector<std::uint8_t> pack_summary(const Summary& summary) {
   Packer out;
-  out.value(summary.width), out.value(summary.height), out.value(summary.threads), out.value(summary.frames);
+  out.value(summary.width), out.value(summary.height), out.value(summary.threads), out.value(summary.frames),
+      out.value(summary.exposure);
   out.value(summary.counts);
   out.value(summary.peak_memory);
   out.value(std::uint64_t{summary.times.size()});
@@ -22,6 +23,7 @@ Summary unpack_summary(std::span<const std::uint8_t> bytes) {
   Summary out;
   out.width = in.value<int>(), out.height = in.value<int>(), out.threads = in.value<int>();
   out.frames = in.value<int>();
+  out.exposure = in.value<float>();
   out.counts = in.value<RenderCounts>();
   out.peak_memory = in.value<std::uint64_t>();
   for (auto n = in.value<std::uint64_t>(); n > 0; --n) {

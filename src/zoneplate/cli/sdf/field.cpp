@@ -10,14 +10,12 @@
 #include "zoneplate/cli/sdf/sdf.h"
 #include "zoneplate/cli/sdf/show_field.h"
 #include "zoneplate/cli/signal/show.h"
-#include "zoneplate/cli/values.h"
 
 namespace zoneplate::cli {
 namespace {
 
 struct FieldArgs : ShapeSceneArgs {
-  FieldView view = FieldView::Field;
-  double spacing = 10;
+  FieldViewArgs view;
 };
 
 Syntax make_syntax(FieldArgs& args) {
@@ -32,13 +30,7 @@ Syntax make_syntax(FieldArgs& args) {
                     "The field is that of the union of all layers: negative inside. Distances are exact for single\n"
                     "shapes, outside of unions and inside intersections; elsewhere they are lower bounds.\n\n" +
                     shape_scene_notes()};
-  syntax.options = {{"--show", "VIEW", "field, isolines or gradient; default field", "Options", true,
-                     [&](auto& text) {
-                       constexpr FieldView views[] = {FieldView::Field, FieldView::Isolines, FieldView::Gradient};
-                       args.view = views[parse_choice(text, {"field", "isolines", "gradient"})];
-                     }},
-                    {"--spacing", "D", "Distance between isolines in units of the scene; default 10", "Options", true,
-                     [&](auto& text) { args.spacing = parse_number(text, 1e-3, 1e6); }}};
+  syntax.options = field_view_options(args.view, "units of the scene");
   for (Option& option : shape_scene_options(args)) syntax.options.push_back(std::move(option));
   for (Option& option :
        signal_options(args, "The image to write: a .png file, or - for stdout; .pfm and .exr hold distances in pixels"))
@@ -66,7 +58,8 @@ void run_sdf_field(std::span<const std::string> arguments) {
         const float pixels = d * static_cast<float>(raster.scale);
         return Linear{pixels, pixels, pixels, 1};
       });
-      save_result(args.output, distances, [&] { return show_field(field, args.view, args.spacing, raster.scale); });
+      save_result(args.output, distances,
+                  [&] { return show_field(field, args.view.view, args.view.spacing, raster.scale); });
     }
     const auto [low, high] = std::ranges::minmax(field.distance.values());
     print_result(args,

@@ -18,9 +18,9 @@ namespace zoneplate::cli {
 namespace {
 
 struct MaskArgs : SignalArgs {
-  double threshold = 0.5, spacing = 10, scale = 1;
+  double threshold = 0.5, scale = 1;
   bool uses_alpha = false, is_inverted = false;
-  FieldView view = FieldView::Field;
+  FieldViewArgs view;
 };
 
 Syntax from_mask_syntax(MaskArgs& args) {
@@ -39,14 +39,8 @@ Syntax from_mask_syntax(MaskArgs& args) {
   syntax.options = {{"--threshold", "T", "Values above are inside, 0 to 1; default 0.5", group, true,
                      [&](auto& text) { args.threshold = parse_number(text, 0, 1); }},
                     {"--alpha", "", "Take alpha instead of luma", group, true, [&](auto&) { args.uses_alpha = true; }},
-                    {"--invert", "", "Dark pixels are inside", group, true, [&](auto&) { args.is_inverted = true; }},
-                    {"--show", "VIEW", "field, isolines or gradient, for .png; default field", group, true,
-                     [&](auto& text) {
-                       constexpr FieldView views[] = {FieldView::Field, FieldView::Isolines, FieldView::Gradient};
-                       args.view = views[parse_choice(text, {"field", "isolines", "gradient"})];
-                     }},
-                    {"--spacing", "PX", "Distance between isolines in pixels; default 10", group, true,
-                     [&](auto& text) { args.spacing = parse_number(text, 1e-3, 1e6); }}};
+                    {"--invert", "", "Dark pixels are inside", group, true, [&](auto&) { args.is_inverted = true; }}};
+  for (Option& option : field_view_options(args.view, "pixels")) syntax.options.push_back(std::move(option));
   for (Option& option : signal_options(args, "The field to write: .exr or .pfm in pixels, .png or - to look at"))
     syntax.options.push_back(std::move(option));
   return syntax;
@@ -123,7 +117,7 @@ void run_sdf_from_mask(std::span<const std::string> arguments) {
     const auto [low, high] = std::ranges::minmax(distances.values());
     if (!args.output.empty())
       save_result(args.output, grey(distances),
-                  [&] { return show_field(with_gradient(distances), args.view, args.spacing, 1); });
+                  [&] { return show_field(with_gradient(distances), args.view.view, args.view.spacing, 1); });
     print_result(args,
                  fmt::format("{}, {} × {} pixels, {} inside, distances from {:.3f} to {:.3f} pixels\n", title_of(input),
                              image.width(), image.height(), inside, low, high),

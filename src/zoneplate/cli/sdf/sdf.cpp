@@ -36,6 +36,8 @@ std::string overview() {
 
 }  // namespace
 
+std::span<const Verb> sdf_verbs() { return subcommands; }
+
 void run_sdf(std::span<const std::string> arguments) {
   if (arguments.empty() || arguments[0] == "-h" || arguments[0] == "--help") return print(overview());
   std::vector<std::string_view> names;

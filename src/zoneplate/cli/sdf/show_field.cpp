@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "zoneplate/cli/values.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/metrics/rows.h"
 #include "zoneplate/signal/functions.h"
@@ -58,6 +59,25 @@ Rgba8Image show_field(const sdf::DistanceField& field, FieldView view, double sp
       const auto code = [](double v) { return encode_srgb8(static_cast<float>(v)); };
       out(x, y) = {code(c.r), code(c.g), code(c.b), 255};
     }
+  });
+  return out;
+}
+
+std::vector<Option> field_view_options(FieldViewArgs& args, const std::string& unit) {
+  return {{"--show", "VIEW", "View of the field in a .png: field, isolines or gradient; default field", "Options", true,
+           [&args](const std::string& text) {
+             constexpr FieldView views[] = {FieldView::Field, FieldView::Isolines, FieldView::Gradient};
+             args.view = views[parse_choice(text, {"field", "isolines", "gradient"})];
+           }},
+          {"--spacing", "D", "Distance between isolines in " + unit + "; default 10", "Options", true,
+           [&args](const std::string& text) { args.spacing = parse_number(text, 1e-3, 1e6); }}};
+}
+
+Rgba8Image black_on_white(const Plane<float>& coverage) {
+  Rgba8Image out(coverage.width(), coverage.height());
+  std::ranges::transform(coverage.values(), out.values().begin(), [](float c) {
+    const std::uint8_t code = encode_srgb8(1 - c);
+    return Rgba8{code, code, code, 255};
   });
   return out;
 }

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "zoneplate/cli/args.h"
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/sdf/draw.h"
 
@@ -17,5 +22,17 @@ enum class FieldView {
 ///
 /// Units     distances and `spacing`, that of the isolines, in the field's unit; `scale` is its pixels per unit.
 Rgba8Image show_field(const sdf::DistanceField& field, FieldView view, double spacing, double scale);
+
+/// How a field is shown, as the command's options set it.
+struct FieldViewArgs {
+  FieldView view = FieldView::Field;
+  double spacing = 10;  ///< between isolines, in the field's unit
+};
+
+/// The options --show and --spacing, which set `args`; `unit` names the field's unit in the help.
+std::vector<Option> field_view_options(FieldViewArgs& args, const std::string& unit);
+
+/// Black where coverage is 1 on white.
+Rgba8Image black_on_white(const Plane<float>& coverage);
 
 }  // namespace zoneplate::cli

@@ -9,6 +9,7 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/sdf/atlas_file.h"
 #include "zoneplate/cli/sdf/sdf.h"
+#include "zoneplate/cli/sdf/show_field.h"
 #include "zoneplate/cli/sdf/text_error.h"
 #include "zoneplate/cli/signal/args.h"
 #include "zoneplate/cli/values.h"
@@ -100,15 +101,6 @@ Syntax atlas_syntax(TextArgs& args) {
 Font font_of(const TextArgs& args) { return Font(args.font.empty() ? dejavu_path("DejaVuSans.ttf") : args.font); }
 
 /// Black text on white, in linear light.
-Rgba8Image black_on_white(const Plane<float>& coverage) {
-  Rgba8Image out(coverage.width(), coverage.height());
-  std::ranges::transform(coverage.values(), out.values().begin(), [](float c) {
-    const std::uint8_t code = encode_srgb8(1 - c);
-    return Rgba8{code, code, code, 255};
-  });
-  return out;
-}
-
 void save_image(const std::string& path, const Rgba8Image& image) {
   if (!path.empty()) save_picture(path, image);
 }

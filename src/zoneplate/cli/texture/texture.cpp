@@ -33,6 +33,8 @@ std::string overview() {
 
 }  // namespace
 
+std::span<const Verb> texture_verbs() { return subcommands; }
+
 void run_texture(std::span<const std::string> arguments) {
   if (arguments.empty() || arguments[0] == "-h" || arguments[0] == "--help") return print(overview());
   std::vector<std::string_view> names;

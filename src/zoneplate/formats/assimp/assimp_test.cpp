@@ -57,6 +57,67 @@ const char* const dae =
 <scene><instance_visual_scene url="#w"/></scene></COLLADA>
 )";
 
+/// A textured triangle of FBX, whose DiffuseColor the texture replaces.
+const char* const fbx = R"(; FBX 7.3.0 project file
+FBXHeaderExtension:  {
+FBXVersion: 7300
+}
+GlobalSettings:  {
+}
+Objects:  {
+Geometry: 1, "Geometry::", "Mesh" {
+Vertices: *9 {
+a: -1,-1,0,1,-1,0,0,1,0
+}
+PolygonVertexIndex: *3 {
+a: 0,1,-3
+}
+LayerElementUV: 0 {
+MappingInformationType: "ByPolygonVertex"
+ReferenceInformationType: "Direct"
+UV: *6 {
+a: 0,0,1,0,0,1
+}
+}
+LayerElementMaterial: 0 {
+MappingInformationType: "AllSame"
+ReferenceInformationType: "IndexToDirect"
+Materials: *1 {
+a: 0
+}
+}
+Layer: 0 {
+LayerElement:  {
+Type: "LayerElementUV"
+TypedIndex: 0
+}
+LayerElement:  {
+Type: "LayerElementMaterial"
+TypedIndex: 0
+}
+}
+}
+Model: 2, "Model::m", "Mesh" {
+}
+Material: 3, "Material::m", "" {
+ShadingModel: "phong"
+Properties70:  {
+P: "DiffuseColor", "Color", "", "A",0.8,0.8,0.8
+}
+}
+Texture: 4, "Texture::t", "" {
+FileName: "tex.png"
+RelativeFilename: "tex.png"
+}
+}
+Connections:  {
+C: "OO",2,0
+C: "OO",1,2
+C: "OO",3,2
+C: "OP",4,3, "DiffuseColor"
+}
+)";
+
 /// A chunk of a 3DS file: its identifier, its length including these six bytes, its content.
 Bytes chunk(std::uint16_t number, const Bytes& content) {
   Bytes out;
@@ -119,6 +180,28 @@ TEST(Assimp, ReadsNodesMaterialsAndTheTexturesBesideTheModel) {
   EXPECT_EQ(s.images[0].pixels.as<Rgba8>()(1, 0), (Rgba8{200, 0, 0, 255}));
   EXPECT_EQ(s.materials[static_cast<std::size_t>(s.meshes[0].material)].base_color_texture.image, 0);
   EXPECT_TRUE(s.warnings.empty()) << s.warnings[0];
+}
+
+TEST(Assimp, MarksTheMaterialOfAFileThatDefinesNone) {
+  if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
+  std::string text = dae;
+  const auto cut = [&](std::string_view from, std::string_view to) {
+    const std::size_t begin = text.find(from);
+    text.erase(begin, text.find(to, begin) + to.size() - begin);
+  };
+  cut("<library_images>", "</library_materials>");
+  cut("<bind_material>", "</bind_material>");
+  EXPECT_TRUE(load(bytes_of(text.c_str()), "dae").materials.at(0).is_default);
+}
+
+TEST(Assimp, ATextureOfFbxReplacesTheDiffuseColour) {
+  if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
+  const TestFolder folder;
+  folder.write("tex.png", encode_png(Rgba8Image(2, 1, {200, 0, 0, 255})));
+  const Material m = load_scene(folder.write("a.fbx", std::string(fbx))).materials.at(0);
+  EXPECT_EQ(m.base_color_texture.image, 0);
+  EXPECT_EQ(m.base_color, (float4{1, 1, 1, 1}));
+  EXPECT_FALSE(m.is_default);
 }
 
 TEST(Assimp, ReadsNothingOutsideTheModelsFolder) {

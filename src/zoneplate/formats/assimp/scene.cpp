@@ -68,7 +68,6 @@ MtlMaterial mtl_of(const aiMaterial& m) {
   out.name = find_text(m, "?mat.name");
   out.diffuse = find_color(m, "$clr.diffuse");
   if (!out.diffuse) out.diffuse = find_color(m, "$clr.base");
-  out.ambient = out.diffuse;
   out.specular = find_color(m, "$clr.specular");
   out.emissive = find_color(m, "$clr.emissive");
   out.exponent = find_float(m, "$mat.shininess");
@@ -78,6 +77,9 @@ MtlMaterial mtl_of(const aiMaterial& m) {
   out.roughness = find_float(m, "$mat.roughnessFactor");
   if (out.exponent == 0.0f) out.specular.reset();  // formats without highlights have exponent 0
   out.diffuse_map.file = find_image(m, {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR});
+  // In FBX, COLLADA and 3DS a texture is the diffuse colour; in formats with a base colour it multiplies that.
+  if (!out.diffuse_map.file.empty() && !find_color(m, "$clr.base")) out.diffuse.reset();
+  out.ambient = out.diffuse;
   out.emissive_map.file = find_image(m, {aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR});
   out.opacity_map.file = find_image(m, {aiTextureType_OPACITY});
   out.normal_map.file = find_image(m, {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA});
@@ -106,8 +108,7 @@ class Conversion {
 
   void run() {
     for (unsigned i = 0; i < from_.mNumTextures; ++i) embed(*from_.mTextures[i], i);
-    for (unsigned i = 0; i < from_.mNumMaterials; ++i)
-      scene_.materials.push_back(make_material(mtl_of(*from_.mMaterials[i]), "", folder_));
+    for (unsigned i = 0; i < from_.mNumMaterials; ++i) add_material(*from_.mMaterials[i]);
     if (scene_.materials.empty()) scene_.materials.push_back(plain_material("default"));
     for (unsigned i = 0; i < from_.mNumMeshes; ++i) parts_.push_back(add_mesh(*from_.mMeshes[i]));
     if (from_.mRootNode != nullptr) add_node(*from_.mRootNode, {}, 0);
@@ -119,6 +120,12 @@ class Conversion {
   }
 
  private:
+  // Where a file has no materials, its importer adds one of this name.
+  void add_material(const aiMaterial& from) {
+    scene_.materials.push_back(make_material(mtl_of(from), "", folder_));
+    scene_.materials.back().is_default = scene_.materials.back().name == AI_DEFAULT_MATERIAL_NAME;
+  }
+
   /// Adds an image that is embedded in the file; materials refer to it by its index or its name.
   void embed(const aiTexture& t, unsigned number) {
     std::string names[] = {"*" + std::to_string(number), text_of(t.mFilename)};

@@ -358,7 +358,10 @@ Scene SceneReader::read(const GltfMaterials& look, GltfModel::Images images) {
   const auto last = static_cast<int>(scene_.materials.size());
   const bool needs_default =
       std::any_of(scene_.meshes.begin(), scene_.meshes.end(), [&](const Mesh& m) { return m.material == last; });
-  if (needs_default) scene_.materials.emplace_back().name = "default";
+  if (needs_default) {
+    Material& material = scene_.materials.emplace_back();
+    material.name = "default", material.is_default = true;
+  }
   if (scene_.instances.empty()) file_.warn(file_.root().place() + " nothing in the scene can be drawn");
   scene_.animations = list_animations(file_);
   scene_.variants = list_variants(file_);

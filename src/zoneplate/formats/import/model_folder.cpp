@@ -122,6 +122,7 @@ void ModelFolder::embed(std::span<const std::string> names, Rgba8Image pixels) {
 Material plain_material(const std::string& name) {
   Material material;
   material.name = name;
+  material.is_default = true;
   material.model = ShadingModel::BlinnPhong;
   material.double_sided = true;
   material.base_color = {0.8f, 0.8f, 0.8f, 1};

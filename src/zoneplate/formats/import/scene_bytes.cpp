@@ -224,7 +224,7 @@ void pass(S& s, SolidTexture& t) {
 template <class S>
 void pass(S& s, Material& m) {
   s.text(m.name), s.choice(m.model, ShadingModel::Unlit), s.choice(m.alpha_mode, AlphaMode::Blend);
-  s.value(m.alpha_cutoff), s.choice(m.double_sided);
+  s.value(m.alpha_cutoff), s.choice(m.double_sided), s.choice(m.is_default);
   s.value(m.base_color), s.value(m.emissive), s.value(m.normal_scale), s.value(m.occlusion_strength);
   s.value(m.metallic), s.value(m.roughness), s.value(m.ambient), s.value(m.specular), s.value(m.exponent);
   s.value(m.height_scale), s.value(m.parallax_layers);

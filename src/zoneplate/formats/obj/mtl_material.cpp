@@ -146,6 +146,7 @@ void add_layers(const MtlMaterial& mtl, Material& m) {
 
 Material make_material(const MtlMaterial& mtl, const std::string& within, ModelFolder& folder) {
   Material m = plain_material(mtl.name);
+  m.is_default = false;
   m.base_color_texture = load_texture(mtl.diffuse_map, within, folder);
   m.emissive_texture = load_texture(mtl.emissive_map, within, folder);
   m.normal_texture = load_texture(mtl.normal_map, within, folder);

@@ -122,6 +122,7 @@ void add_material(const PlyHeader& header, const std::string& folder, const Mesh
   if (!header.texture.empty() && !mesh.uv0.empty()) {
     ModelFolder files(folder, budget, scene);
     material.base_color_texture.image = files.image("", header.texture);
+    material.is_default = false;
   }
   if (!mesh.color.empty() || material.base_color_texture.image >= 0) material.base_color = {1, 1, 1, 1};
   const bool is_clear = std::any_of(mesh.color.begin(), mesh.color.end(), [](float4 c) { return c.w < 1; });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/raster/tile/rasterize.h"
 
+#include <atomic>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -37,8 +38,10 @@ RasterCounts rasterize(std::span<const Draw> draws, const FragmentShader& shader
   const Stopwatch tiles;
   const TileSetup tile_setup(projected, bins, shader, rules, target);
   PerThread<TileBuffers> buffers;
+  std::atomic<std::size_t> done = 0;
   parallel_for(bins.tiles(), [&](std::size_t tile) {
     growing("tile buffers", [&] { render_tile(tile, buffers.local(tile_setup)); });
+    if (rules.progress) (*rules.progress)(static_cast<double>(++done) / static_cast<double>(bins.tiles()));
   });
   buffers.for_each([&](const TileBuffers& used) {
     counts.shaded += used.batcher.shaded();

@@ -11,6 +11,7 @@
 
 #include "zoneplate/base/closest.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/image/hex_color.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/sdf/language/svg_path.h"
 #include "zoneplate/sdf/language/term.h"
@@ -175,9 +176,10 @@ class Builder {
   }
 
   Linear color(const Term& term) const {
-    const std::optional<Linear> found = parse_hex_color(term.text);
-    if (!found) fail(term, fmt::format("'{}' is not a colour; expected #rgb, #rrggbb or #rrggbbaa", term.text));
-    return *found;
+    const std::optional<Rgba8> found = parse_hex_color(term.text);
+    if (!found) fail(term, fmt::format("'{}' is not a colour; expected #rgb, #rgba, #rrggbb or #rrggbbaa", term.text));
+    const float alpha = static_cast<float>(found->a) / 255;
+    return {decode_srgb8(found->r) * alpha, decode_srgb8(found->g) * alpha, decode_srgb8(found->b) * alpha, alpha};
   }
 
   double number(const Term& term, std::string_view parameter) const {
@@ -292,26 +294,5 @@ SceneFile read_scene_file(std::string_view text, std::string_view file, const Sc
 }
 
 std::span<const ShapeWord> shape_words() { return listed_words; }
-
-std::optional<Linear> parse_hex_color(std::string_view text) {
-  if (!text.starts_with('#')) return std::nullopt;
-  text.remove_prefix(1);
-  if (text.size() != 3 && text.size() != 6 && text.size() != 8) return std::nullopt;
-  std::array<int, 4> code = {0, 0, 0, 255};
-  const std::size_t digits = text.size() == 3 ? 1 : 2;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    const int digit = c >= '0' && c <= '9'   ? c - '0'
-                      : c >= 'a' && c <= 'f' ? c - 'a' + 10
-                      : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                             : -1;
-    if (digit < 0) return std::nullopt;
-    int& value = code[i / digits];
-    value = digits == 1 ? digit * 17 : i % 2 == 0 ? digit * 16 : value + digit;
-  }
-  const auto light = [&](std::size_t i) { return decode_srgb8(static_cast<std::uint8_t>(code[i])); };
-  const float alpha = static_cast<float>(code[3]) / 255;
-  return Linear{light(0) * alpha, light(1) * alpha, light(2) * alpha, alpha};
-}
 
 }  // namespace zoneplate::sdf

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <functional>
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -37,8 +36,5 @@ struct ShapeWord {
   std::string_view name, parameters, summary;
 };
 std::span<const ShapeWord> shape_words();
-
-/// An sRGB colour as "#rgb", "#rrggbb" or "#rrggbbaa", in premultiplied linear light.
-std::optional<Linear> parse_hex_color(std::string_view text);
 
 }  // namespace zoneplate::sdf

@@ -50,7 +50,7 @@ TEST(SdfSceneFile, EveryTextErrorNamesLineAndColumn) {
       {"circle(1,2,3)",
        "line 1, column 1: 'circle' is not a statement; expected canvas, background, let, fill or stroke"},
       {"fill red circle(1,2,3)", "line 1, column 6: expected a colour as #rrggbb, found 'r'"},
-      {"fill #12 circle(1,2,3)", "line 1, column 6: '#12' is not a colour; expected #rgb, #rrggbb or #rrggbbaa"},
+      {"fill #12 circle(1,2,3)", "line 1, column 6: '#12' is not a colour; expected #rgb, #rgba, #rrggbb or #rrggbbaa"},
       {"\nfill #fff cirle(1,2,3)", "line 2, column 11: 'cirle' is not a shape; did you mean circle?"},
       {"fill #fff circle(1,2)", "line 1, column 11: circle(x, y, radius) has 2 arguments"},
       {"fill #fff circle(1,2,3,4)", "line 1, column 11: circle(x, y, radius) has 4 arguments"},
@@ -117,11 +117,12 @@ TEST(SdfSceneFile, EveryJsonErrorNamesLineAndColumn) {
 }
 
 TEST(SdfSceneFile, ColoursArePremultipliedLight) {
-  EXPECT_EQ(parse_hex_color("#fff"), (Linear{1, 1, 1, 1}));
-  EXPECT_EQ(parse_hex_color("#ff000000"), (Linear{0, 0, 0, 0}));
-  EXPECT_EQ(parse_hex_color("#FF0000"), (Linear{1, 0, 0, 1}));
-  for (const char* text : {"", "#", "fff", "#ff", "#ffff", "#ggg", "#fffffff", "#fffffffff"})
-    EXPECT_EQ(parse_hex_color(text), std::nullopt) << text;
+  const auto background = [](const std::string& color) {
+    return read_scene_file("background " + color, "s").background;
+  };
+  EXPECT_EQ(background("#fff"), (Linear{1, 1, 1, 1}));
+  EXPECT_EQ(background("#f000"), (Linear{0, 0, 0, 0}));
+  EXPECT_EQ(background("#FF000033"), (Linear{0.2f, 0, 0, 0.2f}));
 }
 
 TEST(SdfSceneFile, AllWordsAreListed) {

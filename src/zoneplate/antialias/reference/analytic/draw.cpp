@@ -3,6 +3,7 @@
 #include "zoneplate/antialias/reference/analytic/draw.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <optional>
@@ -275,12 +276,16 @@ void draw_analytic(const CustomDraw& drawing, const AnalyticOptions& options) {
   Whole whole{drawing, projected, triangles, target, filter, options, std::nullopt};
   if (options.order == FilterOrder::Display) whole.display_light.emplace(drawing.options.display);
   PerThread<TileIntegrator> integrators;
+  const auto columns = static_cast<std::size_t>(triangles.columns());
+  const double count = static_cast<double>(columns) * triangles.rows();
+  std::atomic<int> done = 0;
   for (int row = 0; row < triangles.rows();) {
-    const auto columns = static_cast<std::size_t>(triangles.columns());
     const std::size_t first = static_cast<std::size_t>(row) * columns;
     row = triangles.list_rows(row);
-    parallel_for(static_cast<std::size_t>(row) * columns - first,
-                 [&](std::size_t tile) { integrators.local(whole).draw(first + tile); });
+    parallel_for(static_cast<std::size_t>(row) * columns - first, [&](std::size_t tile) {
+      integrators.local(whole).draw(first + tile);
+      if (drawing.options.progress) drawing.options.progress(++done / count);
+    });
   }
   integrators.for_each([&](const TileIntegrator& each) { drawing.counts.shaded += each.shaded(); });
   drawing.counts.tiles_ms = tiles.ms();

@@ -65,7 +65,11 @@ AxisFilter axis_filter(const std::string& name) {
 class Strips {
  public:
   Strips(const CustomDraw& drawing, const ConvergedOptions& options)
-      : drawing_(drawing), pattern_(scrambled_pattern(options.samples)), filter_(axis_filter(options.filter)) {
+      : drawing_(drawing),
+        rules_(drawing.rules),
+        pattern_(scrambled_pattern(options.samples)),
+        filter_(axis_filter(options.filter)) {
+    rules_.progress = nullptr;  // of a pass over a strip, not of the image
     std::vector<std::uint8_t> x, y;
     for (const SamplePosition p : pattern_) x.push_back(p.x), y.push_back(p.y);
     across_.emplace(filter_.value, filter_.reach, x);
@@ -89,13 +93,15 @@ class Strips {
     for (std::size_t first = 0; first < pattern_.size(); first += step) {
       strip_.samples.assign(pattern_.begin() + static_cast<std::ptrdiff_t>(first),
                             pattern_.begin() + static_cast<std::ptrdiff_t>(first + step));
-      const RasterCounts pass = rasterize(drawing_.draws, drawing_.shader, drawing_.rules, strip_, &memory_);
+      const RasterCounts pass = rasterize(drawing_.draws, drawing_.shader, rules_, strip_, &memory_);
       drawing_.counts.geometry_ms += pass.geometry_ms;
       drawing_.counts.tiles_ms += pass.tiles_ms;
       drawing_.counts.shaded += pass.shaded;
       drawing_.counts.triangles = pass.triangles;
       drawing_.counts.set_up = std::max(drawing_.counts.set_up, pass.set_up);
       add_pass(first, step);
+      const double rows = top + height * static_cast<double>(first + step) / static_cast<double>(pattern_.size());
+      if (drawing_.options.progress) drawing_.options.progress((rows - drawing_.target.y) / drawing_.target.height);
     }
     write_strip();
   }
@@ -190,6 +196,7 @@ class Strips {
   }
 
   const CustomDraw& drawing_;
+  RasterRules rules_;
   const SamplePattern pattern_;
   const AxisFilter filter_;
   std::optional<AxisWeights> across_, down_;

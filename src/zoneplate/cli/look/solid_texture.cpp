@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/render/solid_texture.h"
+#include "zoneplate/cli/look/solid_texture.h"
 
 #include <fmt/format.h>
 

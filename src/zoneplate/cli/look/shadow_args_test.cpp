@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/render/shadow_args.h"
+#include "zoneplate/cli/look/shadow_args.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "zoneplate/formats/import/load_options.h"
+#include "zoneplate/math/vec.h"
+
+namespace zoneplate {
+struct Scene;
+}  // namespace zoneplate
+
+namespace zoneplate::cli {
+
+/// The look of surfaces for which the model's file defines no material: STL, PLY, and the default material of others.
+struct DefaultMaterial {
+  std::optional<float4> color;               ///< linear, straight alpha; multiplies colours of vertices
+  std::optional<float> metallic, roughness;  ///< one of them makes the material metallic-roughness
+  std::string texture;                       ///< file of the base colour; empty: none
+
+  bool is_set() const { return color || metallic || roughness || !texture.empty(); }
+};
+
+/// Gives the default materials of the scene this look, and adds a warning where it has no effect.
+///
+/// Errors    those of reading the texture.
+void set_default_material(const DefaultMaterial& look, const LoadLimits& limits, Scene& scene);
+
+}  // namespace zoneplate::cli

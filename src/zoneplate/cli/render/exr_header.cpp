@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/cli/render/exr_header.h"
+
+#include <cmath>
+
+#include "zoneplate/math/mat.h"
+#include "zoneplate/version.h"
+
+namespace zoneplate::cli {
+namespace {
+
+// A matrix that multiplies row vectors has our columns as its rows.
+ExrMatrix exr_matrix(const float4x4& m) {
+  ExrMatrix out{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const float4 c = m.column[i];
+    const float row[4] = {c.x, c.y, c.z, c.w};
+    for (std::size_t j = 0; j < 4; ++j) out[4 * i + j] = row[j];
+  }
+  return out;
+}
+
+// (x, y, z) -> (x, y, -z).
+constexpr float4x4 mirrored_z{{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, 0}, {0, 0, 0, 1}}}};
+
+// From clip space to the unit square of a rectangle of the image.
+float4x4 ndc_from_clip(const RenderOptions& options) {
+  const Crop crop = options.crop.value_or(Crop{0, 0, options.width, options.height});
+  const float w = static_cast<float>(options.width) / static_cast<float>(crop.width);
+  const float h = static_cast<float>(options.height) / static_cast<float>(crop.height);
+  const float x = static_cast<float>(crop.x) / static_cast<float>(crop.width);
+  const float y = static_cast<float>(crop.y) / static_cast<float>(crop.height);
+  return {{{{0.5f * w, 0, 0, 0}, {0, -0.5f * h, 0, 0}, {0, 0, 1, 0}, {0.5f * w - x, 0.5f * h - y, 0, 1}}}};
+}
+
+// The rate as a fraction of integers, in thousandths where it is not whole.
+ExrRational rational(double rate) {
+  const std::uint32_t per = rate == std::floor(rate) ? 1 : 1000;
+  return {static_cast<std::int32_t>(std::lround(rate * per)), per};
+}
+
+}  // namespace
+
+ExrAttributes exr_header(const RenderArgs& args, const Camera& camera) {
+  const float4x4 camera_from_world = inverse(camera.world_from_camera);
+  const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
+  ExrAttributes out;
+  out.emplace_back("software", std::string("Zoneplate ") + version);
+  if (!args.display.raw) out.emplace_back("chromaticities", rec709_chromaticities);
+  out.emplace_back("worldToCamera", exr_matrix(mirrored_z * camera_from_world));
+  out.emplace_back("worldToNDC",
+                   exr_matrix(ndc_from_clip(args.options) * camera.clip_from_camera(aspect) * camera_from_world));
+  if (args.sequence.is_sequence()) out.emplace_back("framesPerSecond", rational(args.sequence.rate));
+  return out;
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/cli/render/input_names.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/codec/save.h"
+#include "zoneplate/formats/assimp/assimp.h"
+#include "zoneplate/formats/load.h"
+
+namespace zoneplate::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_model(const std::string& path) {
+  const std::string extension = extension_of(path);
+  const auto has_it = [&](const SceneFormat& format) { return format.extension == extension; };
+  return std::ranges::any_of(scene_formats(), has_it) || std::ranges::any_of(assimp_formats(), has_it);
+}
+
+std::vector<std::string> models_in(const std::string& folder) {
+  std::vector<std::string> found;
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (entry->is_regular_file(error) && is_model(entry->path())) found.push_back(entry->path());
+  if (error) throw Error(ErrorKind::Input, folder + ": " + error.message());
+  if (found.empty()) throw Error(ErrorKind::Input, folder + ": a folder without models (zoneplate list formats)");
+  std::ranges::sort(found);
+  return found;
+}
+
+}  // namespace
+
+std::vector<std::string> with_folders_listed(const std::vector<std::string>& inputs) {
+  std::vector<std::string> out;
+  std::error_code ignored;
+  for (const std::string& input : inputs) {
+    if (!is_builtin_scene(input) && fs::is_directory(input, ignored)) {
+      const std::vector<std::string> models = models_in(input);
+      out.insert(out.end(), models.begin(), models.end());
+    } else {
+      out.push_back(input);
+    }
+  }
+  return out;
+}
+
+void check_input(const std::string& input, const std::string& format) {
+  std::error_code ignored;
+  if (input == "-" || (format.empty() && is_builtin_scene(input))) return;
+  if (!fs::exists(input, ignored))
+    throw Error(ErrorKind::Input, input + ": no such file, and no built-in scene of that name");
+  if (format.empty() && !is_model(input))
+    throw Error(ErrorKind::Input, input + ": not a format that can be read (zoneplate list formats)");
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace zoneplate::cli {
+
+/// The inputs, with each folder replaced by the models in it and in its folders, sorted by name.
+///
+/// Errors    ErrorKind::Input for a folder without models, or one that cannot be read.
+std::vector<std::string> with_folders_listed(const std::vector<std::string>& inputs);
+
+/// Checks that an input exists and has the extension of a format that is read.
+///
+/// Errors    ErrorKind::Input.
+void check_input(const std::string& input, const std::string& format);
+
+}  // namespace zoneplate::cli
