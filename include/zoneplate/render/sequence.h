@@ -72,9 +72,18 @@ class Sequence {
   float3 centre_;
 };
 
+/// The weight of a moment in a frame, as a function of time. All filters have their middle at the middle of the box,
+/// and its width at half their height; the triangle is twice as wide.
+enum class ShutterFilter {
+  Box,       ///< an open shutter
+  Triangle,  ///< the box twice: frequencies at which the box has its zeros are damped by their square
+  Gaussian,  ///< cut off at four standard deviations
+};
+
 /// The time, as a frame number, of sample i of `count` of a shutter that opens at the frame's time and stays open for
-/// the fraction `open` of the frame interval. Samples lie at the middle of equal parts of that time.
-double shutter_time(double frame, double open, int i, int count);
+/// the fraction `open` of the frame interval. Samples lie at the middle of `count` parts of the filter of equal weight:
+/// their mean is the filtered moment.
+double shutter_time(double frame, double open, int i, int count, ShutterFilter filter = ShutterFilter::Box);
 
 }  // namespace zoneplate
 #pragma GCC visibility pop

@@ -117,10 +117,10 @@ TEST_F(FilterVerb, UpscalesImages) {
   ASSERT_EQ(run("wires -o rendered.png --size 96x72 --aa smaa --upscale lanczos --render-scale performance"), 0)
       << output_;
   ASSERT_EQ(run("filter small.png -o large.png --upscale fsr1 --size 96x72 --bit-depth 16"), 0) << output_;
-  EXPECT_EQ(png("large.png").width, 96);
-  EXPECT_EQ(png("large.png").height, 72);
+  EXPECT_EQ(png("large.png").pixels.width(), 96);
+  EXPECT_EQ(png("large.png").pixels.height(), 72);
   ASSERT_EQ(run("filter small.png -o default.png --aa fxaa --upscale nis"), 0) << output_;
-  EXPECT_EQ(png("default.png").width, 72);
+  EXPECT_EQ(png("default.png").pixels.width(), 72);
   EXPECT_EQ(run("filter small.png -o x.png --upscale fsr1 --size 40x40"), 2);
   EXPECT_NE(output_.find("upscalers only enlarge"), std::string::npos) << output_;
   EXPECT_EQ(run("filter small.png -o x.png --upscale nis --size 200x40"), 2);

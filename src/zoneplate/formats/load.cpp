@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/formats/load.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <optional>
@@ -113,6 +115,13 @@ Scene read_in_child(const std::string& name, const LoadOptions& options) {
   return read_scene([&](void* out, std::size_t size) { child.read(out, size); }, budget);
 }
 
+/// A built-in scene that moves, at the chosen time, in microseconds.
+Scene moment_of_builtin(const std::string& name, const SceneChoice& choice) {
+  if (name.find(':') != std::string::npos)
+    throw Error(ErrorKind::Usage, name + ": a sequence chooses the time of each frame itself: give the name alone");
+  return *make_builtin_scene(fmt::format("{}:time={:.6f}", name, std::clamp(choice.time, 0.0, 10.0)));
+}
+
 bool is_for_assimp(const std::string& extension) {
   const auto others = assimp_formats();
   return std::any_of(others.begin(), others.end(), [&](const SceneFormat& f) { return f.extension == extension; });
@@ -123,8 +132,9 @@ bool is_for_assimp(const std::string& extension) {
 Scene load_scene(const std::string& name, const LoadOptions& options) {
   if (options.format.empty() && name != "-")
     if (std::optional<Scene> scene = make_builtin_scene(name)) {
-      static_cast<void>(limits_of(options));
-      return std::move(*scene);
+      if (scene->animations.empty()) static_cast<void>(limits_of(options));
+      return options.choice.animation && !scene->animations.empty() ? moment_of_builtin(name, options.choice)
+                                                                    : std::move(*scene);
     }
   const bool has_child = options.is_sandboxed && !is_for_assimp(extension_of(name, options.format));
   return has_child ? read_in_child(name, options) : read_watched(name, options);

@@ -1,15 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/render/sequence.h"
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
 #include "zoneplate/math/transform.h"
+#include "zoneplate/signal/functions.h"
 
 namespace zoneplate {
 namespace {
 
 constexpr double tau = 6.28318530717958647692;
+
+constexpr double widths_per_deviation = 2.35482004503094938;  // √(8 ln 2), of a Gaussian's width at half its height
+
+/// The integral of exp(-x² / 2) from -4 to x, by Simpson's rule.
+double bell_integral(double x) {
+  constexpr int steps = 128;
+  const double step = (x + 4) / steps;
+  double sum = 0;
+  for (int k = 0; k <= steps; ++k) {
+    const double at = -4 + k * step;
+    sum += natural_exp(-at * at / 2) * (k == 0 || k == steps ? 1 : k % 2 == 0 ? 2 : 4);
+  }
+  return sum * step / 3;
+}
+
+/// The number of standard deviations below which lies a part of a normal distribution that is cut off at four.
+double normal_quantile(double part) {
+  const double wanted = part * bell_integral(4);
+  double low = -4, high = 4;
+  for (int k = 0; k < 50; ++k) {
+    const double middle = (low + high) / 2;
+    (bell_integral(middle) < wanted ? low : high) = middle;
+  }
+  return (low + high) / 2;
+}
 
 }  // namespace
 
@@ -82,6 +109,12 @@ void Sequence::add_turns(Scene& all) const {
     }
 }
 
-double shutter_time(double frame, double open, int i, int count) { return frame + open * (i + 0.5) / count; }
+double shutter_time(double frame, double open, int i, int count, ShutterFilter filter) {
+  const double part = (i + 0.5) / count;
+  if (filter == ShutterFilter::Box) return frame + open * (i + 0.5) / count;
+  const double middle = frame + open / 2;
+  if (filter == ShutterFilter::Gaussian) return middle + open / widths_per_deviation * normal_quantile(part);
+  return middle + (part < 0.5 ? open * (std::sqrt(2 * part) - 1) : open * (1 - std::sqrt(2 * (1 - part))));
+}
 
 }  // namespace zoneplate

@@ -99,5 +99,24 @@ TEST(Sequence, ShutterTimesAreTheMiddlesOfEqualParts) {
   EXPECT_DOUBLE_EQ(shutter_time(7, 1, 0, 1), 7.5);
 }
 
+// A point whose light oscillates f times per frame keeps a part of its amplitude, which is the filter's spectrum.
+TEST(Shutter, FiltersHaveTheirSpectra) {
+  constexpr double pi = 3.14159265358979323846;
+  constexpr int count = 2000;
+  for (const double open : {0.5, 1.0})
+    for (const double f : {0.1, 0.45, 0.9, 1.7}) {
+      const auto amplitude = [&](ShutterFilter filter) {
+        double sum = 0;
+        for (int i = 0; i < count; ++i)
+          sum += std::cos(2 * pi * f * (shutter_time(3, open, i, count, filter) - 3 - open / 2));
+        return sum / count;
+      };
+      const double box = std::sin(pi * f * open) / (pi * f * open), deviation = open / std::sqrt(8 * std::log(2));
+      EXPECT_NEAR(amplitude(ShutterFilter::Box), box, 1e-5);
+      EXPECT_NEAR(amplitude(ShutterFilter::Triangle), box * box, 2e-5);
+      EXPECT_NEAR(amplitude(ShutterFilter::Gaussian), std::exp(-2 * pi * pi * f * f * deviation * deviation), 5e-4);
+    }
+}
+
 }  // namespace
 }  // namespace zoneplate

@@ -140,33 +140,59 @@ TemporalAccumulation::Current TemporalAccumulation::current_of(const Frame& fram
   return out;
 }
 
-/// 1 where one of the 3 × 3 surfaces moves, or was one in the last frame of an object that moves or is no longer seen.
+/// 1 where the 3 × 3 surfaces do not move as one, 2 where a surface of the last frame moves otherwise: history there
+/// may contain colours that have moved elsewhere. But for the oracle also where they move at all. An object of the last
+/// frame is taken to have moved by its mean motion.
 Plane<float> TemporalAccumulation::restless(const Frame& frame, const Plane<float2>& motion) const {
-  constexpr float least = 1 / 2048.0f;  // the resolve rounds smaller motion to 0
+  constexpr float likeness = 1 / 128.0f;  // pixels; over twenty frames a sixth of a pixel
   const int width = motion.width(), height = motion.height();
-  const auto moves = [&](float2 m) { return std::abs(m.x) >= least || std::abs(m.y) >= least; };
-  // By number of the object plus one: has it moved or vanished?
+  const std::vector<ObjectMotion> objects = object_motions(frame, motion);
+  const auto differs = [](float2 a, float2 b, float limit) {
+    return std::abs(a.x - b.x) > limit || std::abs(a.y - b.y) > limit;
+  };
+  Plane<float> out(width, height);
+  for_each_row(height, [&](int y) {
+    for (int x = 0; x < width; ++x) {
+      const float2 own = motion(x, y);
+      const float own_object = number_of(frame.object_id(x, y));
+      const auto source_x =
+          std::clamp(std::floor(static_cast<float>(x) - own.x + 0.5f), -2.0f, static_cast<float>(width + 1));
+      const auto source_y =
+          std::clamp(std::floor(static_cast<float>(y) - own.y + 0.5f), -2.0f, static_cast<float>(height + 1));
+      float unrest = !tests_visibility() && differs(own, {0, 0}, 1 / 2048.0f) ? 1.0f : 0.0f;
+      for (int j = -1; j <= 1; ++j)
+        for (int i = -1; i <= 1; ++i) {
+          const float2 other = motion(std::clamp(x + i, 0, width - 1), std::clamp(y + j, 0, height - 1));
+          const float past = past_surface_(std::clamp(static_cast<int>(source_x) + i, 0, width - 1),
+                                           std::clamp(static_cast<int>(source_y) + j, 0, height - 1));
+          const ObjectMotion& object = objects[static_cast<std::size_t>(past + 1)];
+          if (past != own_object && (object.pixels == 0 || differs(object.mean, own, likeness))) unrest = 2;
+          if (differs(other, own, likeness)) unrest = std::max(unrest, 1.0f);
+        }
+      out(x, y) = unrest;
+    }
+  });
+  return out;
+}
+
+/// The mean motions of the objects of this frame and of the last one, by their number plus one.
+std::vector<TemporalAccumulation::ObjectMotion> TemporalAccumulation::object_motions(
+    const Frame& frame, const Plane<float2>& motion) const {
   float most = *std::ranges::max_element(past_surface_.values());
   for (const std::uint32_t id : frame.object_id.values()) most = std::max(most, number_of(id));
-  std::vector<char> is_seen(static_cast<std::size_t>(most) + 2, 0), has_moved(is_seen.size(), 0);
+  struct Sum {
+    double x = 0, y = 0;
+  };
+  std::vector<Sum> sums(static_cast<std::size_t>(most) + 2);
+  std::vector<ObjectMotion> out(sums.size());
   for (std::size_t i = 0; i < motion.values().size(); ++i) {
     const auto object = static_cast<std::size_t>(number_of(frame.object_id.values()[i]) + 1);
-    is_seen[object] = 1;
-    if (moves(motion.values()[i])) has_moved[object] = 1;
+    const float2 m = motion.values()[i];
+    sums[object].x += static_cast<double>(m.x), sums[object].y += static_cast<double>(m.y), ++out[object].pixels;
   }
-  for (std::size_t k = 0; k < has_moved.size(); ++k)
-    if (!is_seen[k]) has_moved[k] = 1;
-  Plane<float> here(width, height), out(width, height);
-  for_each_row(height, [&](int y) {
-    for (int x = 0; x < width; ++x)
-      here(x, y) = moves(motion(x, y)) || has_moved[static_cast<std::size_t>(past_surface_(x, y) + 1)] ? 1.0f : 0.0f;
-  });
-  for_each_row(height, [&](int y) {
-    for (int x = 0; x < width; ++x)
-      for (int j = std::max(y - 1, 0); j <= std::min(y + 1, height - 1); ++j)
-        for (int i = std::max(x - 1, 0); i <= std::min(x + 1, width - 1); ++i)
-          out(x, y) = std::max(out(x, y), here(i, j));
-  });
+  for (std::size_t k = 0; k < out.size(); ++k)
+    if (out[k].pixels > 0)
+      out[k].mean = {static_cast<float>(sums[k].x / out[k].pixels), static_cast<float>(sums[k].y / out[k].pixels)};
   return out;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <vector>
+
 #include "zoneplate/antialias/temporal/options.h"
 #include "zoneplate/render/method.h"
 
@@ -28,6 +30,11 @@ class TemporalAccumulation {
   bool tests_surfaces() const;
   bool tests_visibility() const;
   Current current_of(const Frame& frame) const;
+  struct ObjectMotion {
+    float2 mean;
+    int pixels = 0;  ///< none: the object was visible in the last frame only
+  };
+  std::vector<ObjectMotion> object_motions(const Frame& frame, const Plane<float2>& motion) const;
   Plane<float> restless(const Frame& frame, const Plane<float2>& motion) const;
   void begin_history(const Frame& frame);
   void keep_surfaces(const Frame& frame);

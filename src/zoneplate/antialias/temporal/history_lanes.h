@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+
 #include "zoneplate/antialias/temporal/reprojection_lanes.h"
 
 /// The colour of the history between pixels, over a lane type of math/lanes.h.

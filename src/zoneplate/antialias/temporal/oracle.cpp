@@ -3,10 +3,10 @@
 // the same surface point. An engine guesses this from depths, ids and colours; here rays to the triangles of the last
 // frame decide, and motion is exact.
 //
-// History of n frames has the weight n - 1 to 1, up to n = `most`. It is never rectified. Weaknesses, which therefore
-// are those of reprojection itself: history between pixels is filtered in every frame; a pixel has one history for all
-// of its surfaces, so that an edge between surfaces of different motion drags a fringe along; light that changes on a
-// surface arrives late.
+// History of n frames has the weight n - 1 to 1, up to n = `most`. It is rectified (variance clip) only where surfaces
+// of different motion meet, since a pixel has one history for all of its surfaces, and where its luma changes beyond
+// that of earlier frames. Weaknesses, which therefore are those of reprojection itself: history between pixels is
+// filtered in every frame, and edges between surfaces of different motion have few samples.
 #include "zoneplate/antialias/temporal/accumulation.h"
 
 namespace zoneplate::antialias {
@@ -37,8 +37,8 @@ std::unique_ptr<Resolver> make(const Settings& s) {
   using Parts = TemporalParts;
   TemporalOptions options{.parts = {.dilation = Parts::Dilation::None,
                                     .filter = static_cast<Parts::Filter>(s.integer("history")),
-                                    .rectification = Parts::Rectification::None,
                                     .rejection = Parts::Rejection::Unseen,
+                                    .trusts_rest = true,
                                     .blend = Parts::Blend::Count,
                                     .least_weight = 1 / static_cast<float>(s.integer("most"))},
                           .length = s.integer("length"),

@@ -37,17 +37,19 @@ struct TemporalParts {
   float gamma = 1;         ///< of Variance and Both, for surfaces at rest
   float moving_gamma = 1;  ///< the same at `fast` pixels per frame
   Rejection rejection = Rejection::Both;
-  /// At rest, history is neither tested nor rectified, unless the current luma differs from that of the history by four
-  /// times the standard deviation of earlier frames.
+  /// Where all surfaces around move as one, or rest, history is neither tested nor rectified, unless the current luma
+  /// differs from that of the history by four times the standard deviation of earlier frames.
   bool trusts_rest = false;
   float tolerance = 0.01f;  ///< of depths, relative
   Blend blend = Blend::Count;
   float least_weight = 0.05f;  ///< of the current frame
   Weighting weighting = Weighting::None;
-  bool is_compressed = false;         ///< c / (1 + max c) is averaged instead of the straight colour c
-  bool keeps_current_alpha = false;   ///< alpha is that of the current frame
-  bool has_kernel = false;            ///< the current colour is the mean of 3 × 3 colours with the weights `kernel`
-  float kernel[9] = {};               ///< by row; their sum is 1
+  bool is_compressed = false;        ///< c / (1 + max c) is averaged instead of the straight colour c
+  bool keeps_current_alpha = false;  ///< alpha is that of the current frame
+  bool has_kernel = false;           ///< the current colour is the mean of 3 × 3 colours with the weights `kernel`
+  float kernel[9] = {};              ///< by row; their sum is 1
+  /// Where a surface has left, so many frames count in the history: its remains at the edges fade soon.
+  static constexpr float left_frames = 2;
   static constexpr float fast = 128;  ///< pixels per frame
 };
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+
 #include "zoneplate/antialias/temporal/color_lanes.h"
 #include "zoneplate/antialias/temporal/resolve.h"
 

@@ -24,7 +24,8 @@ struct TemporalRow {
   const float* last_depth;     ///< the distance that the surface had from the last camera
   const float* last_nearness;  ///< its reversed depth in the last frame
   const float* seen;           ///< 1 where the last frame's camera saw the surface point; without a border
-  const float* restless;       ///< 0 where neither the 3 × 3 surfaces nor those of the last frame have moved since
+  const float*
+      restless;  ///< 0 where the 3 × 3 surfaces move as one, as those of the last frame did; 2 where one has left
   std::ptrdiff_t stride;
   const float* column;  ///< 0, 1, 2, ...
   int y;

@@ -44,28 +44,30 @@ template <class F>
   return source.is_inside & ((nearest - farthest > edge) | (threshold >= before - surface.last_nearness));
 }
 
-/// True where nothing has moved and the current luma is a plausible sample of those in the history.
+/// A value of the last frame at the pixel nearest to the source.
+template <class F>
+[[gnu::always_inline]] inline F past_value(const float* plane, const TemporalRow& row, const Source<F>& source,
+                                           std::ptrdiff_t i) {
+  if (source.is_at_rest()) return F::load(plane + (std::ptrdiff_t{row.y} * row.width + i));
+  const F half(0.5f);
+  return F::gather(plane, index_at(row, source.first[0] + floor(source.fraction[0] + half),
+                                   source.first[1] + floor(source.fraction[1] + half)));
+}
+
+/// True where all surfaces around move as one and the current luma is a plausible sample of those in the history.
 ///
 /// Samples on an edge vary between both of its sides: one side of sixteen differs from the mean by 3.9 standard
 /// deviations.
 template <class F>
-[[gnu::always_inline]] inline typename F::Bool is_steady(const TemporalRow& row, const Rgba<F>& current,
-                                                         const Rgba<F>& past, std::ptrdiff_t i) {
-  const F zero(0.0f), most(4.0f), floor_of_noise(0.02f), young(8.0f);
-  const std::ptrdiff_t here = std::ptrdiff_t{row.y} * row.width + i;
+[[gnu::always_inline]] inline typename F::Bool is_steady(const TemporalRow& row, const Source<F>& source,
+                                                         const Rgba<F>& current, const Rgba<F>& past, F square,
+                                                         std::ptrdiff_t i) {
+  const F zero(0.0f), most(4.0f), noise(0.02f), least_noise(0.002f), young(8.0f);
   const F mean = luma_of(past), difference = abs(luma_of(current) - mean);
-  const F deviation = sqrt(max(F::load(row.squares + here) - mean * mean, zero));
-  return (F::load(row.restless + i) == zero) &
-         ((young > F::load(row.frames + here)) | (most * deviation + floor_of_noise * mean + F(0.002f) > difference));
-}
-
-/// The mean squared luma of the history.
-template <class F>
-[[gnu::always_inline]] inline F past_square(const TemporalRow& row, const Source<F>& source, std::ptrdiff_t i) {
-  if (source.is_at_rest()) return F::load(row.squares + (std::ptrdiff_t{row.y} * row.width + i));
-  const F half(0.5f);
-  return F::gather(row.squares, index_at(row, source.first[0] + floor(source.fraction[0] + half),
-                                         source.first[1] + floor(source.fraction[1] + half)));
+  const F deviation = sqrt(max(square - mean * mean, zero));
+  return source.is_inside & (F::load(row.restless + i) == zero) &
+         ((young > past_value(row.frames, row, source, i)) |
+          (most * deviation + noise * mean + least_noise > difference));
 }
 
 template <class Full, class One>
@@ -83,21 +85,26 @@ template <class Full, class One>
     const Rgba<F> past = history_of(row, parts, source, i);
     Rgba<F> history = rectified(past, around, parts, gamma);
     auto valid = is_valid(row, parts, surface, source, i);
+    F square(0.0f);
     if (parts.trusts_rest) {
-      const auto is_trusted = is_steady(row, current, past, i);
+      square = past_value(row.squares, row, source, i);
+      const auto is_trusted = is_steady(row, source, current, past, square, i);
       history = select(is_trusted, past, history);
-      valid = valid | is_trusted;
+      if (parts.rejection != TemporalParts::Rejection::Unseen) valid = valid | is_trusted;
     }
     const Share<F> share = valid_share(row, parts, source, current, history, i);
     const F weight = weighted(share.weight, current, history, parts.weighting);
     Rgba<F> result = select(valid, history + (current - history) * weight, current);
     if (parts.trusts_rest) {
-      const F luma = luma_of(current), square = luma * luma, before = past_square(row, source, i);
-      select(valid, before + (square - before) * weight, square).store(row.squares_out + i);
+      const F luma = luma_of(current);
+      select(valid, square + (luma * luma - square) * weight, luma * luma).store(row.squares_out + i);
     }
     if (parts.keeps_current_alpha) result.c[3] = current.c[3];
     result.store(row.resolved + 4 * i);
-    select(valid, share.frames, one).store(row.frames_out + i);
+    F frames = select(valid, share.frames, one);
+    if (parts.trusts_rest)
+      frames = select(F::load(row.restless + i) > one, min(frames, F(TemporalParts::left_frames)), frames);
+    frames.store(row.frames_out + i);
   });
 }
 

@@ -14,6 +14,7 @@
 #include "zoneplate/cli/output_paths.h"
 #include "zoneplate/cli/render/args.h"
 #include "zoneplate/cli/render/environment_file.h"
+#include "zoneplate/cli/render/film.h"
 #include "zoneplate/cli/render/picture.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
@@ -22,6 +23,7 @@
 #include "zoneplate/metrics/flip/magma.h"
 #include "zoneplate/metrics/metrics.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/render/sequence.h"
 #include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/upscale/upscaler.h"
 
@@ -31,14 +33,17 @@ namespace {
 struct CompareArgs {
   RenderArgs render;  ///< size, view, lights, tone mapping, limits: the options of `zoneplate render`
   std::vector<std::string> scenes, command;
-  std::string methods = "all", reference, page, metrics = "psnr,ssim,flip,edge_error";
-  int turns = 3;
+  std::string methods = "all", reference, page, metrics;
+  int turns = 3, frames = 1;
 };
+
+constexpr double frame_rate = 24;
 
 constexpr const char* examples =
     "  zoneplate compare teapot --aa none,fxaa,smaa,msaa:n=4,ssaa:n=4 -o teapot-compared\n"
     "  zoneplate compare wires stars foliage --aa all --reference ssaa:n=16 -o compared\n"
     "  zoneplate compare all --aa all -o everything         all scenes that show a class of artifacts\n"
+    "  zoneplate compare passing-fence disocclusion --frames 24 --aa none,taa,oracle-taa -o films\n"
     "  zoneplate compare wires --aa none,fxaa,msaa:n=8 --html wires.html     only the page, for a browser\n"
     "  zoneplate compare chair.glb --aa msaa:n=8,ssaa:pattern=halton,samples=64 --reference chair-reference.png -o "
     "chair\n";
@@ -54,6 +59,12 @@ constexpr const char* notes =
     "  SCENE/reference.png, SCENE/METHOD.png    the images; METHOD.error.png: FLIP error maps; METHOD.worst.png: the\n"
     "                                           regions of greatest error, enlarged 8 times\n"
     "  SCENE/crops.png, SCENE/cost.svg          the same region by every method; error against cost\n"
+    "With --frames, every method renders one sequence of the scene's animation, 24 frames per second; metrics are "
+    "those\n"
+    "of all frames, images are the last frame, and in addition:\n"
+    "  SCENE/METHOD.film.png                    the frames as an animated PNG, those of the reference too\n"
+    "  SCENE/METHOD.difference.png              8 times the difference from the reference, about grey, animated\n"
+    "  SCENE/METHOD.slice.png                   the middle row of all frames, time running downwards\n"
     "\n"
     "Times are the minimum of several turns, from the scene in memory to the 8-bit image; stage times belong to the\n"
     "fastest turn. Compare only times of the same run. A method whose turns take more than 1.5 s gets fewer turns,\n"
@@ -80,8 +91,12 @@ Syntax compare_syntax(CompareArgs& args) {
       {"--reference", "REF",
        "Reference: a method (analytic, converged, ssaa:n=16, ...) or an image file; default converged", group, true,
        [&](auto& text) { args.reference = text; }},
-      {"--metric", "LIST", "Metrics (zoneplate metrics --help); flip is always included", group, false,
-       [&](auto& text) { args.metrics = text; }},
+      {"--metric", "LIST",
+       "Metrics (zoneplate metrics --help), default psnr,ssim,flip,edge_error, or of sequences "
+       "psnr,tpsnr,flicker; flip is always included",
+       group, false, [&](auto& text) { args.metrics = text; }},
+      {"--frames", "N", "Frames of a sequence that each method renders; default 1, a still image", group, false,
+       [&](auto& text) { args.frames = parse_whole(text, 1, 1000); }},
       {"--turns", "N", "Frames rendered by each method, of which the fastest counts; default 3", group, false,
        [&](auto& text) { args.turns = parse_whole(text, 1, 1000); }}};
   constexpr std::string_view left_out[] = {
@@ -131,14 +146,14 @@ std::vector<std::string> methods_of(const std::string& text) {
 /// once and tests alpha on a grid, so that textures, highlights and alpha tests are aliased as in the tested methods.
 constexpr const char* best_reference = "converged";
 
-std::vector<metrics::Choice> metrics_of(const std::string& text) {
+std::vector<metrics::Choice> metrics_of(const std::string& text, int frames) {
   std::vector<metrics::Choice> out;
-  for (const std::string& item : split_specs(text)) {
+  const char* const usual = frames > 1 ? "psnr,tpsnr,flicker" : "psnr,ssim,flip,edge_error";
+  for (const std::string& item : split_specs(text.empty() ? usual : text)) {
     out.push_back(metrics::choose_metric(metrics::metrics(), item));
-    if (out.back().metric->frames > 1)
-      throw Error(ErrorKind::Usage, fmt::format("--metric {}: it measures sequences, and compare renders one image of "
-                                                "each method; render sequences and use zoneplate metrics",
-                                                out.back().metric->name));
+    if (out.back().metric->frames > frames)
+      throw Error(ErrorKind::Usage, fmt::format("--metric {}: it measures sequences: give --frames {} or more",
+                                                out.back().metric->name, out.back().metric->frames));
   }
   if (std::ranges::none_of(out, [](const auto& c) { return c.metric->name == "flip"; }))
     out.push_back(metrics::choose_metric(metrics::metrics(), "flip"));
@@ -146,7 +161,8 @@ std::vector<metrics::Choice> metrics_of(const std::string& text) {
 }
 
 TrialOptions trial_options(const CompareArgs& args) {
-  TrialOptions out{.methods = methods_of(args.methods), .turns = args.turns, .metrics = metrics_of(args.metrics)};
+  TrialOptions out{
+      .methods = methods_of(args.methods), .turns = args.turns, .metrics = metrics_of(args.metrics, args.frames)};
   out.reference = args.reference.empty() ? best_reference : args.reference;
   std::error_code ignored;
   if (is_method(out.reference))
@@ -157,6 +173,8 @@ TrialOptions trial_options(const CompareArgs& args) {
     throw Error(ErrorKind::Input, out.reference + ": no such file");
   else
     upscale::make_method(out.reference);  // throws with the list of methods
+  if (out.is_reference_file && args.frames > 1)
+    throw Error(ErrorKind::Usage, "--reference: a sequence needs a method as reference, not an image");
   if (out.is_reference_file && args.scenes.size() > 1)
     throw Error(ErrorKind::Usage, fmt::format("--reference {}: one image is a reference for one scene, not for {}",
                                               out.reference, args.scenes.size()));
@@ -169,6 +187,18 @@ std::vector<std::uint8_t> png(const Rgba8Image& image) {
   return encode_png(image, {.has_alpha = false, .may_be_indexed = true});
 }
 
+/// The film `name`, its slice in time and, where there is a reference, the difference from it.
+void add_film(const std::string& name, const std::vector<Rgba8Image>& frames, const std::vector<Rgba8Image>& reference,
+              std::vector<OutputFile>& files) {
+  Animation film = film_of(frame_rate);
+  film.frames = frames;
+  files.push_back({name + ".film.png", encode_film(film, "film.apng")});
+  files.push_back({name + ".slice.png", png(slice_in_time(frames, frames[0].height() / 2))});
+  if (reference.empty()) return;
+  film.frames = difference_film(reference, frames);
+  files.push_back({name + ".difference.png", encode_film(film, "film.apng")});
+}
+
 void add_files(const SceneTrials& scene, std::vector<OutputFile>& files) {
   files.push_back({scene.name + "/reference.png", png(scene.reference_picture)});
   for (const Trial& t : scene.trials) {
@@ -176,7 +206,9 @@ void add_files(const SceneTrials& scene, std::vector<OutputFile>& files) {
     files.push_back({names.picture, png(t.picture)});
     files.push_back({names.error_map, png(metrics::paint_magma(t.error_map))});
     files.push_back({names.worst, png(worst_picture(scene, t))});
+    if (!t.film.empty()) add_film(scene.name + '/' + file_name_of(t.method), t.film, scene.reference_film, files);
   }
+  if (!scene.reference_film.empty()) add_film(scene.name + "/reference", scene.reference_film, {}, files);
   files.push_back({scene.name + "/crops.png", png(crops_picture(scene))});
   files.push_back({scene.name + "/cost.svg", bytes_of(plot_svg(cost_plot(scene)))});
 }
@@ -193,6 +225,19 @@ std::string folder_name(const std::string& scene, const std::vector<SceneTrials>
   return name;
 }
 
+/// The frames of a scene: of its first animation, or at rest if it has none.
+Sequence sequence_of(const CompareArgs& args, SceneSource& source) {
+  const bool is_animated = !source.load({}).animations.empty();
+  const auto at = [&args, &source, is_animated](double seconds) {
+    SceneChoice choice;
+    if (is_animated) choice.animation = 0, choice.time = seconds;
+    Scene scene = source.load(choice);
+    set_look(args.render, scene);
+    return scene;
+  };
+  return {{at, at}, args.render.mips, {.rate = frame_rate, .duration = args.frames / frame_rate}};
+}
+
 SceneTrials compare_scene(const CompareArgs& args, const std::string& name, const TrialOptions& options,
                           const std::function<void(const std::string&)>& progress) {
   Scene scene = load_scene(name, args.render.load);
@@ -202,12 +247,21 @@ SceneTrials compare_scene(const CompareArgs& args, const std::string& name, cons
   RenderSettings settings{.options = args.render.options};
   settings.options.display = args.render.display;
   settings.options.display.background = args.render.background.value_or(default_background);
-  const Camera camera = choose_camera(
-      scene, view, static_cast<float>(settings.options.width) / static_cast<float>(settings.options.height));
+  const float aspect = static_cast<float>(settings.options.width) / static_cast<float>(settings.options.height);
+  const Camera camera = choose_camera(scene, view, aspect);
   set_look(args.render, scene);
   const PreparedScene prepared(std::move(scene), args.render.mips);
   if (args.render.meters_exposure) settings.options.display.exposure = metered_exposure(prepared, camera, args.render);
-  SceneTrials out = run_trials({prepared, camera, settings}, options, progress);
+  TrialSetup setup{prepared, camera, settings, args.frames};
+  std::optional<SceneSource> source;
+  std::optional<Sequence> sequence;
+  if (args.frames > 1) {
+    source.emplace(name, args.render.load);
+    sequence.emplace(sequence_of(args, *source));
+    sequence->set_view(view, aspect);
+    setup.view = [&](int frame) { return sequence->view(frame); };
+  }
+  SceneTrials out = run_trials(setup, options, progress);
   out.scene = name;
   if (const BuiltinScene* listed = find_builtin_scene(name))
     out.failure = listed->failure, out.complaint = listed->complaint;
@@ -262,7 +316,8 @@ Comparison compare_all(const CompareArgs& args, const TrialOptions& options) {
     if (!args.render.output.empty()) add_files(scene, files);
     if (!args.page.empty()) page.add(scene);
     // Frees images that are already encoded.
-    for (Trial& t : scene.trials) t.picture = {}, t.error_map = {};
+    for (Trial& t : scene.trials) t.picture = {}, t.error_map = {}, t.film = {};
+    scene.reference_film = {};
     scenes.push_back(std::move(scene));
   }
   Comparison out{.files = std::move(files),

@@ -122,6 +122,26 @@ Rgba8Image crops_picture(const SceneTrials& scene) {
   return compose(figure);
 }
 
+Rgba8Image slice_in_time(const std::vector<Rgba8Image>& film, int y) {
+  Rgba8Image out(film[0].width(), static_cast<int>(film.size()));
+  for (int i = 0; i < out.height(); ++i)
+    std::ranges::copy(film[static_cast<std::size_t>(i)].row(y), out.row(i).begin());
+  return out;
+}
+
+std::vector<Rgba8Image> difference_film(const std::vector<Rgba8Image>& reference, const std::vector<Rgba8Image>& test) {
+  std::vector<Rgba8Image> out = test;
+  const auto difference = [](std::uint8_t a, std::uint8_t b) {
+    return static_cast<std::uint8_t>(std::clamp(128 + 8 * (int{b} - int{a}), 0, 255));
+  };
+  for (std::size_t i = 0; i < out.size(); ++i)
+    std::ranges::transform(reference[i].values(), test[i].values(), out[i].values().begin(),
+                           [&](const Rgba8& a, const Rgba8& b) {
+                             return Rgba8{difference(a.r, b.r), difference(a.g, b.g), difference(a.b, b.b), 255};
+                           });
+  return out;
+}
+
 Plot cost_plot(const SceneTrials& scene) {
   std::vector<Dot> dots;
   for (const Trial& t : scene.trials)

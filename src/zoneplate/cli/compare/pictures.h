@@ -18,6 +18,12 @@ Rgba8Image worst_picture(const SceneTrials& scene, const Trial& trial);
 /// enlarged 8 times, in ascending order of error.
 Rgba8Image crops_picture(const SceneTrials& scene);
 
+/// Row `y` of every frame, one below the other: time runs downwards.
+Rgba8Image slice_in_time(const std::vector<Rgba8Image>& film, int y);
+
+/// Eight times the difference of two films, about grey.
+std::vector<Rgba8Image> difference_film(const std::vector<Rgba8Image>& reference, const std::vector<Rgba8Image>& test);
+
 /// Error against CPU time, with the Pareto front and the names of its methods.
 Plot cost_plot(const SceneTrials& scene);
 

@@ -9,6 +9,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/usage.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/metrics/metrics.h"
 #include "zoneplate/metrics/picture_file.h"
 #include "zoneplate/upscale/upscaler.h"
 
@@ -56,12 +57,50 @@ Trial rendered(const TrialSetup& stage, const std::string& method, int turns) {
   return trial;
 }
 
-void judge(Trial& trial, const metrics::Picture& reference, const TrialOptions& options) {
-  const metrics::Picture test = picture_of(trial.picture);
+/// Renders a sequence by one method.
+Trial filmed(const TrialSetup& stage, const std::string& method) {
+  Trial trial{.method = method};
+  const MemoryWatch memory_watch;
+  std::optional<Renderer> renderer;
+  for (int i = 0; i < stage.frames; ++i) {
+    SceneView view = stage.view(i);
+    if (renderer)
+      renderer->set_scene(std::move(view.scene));
+    else
+      renderer.emplace(std::move(view.scene), upscale::make_method(method));
+    const double used_before = processor_ms();
+    const Stopwatch watch;
+    RenderedImage image = renderer->render(view.camera, stage.settings);
+    const double ms = watch.ms();
+    if (i == 0 || ms < trial.least_ms()) trial.counts = image.counts;
+    trial.frame_ms.push_back(ms);
+    trial.processor_ms.push_back(processor_ms() - used_before);
+    trial.film.push_back(opaque(std::move(image.display)));
+  }
+  trial.memory = memory_watch.rise();
+  trial.picture = trial.film.back();
+  trial.pixels = trial.picture.values().size();
+  return trial;
+}
+
+metrics::Score flip_of(const metrics::Picture& reference, const metrics::Picture& test) {
+  const metrics::Choice choice = metrics::choose_metric(metrics::metrics(), "flip");
+  return choice.metric->measure(std::span(&reference, 1), std::span(&test, 1), choice.settings).value();
+}
+
+void judge(Trial& trial, const SceneTrials& scene, const TrialOptions& options) {
+  const auto frame_of = [](const std::vector<Rgba8Image>& film, const Rgba8Image& picture, std::size_t i) {
+    return picture_of(film.empty() ? picture : film[i]);
+  };
   const metrics::Comparands pictures{
-      .count = 1, .reference = [&](std::size_t) { return reference; }, .test = [&](std::size_t) { return test; }};
+      .count = std::max<std::size_t>(trial.film.size(), 1),
+      .reference = [&](std::size_t i) { return frame_of(scene.reference_film, scene.reference_picture, i); },
+      .test = [&](std::size_t i) { return frame_of(trial.film, trial.picture, i); },
+      .are_frames = !trial.film.empty()};
   metrics::Comparison comparison = metrics::compare(pictures, options.metrics, metrics::Unfit::Leave);
   trial.results = std::move(comparison.results);
+  if (!trial.film.empty())
+    trial.error_map = flip_of(picture_of(scene.reference_picture), picture_of(trial.picture)).map;
   for (metrics::Result& result : trial.results)
     if (result.metric->name == "flip" && trial.error_map.empty()) trial.error_map = std::move(result.score.map);
   trial.worst = worst_places(trial.error_map, worst_count);
@@ -70,11 +109,11 @@ void judge(Trial& trial, const metrics::Picture& reference, const TrialOptions& 
 void set_reference(const TrialSetup& stage, const TrialOptions& options, SceneTrials& out) {
   out.reference = options.reference;
   if (!options.is_reference_file) {
-    Trial trial = rendered(stage, options.reference, 1);
+    Trial trial = stage.frames > 1 ? filmed(stage, options.reference) : rendered(stage, options.reference, 1);
     out.reference_ms = trial.frame_ms[0];
     out.reference_processor_ms = trial.processor_ms[0];
     out.reference_shaded = trial.counts.shaded;
-    out.reference_picture = std::move(trial.picture);
+    out.reference_picture = std::move(trial.picture), out.reference_film = std::move(trial.film);
     return;
   }
   out.reference_picture = opaque(quantize8(metrics::load_picture(options.reference).display));
@@ -149,15 +188,14 @@ void find_front(std::vector<Trial>& trials) {
 SceneTrials run_trials(const TrialSetup& stage, const TrialOptions& options,
                        const std::function<void(const std::string&)>& progress) {
   SceneTrials out;
-  out.turns = options.turns;
+  out.turns = stage.frames > 1 ? stage.frames : options.turns;
   progress(options.reference);
   set_reference(stage, options, out);
-  const metrics::Picture reference = picture_of(out.reference_picture);
   Plane<float> sum(out.reference_picture.width(), out.reference_picture.height());
   for (const std::string& method : options.methods) {
     progress(method);
-    Trial trial = rendered(stage, method, options.turns);
-    judge(trial, reference, options);
+    Trial trial = stage.frames > 1 ? filmed(stage, method) : rendered(stage, method, options.turns);
+    judge(trial, out, options);
     for (std::size_t i = 0; i < sum.values().size(); ++i) sum.values()[i] += trial.error_map.values()[i];
     out.trials.push_back(std::move(trial));
   }

@@ -22,7 +22,8 @@ struct Place {
 /// One method's image of one scene, with its cost and its error against the reference.
 struct Trial {
   std::string method;
-  Rgba8Image picture;
+  Rgba8Image picture;                   ///< of a sequence, its last frame
+  std::vector<Rgba8Image> film;         ///< the frames of a sequence; of a still image, empty
   std::uint64_t pixels = 0;             ///< of the image
   std::vector<double> frame_ms;         ///< time of each turn, from the prepared scene to the 8-bit image
   std::vector<double> processor_ms;     ///< CPU time of all threads, which other programs affect less
@@ -48,6 +49,7 @@ struct SceneTrials {
   std::string failure, complaint;  ///< the class of artifacts that a built-in scene shows, and its description
   std::string reference;           ///< a method's text, or a file
   Rgba8Image reference_picture;
+  std::vector<Rgba8Image> reference_film;
   std::optional<double> reference_ms;  ///< nothing for a file
   std::optional<double> reference_processor_ms;
   std::uint64_t reference_shaded = 0;
@@ -70,12 +72,15 @@ struct TrialSetup {
   PreparedScene scene;
   Camera camera;
   RenderSettings settings;
+  int frames = 1;                           ///< more than 1: a sequence, of which every frame is rendered and measured
+  std::function<SceneView(int)> view = {};  ///< of a sequence: its frames
 };
 
 /// Renders a scene with every method and the reference, and measures the methods. `progress` is called with each
 /// method's text before it is rendered.
 ///
-/// The metrics are applied to the 8-bit images that are written.
+/// The metrics are applied to the 8-bit images that are written; of a sequence, to all of its frames, and the error map
+/// is that of the last frame.
 /// Errors    those of methods and files; ErrorKind::Input if the reference has another size.
 SceneTrials run_trials(const TrialSetup& stage, const TrialOptions& options,
                        const std::function<void(const std::string&)>& progress);

@@ -76,7 +76,9 @@ TEST_F(DemoFolder, AllLessonsAreWrittenAndSaid) {
                                           "interpolation.png",
                                           "transforms.png",
                                           "gamma.png",
-                                          "sdf.png"}));
+                                          "sdf.png",
+                                          "temporal.png",
+                                          "ghosting.png"}));
   for (const std::string& name : names) {
     const FileBytes file(folder + "/" + name);
     if (name.ends_with(".png")) {
@@ -89,7 +91,7 @@ TEST_F(DemoFolder, AllLessonsAreWrittenAndSaid) {
         "--aa msaa:n=8: ", "Moiré: ", "Filter before sampling", "border", "Sampling repeats", "blackman-harris",
         "+0.90", "Shutter always open: ", "Percentage closer", "differ at 0 samples",
         "42 samples are covered once, 7 twice", "36 samples are covered once, 0 twice",
-        "reverse order, 0 pixels differ", "Three channels: ", "Split sum"})
+        "reverse order, 0 pixels differ", "Three channels: ", "Split sum", "A scene at rest: 4 frames", "No test: "})
     EXPECT_NE(said.find(words), std::string::npos) << words;
 }
 

@@ -236,6 +236,13 @@ std::vector<Option> input_options(RenderArgs& a) {
   };
 }
 
+ShutterFilter parse_shutter_filter(const std::string& text) {
+  if (text == "box") return ShutterFilter::Box;
+  if (text == "triangle") return ShutterFilter::Triangle;
+  if (text == "gaussian") return ShutterFilter::Gaussian;
+  throw Error(ErrorKind::Usage, fmt::format("'{}' is not box, triangle or gaussian", text));
+}
+
 std::vector<Option> sequence_options(RenderArgs& a) {
   const std::string group = "Sequences";
   return {
@@ -255,6 +262,12 @@ std::vector<Option> sequence_options(RenderArgs& a) {
        [&](auto& text) { a.sequence.shutter = parse_number(text, 0.001, 360); }},
       {"--shutter-samples", "N", "Motion blur: number of samples in time; default 16", group, false,
        [&](auto& text) { a.sequence.shutter_samples = parse_whole(text, 1, 1024); }},
+      {"--shutter-filter", "FILTER",
+       "Motion blur: weight of the moments: box, triangle or gaussian, of the shutter's width at half their height",
+       group, false, [&](auto& text) { a.sequence.shutter_filter = parse_shutter_filter(text); }},
+      {"--warm-up", "N",
+       "Frames before the first that are rendered but not written, for methods that average frames; default 0", group,
+       false, [&](auto& text) { a.sequence.warm_up = parse_whole(text, 0, 100'000); }},
   };
 }
 
@@ -672,6 +685,8 @@ void check_args(RenderArgs& args) {
     throw Error(ErrorKind::Usage, "--shutter requires a sequence: --frames, --frame-start, --frame-end or --turntable");
   if (args.sequence.shutter && (!args.aovs.empty() || args.options.crop))
     throw Error(ErrorKind::Usage, "--shutter goes with neither --aov nor --crop");
+  if (args.sequence.shutter_filter != ShutterFilter::Box && !args.sequence.shutter)
+    throw Error(ErrorKind::Usage, "--shutter-filter requires --shutter");
   for (const Aov* aov : args.aovs) {
     if ((aov->plane == &Planes::motion || aov->plane == &Planes::flow) && !args.sequence.is_sequence())
       throw Error(ErrorKind::Usage,

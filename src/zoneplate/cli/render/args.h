@@ -19,6 +19,7 @@
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/render/lighting.h"
 #include "zoneplate/render/render.h"
+#include "zoneplate/render/sequence.h"
 #include "zoneplate/render/view.h"
 #include "zoneplate/shade/environment/layout.h"
 
@@ -32,6 +33,8 @@ struct SequenceArgs {
   bool is_film = false;
   std::optional<double> shutter;  ///< degrees of a frame's time during which the shutter is open
   int shutter_samples = 16;
+  ShutterFilter shutter_filter = ShutterFilter::Box;
+  int warm_up = 0;  ///< frames before the first that are rendered for a method with history, and not written
 
   bool is_sequence() const { return turntable || count || first || last || is_film; }
 };

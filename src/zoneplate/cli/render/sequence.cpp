@@ -12,6 +12,7 @@
 #include "zoneplate/cli/background.h"
 #include "zoneplate/cli/render/film.h"
 #include "zoneplate/cli/render/frame_name.h"
+#include "zoneplate/formats/load.h"
 #include "zoneplate/render/sequence.h"
 
 namespace zoneplate::cli {
@@ -123,7 +124,7 @@ Rendered render_frame(const RenderArgs& args, Sequence& sequence, int frame, con
     image = renderer.render_mean(
         samples,
         [&](int i) {
-          SceneView view = sequence.view(shutter_time(frame, open, i, samples));
+          SceneView view = sequence.view(shutter_time(frame, open, i, samples, args.sequence.shutter_filter));
           if (i == 0) camera = view.camera;
           return view;
         },
@@ -149,6 +150,30 @@ void check_film(const RenderArgs& args, std::size_t frames) {
                             frames, bytes >> 20, args.load.limits.memory >> 20));
 }
 
+/// A method with history needs all frames in order.
+void check_history(const RenderArgs& args, const Request& request) {
+  if (!request.has_history() && args.sequence.warm_up > 0)
+    throw Error(ErrorKind::Usage,
+                fmt::format("--warm-up is for methods that average frames, and {} does not", args.method));
+  if (!request.has_history()) return;
+  const auto refuse = [&](const std::string& option) {
+    throw Error(ErrorKind::Usage,
+                fmt::format("--anti-aliasing {}: it averages frames, which excludes {}", args.method, option));
+  };
+  if (args.sequence.shutter && args.sequence.shutter_samples > 1) refuse("--shutter");
+  if (args.skip_existing) refuse("--skip-existing: a frame depends on those before it");
+}
+
+/// Renders the frames before the first one, for the history of the method.
+void warm_up(const RenderArgs& args, Sequence& sequence, int first, Renderer& renderer) {
+  const RenderSettings settings = settings_of(args, args.output);
+  for (int i = args.sequence.warm_up; i > 0; --i) {
+    SceneView view = sequence.view(first - i * args.sequence.jump);
+    renderer.set_scene(std::move(view.scene));
+    renderer.render(view.camera, settings);
+  }
+}
+
 bool is_one_frame(const SequenceArgs& s) { return s.count == 1 || (s.first && s.first == s.last); }
 
 }  // namespace
@@ -169,7 +194,9 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
   Plan plan(args, source);
   out.has_read();
   const bool is_numbered = has_number || !is_film(args.output);
-  check_passes(args, method->request({}));
+  const Request request = method->request({});
+  check_passes(args, request);
+  check_history(args, request);
   Sequence sequence = plan.sequence();
   Renderer renderer(sequence.scene(plan.frames().front()), std::move(method));
   summary.warnings = renderer.scene().scene().warnings;
@@ -178,6 +205,8 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
     summary.warnings.push_back(
         fmt::format("{}: has no animation, so that {} has one frame; see --turntable", args.input, args.output));
   args.view.up = args.up.value_or(renderer.scene().scene().up);
+  const bool is_animated = !renderer.scene().scene().animations.empty();
+  if (is_builtin_scene(args.input) && is_animated && !args.view.index && !args.view.position) args.view.index = 0;
   const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
   if (!is_numbered) check_film(args, plan.frames().size());
   sequence.set_view(args.view, aspect);
@@ -188,6 +217,7 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
   }
   summary.exposure = args.display.exposure;
 
+  warm_up(args, sequence, plan.frames().front(), renderer);
   Animation film = film_of(args.sequence.rate);
   Background background;
   std::size_t done = 0;

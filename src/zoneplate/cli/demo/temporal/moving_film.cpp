@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/cli/demo/temporal/moving_film.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+
+#include "zoneplate/antialias/methods.h"
+#include "zoneplate/cli/demo/picture.h"
+#include "zoneplate/render/lighting.h"
+#include "zoneplate/render/renderer.h"
+
+namespace zoneplate::cli {
+
+std::vector<LinearImage> film_of_scene(const std::string& scene, const std::string& method, int frames, int width,
+                                       int height) {
+  constexpr double rate = 24;
+  const RenderSettings settings{.options = {.width = width, .height = height}, .form = ImageForm::Linear};
+  std::optional<Renderer> renderer;
+  std::vector<LinearImage> film;
+  for (int i = 0; i < frames; ++i) {
+    Scene now = scene_of(fmt::format("{}:time={:.6f}", scene, i / rate));
+    light_unlit(now);
+    const Camera camera = camera_of(now, width, height);
+    if (renderer)
+      renderer->set_scene(PreparedScene(std::move(now), renderer->scene()));
+    else
+      renderer.emplace(PreparedScene(std::move(now)), make_resolver(antialias::methods(), method));
+    film.push_back(renderer->render(camera, settings).linear);
+  }
+  return film;
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "zoneplate/image/rgb.h"
+
+namespace zoneplate::cli {
+
+/// The first frames of a built-in scene that moves, by one method, in linear light; 24 frames per second.
+std::vector<LinearImage> film_of_scene(const std::string& scene, const std::string& method, int frames, int width,
+                                       int height);
+
+}  // namespace zoneplate::cli
