@@ -296,7 +296,7 @@ TEST_F(Cli, ErrorsAreOneLineWithTheDocumentedCode) {
        "triangles: an image of 16384x16384 needs 11264 MB of memory, --max-memory allows 1024 MB"},
       {2,
        {"list", "method"},
-       "'method' is not one of methods, scenes, formats, texture-filters; did you mean methods?"},
+       "'method' is not one of methods, scenes, formats, texture-filters, upscalers; did you mean methods?"},
       {2, {"info"}, "info takes one input: a model or a built-in scene"},
       {3, {"triangels", "-o", "a.png"}, "triangels: no such file or scene; did you mean triangles?"},
       {3,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The upper bound of temporal antialiasing by reprojection: history is kept exactly where the last frame's camera saw
-// the same surface point. An engine guesses this from depths, ids and colours; here rays to the triangles of the last
-// frame decide, and motion is exact.
+// Temporal antialiasing by reprojection with exact visibility: history is kept exactly where the last frame's camera
+// saw the same surface point. An engine estimates this from depths, ids and colours; here rays to the triangles of the
+// last frame decide, and motion is exact.
 //
 // History of n frames has the weight n - 1 to 1, up to n = `most`. It is rectified (variance clip) only where surfaces
 // of different motion meet, since a pixel has one history for all of its surfaces, and where its luma changes beyond
@@ -50,7 +50,7 @@ std::unique_ptr<Resolver> make(const Settings& s) {
 
 Method oracle_taa() {
   return {.name = "oracle-taa",
-          .summary = "temporal antialiasing that knows which surface points the last frame saw: an upper bound",
+          .summary = "temporal antialiasing with exact visibility of surface points in the last frame, by rays",
           .source = "Zoneplate",
           .params = params,
           .make = make,

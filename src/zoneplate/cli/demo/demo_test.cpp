@@ -86,12 +86,27 @@ TEST_F(DemoFolder, AllLessonsAreWrittenAndSaid) {
     }
   }
   // The text holds what the image says: titles, captions, and tables.
-  for (const char* words :
-       {"Jaggies: with one", "The same region by every", "The black edge: four", "have the correct brightness",
-        "--aa msaa:n=8: ", "Moiré: ", "Filter before sampling", "border", "Sampling repeats", "blackman-harris",
-        "+0.90", "Shutter always open: ", "Percentage closer", "differ at 0 samples",
-        "42 samples are covered once, 7 twice", "36 samples are covered once, 0 twice",
-        "reverse order, 0 pixels differ", "Three channels: ", "Split sum", "A scene at rest: 4 frames", "No test: "})
+  for (const char* words : {"Jaggies: with one",
+                            "The same region by every",
+                            "The black edge: four",
+                            "have the correct brightness",
+                            "--aa msaa:n=8: ",
+                            "Moiré: ",
+                            "Filter before sampling",
+                            "border",
+                            "Sampling repeats",
+                            "blackman-harris",
+                            "+0.90",
+                            "Shutter always open: ",
+                            "Percentage closer",
+                            "differ at 0 samples",
+                            "42 samples are covered once, 7 twice",
+                            "36 samples are covered once, 0 twice",
+                            "reverse order, 0 pixels differ",
+                            "Three channels: ",
+                            "Split sum",
+                            "A scene at rest: 4 frames",
+                            "No test: "})
     EXPECT_NE(said.find(words), std::string::npos) << words;
 }
 

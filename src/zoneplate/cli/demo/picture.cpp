@@ -49,8 +49,8 @@ LinearImage shoot(const Scene& scene, const std::string& method, const RenderOpt
   Scene lit = scene;
   light_unlit(lit);
   Renderer renderer(PreparedScene(std::move(lit), mips), upscale::make_method(method));
-  RenderedImage image =
-      renderer.render_still(camera_of(scene, options.width, options.height), {.options = options, .form = ImageForm::Linear});
+  RenderedImage image = renderer.render_still(camera_of(scene, options.width, options.height),
+                                              {.options = options, .form = ImageForm::Linear});
   if (counts) *counts = image.counts;
   LinearImage light = std::move(image.linear);
   const float background = decode_srgb(background_code);

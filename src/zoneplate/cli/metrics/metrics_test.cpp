@@ -74,8 +74,9 @@ TEST_F(MetricsVerb, ThresholdsDecide) {
 
 TEST_F(MetricsVerb, ReadsEveryFormatThatRenderWrites) {
   for (const char* name : {"a.png", "a.webp", "a.jpg", "a.pfm", "a.exr"}) {
-    const std::string command =
-        "'" + std::string(program_file) + "' render triangles --size 32x32 -o '" + at(name) + "' 2>&1";
+    const std::string command = "'" + std::string(program_file) +
+                                "' render triangles --size 32x32 --background-color '#808080' -o '" + at(name) +
+                                "' 2>&1";
     ASSERT_EQ(std::system(command.c_str()), 0);
     EXPECT_EQ(run(std::string("a.png ") + name + " --metric psnr --threshold 30").code, 0) << name;
   }

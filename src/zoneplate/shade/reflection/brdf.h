@@ -126,13 +126,13 @@ struct SpecularFit {
   [[gnu::always_inline]] explicit SpecularFit(F roughness) {
     const F rows = (max(roughness, F(least_roughness)) - F(least_roughness)) *
                    F((specular_table_side - 1) / (1 - least_roughness));
-    row = min(truncate(rows), typename F::Int(specular_table_side - 2));
+    row = truncate(min(rows, F(specular_table_side - 2.0f)));
     part = rows - F::from(row);
   }
   [[gnu::always_inline]] SpecularWeights<F> at(F nv) const {
     using Int = typename F::Int;
     const F columns = sqrt(nv) * F(specular_table_side - 1.0f);
-    const Int column = min(truncate(columns), Int(specular_table_side - 2));
+    const Int column = truncate(min(columns, F(specular_table_side - 2.0f)));
     const F right = columns - F::from(column);
     const Int first = (row * Int(specular_table_side) + column) * Int(2);
     const auto value = [&](int which) {
