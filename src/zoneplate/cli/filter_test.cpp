@@ -11,6 +11,7 @@
 #include "zoneplate/base/paths_for_test.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -128,6 +129,14 @@ TEST_F(FilterVerb, UpscalesImages) {
   EXPECT_NE(output_.find("--size requires --upscale"), std::string::npos) << output_;
   EXPECT_EQ(run("wires -o x.png --render-scale 2"), 2);
   EXPECT_EQ(run("wires -o x.exr --upscale fsr1"), 2);
+}
+
+TEST_F(FilterVerb, EveryUpscalerRenders) {
+  for (const Upscaler& upscaler : upscale::upscalers()) {
+    const std::string name(upscaler.name);
+    ASSERT_EQ(run("wires -o " + name + ".png --size 48x36 --upscale " + name), 0) << output_;
+    EXPECT_EQ(png(name + ".png").pixels.width(), 48) << name;
+  }
 }
 
 TEST_F(FilterVerb, UpscalesSceneLinearImages) {

@@ -328,7 +328,7 @@ struct SampleAxis {
 
 int Fsr2::phases(int frame_width, int width) {
   const float ratio = static_cast<float>(width) / static_cast<float>(frame_width);
-  return static_cast<int>(8 * (ratio * ratio));
+  return std::max(static_cast<int>(8 * (ratio * ratio)), 1);
 }
 
 float2 Fsr2::jitter(int index, int phases) {
