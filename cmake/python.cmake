@@ -9,6 +9,7 @@ if(NOT python_headers OR NOT python_program)
 endif()
 file(GLOB python_sources CONFIGURE_DEPENDS python/native/*.cpp)
 add_library(zoneplate_python MODULE EXCLUDE_FROM_ALL ${python_sources})
+set_target_properties(zoneplate_python PROPERTIES UNITY_BUILD OFF) # each source names its tables alike
 target_link_libraries(zoneplate_python PRIVATE zoneplate zoneplate_flags)
 target_include_directories(zoneplate_python SYSTEM PRIVATE ${python_headers})
 harden(zoneplate_python)

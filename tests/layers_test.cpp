@@ -118,6 +118,13 @@ TEST(Layers, AllHeaderIncludesEveryPublicHeader) {
         << file;
 }
 
+// cmake/fmt.cpp defines what static programs need of {fmt}, which is what format.h uses of its library.
+TEST(Layers, OnlyTheFormatHeaderOfFmtIsIncluded) {
+  for (const fs::path& file : source_files())
+    for (const std::string& line : lines_of(path_of(file)))
+      EXPECT_TRUE(!line.starts_with("#include <fmt/") || line == "#include <fmt/format.h>") << file << ": " << line;
+}
+
 TEST(Layers, NoFolderIsCrowded) {
   std::map<fs::path, std::size_t> files;
   for (const auto& entry : fs::recursive_directory_iterator(source))

@@ -90,6 +90,8 @@ class Documents(unittest.TestCase):
         for node in stub.body:
             if isinstance(node, (ast.FunctionDef, ast.ClassDef)):
                 members[""].add(node.name)
+            elif isinstance(node, ast.AnnAssign):
+                members[""].add(node.target.id)
             if isinstance(node, ast.ClassDef):
                 members[node.name] = {m.name for m in node.body if isinstance(m, ast.FunctionDef)}
         public = lambda names: {n for n in names if not n.startswith("__") or "dlpack" in n}
