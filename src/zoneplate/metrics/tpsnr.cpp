@@ -2,7 +2,7 @@
 // Temporal PSNR: the signal-to-noise ratio of the change from frame to frame.
 //
 // It sees flicker and swimming, to which the PSNR of single frames is blind. Weakness: blur lowers changes and is
-// rewarded where the reference changes little, so that it needs the PSNR beside it.
+// rewarded where the reference changes little, so that the PSNR must accompany it.
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -279,7 +279,7 @@ LinearImage TemporalAccumulation::sharpened(LinearImage image) const {
   return image;
 }
 
-LinearImage TemporalAccumulation::resolve(const Frame& frame) {
+LinearImage TemporalAccumulation::resolve(Frame& frame) {
   LinearImage out = blended(frame);
   if (tests_surfaces() || options_.parts.trusts_rest) keep_surfaces(frame);
   return options_.sharpening > 0 ? sharpened(std::move(out)) : out;

@@ -8,15 +8,15 @@
 
 namespace zoneplate::antialias {
 
-/// The history of temporal antialiasing, and its resolve.
-class TemporalAccumulation {
+/// Temporal antialiasing by the parts of its options: the history, and the resolve.
+class TemporalAccumulation : public Resolver {
  public:
   explicit TemporalAccumulation(const TemporalOptions& options);
 
   /// The sample of a frame, and the planes that `resolve` reads.
-  Request request(const FrameContext& context);
+  Request request(const FrameContext& context) override;
   /// The resolved image of the frame of the last request.
-  LinearImage resolve(const Frame& frame);
+  LinearImage resolve(Frame& frame) override;
 
  private:
   /// A plane that continues beyond the image by TemporalRow::border pixels, with its outermost values.

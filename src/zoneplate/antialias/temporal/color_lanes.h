@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "zoneplate/math/blend_lanes.h"
+
 /// Colours of four channels over a lane type of math/lanes.h.
 namespace zoneplate::stages {
 
@@ -72,11 +74,6 @@ template <class F>
 template <class F>
 [[gnu::always_inline]] inline F luma_of(const Rgba<F>& c) {
   return (c.c[0] + c.c[2]) * F(0.25f) + c.c[1] * F(0.5f);
-}
-
-template <class F>
-[[gnu::always_inline]] inline F saturated(F x) {
-  return min(max(x, F(0.0f)), F(1.0f));
 }
 
 }  // namespace zoneplate::stages

@@ -12,16 +12,6 @@
 namespace zoneplate::antialias {
 namespace {
 
-class OracleTaa : public Resolver {
- public:
-  explicit OracleTaa(const TemporalOptions& options) : accumulation_(options) {}
-  Request request(const FrameContext& context) override { return accumulation_.request(context); }
-  LinearImage resolve(Frame& frame) override { return accumulation_.resolve(frame); }
-
- private:
-  TemporalAccumulation accumulation_;
-};
-
 constexpr std::string_view filters[] = {"bilinear", "catmull5", "catmull9"};
 constexpr Param params[] = {
     {.name = "history", .meaning = "filter of the history between pixels", .value = 2, .names = filters},
@@ -43,7 +33,7 @@ std::unique_ptr<Resolver> make(const Settings& s) {
                                     .least_weight = 1 / static_cast<float>(s.integer("most"))},
                           .length = s.integer("length"),
                           .settling_frames = s.integer("most")};
-  return std::make_unique<OracleTaa>(options);
+  return std::make_unique<TemporalAccumulation>(options);
 }
 
 }  // namespace

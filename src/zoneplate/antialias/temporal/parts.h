@@ -48,7 +48,7 @@ struct TemporalParts {
   bool keeps_current_alpha = false;  ///< alpha is that of the current frame
   bool has_kernel = false;           ///< the current colour is the mean of 3 × 3 colours with the weights `kernel`
   float kernel[9] = {};              ///< by row; their sum is 1
-  /// Where a surface has left, so many frames count in the history: its remains at the edges fade soon.
+  /// The number of frames that the history counts as where a surface has left: its remains at the edges fade soon.
   static constexpr float left_frames = 2;
   static constexpr float fast = 128;  ///< pixels per frame
 };

@@ -14,30 +14,21 @@
 namespace zoneplate::antialias {
 namespace {
 
-class Taa : public Resolver {
- public:
-  explicit Taa(const TemporalOptions& options) : accumulation_(options) {}
-  Request request(const FrameContext& context) override { return accumulation_.request(context); }
-  LinearImage resolve(Frame& frame) override { return accumulation_.resolve(frame); }
-
- private:
-  TemporalAccumulation accumulation_;
-};
-
 constexpr std::string_view variants[] = {"preset=karis", "preset=inside",     "preset=salvi",
                                          "preset=three", "preset=playcanvas", "preset=bevy"};
 
 }  // namespace
 
 Method taa() {
-  return {
-      .name = "taa",
-      .summary = "one jittered sample per frame, averaged with the reprojected and validated history",
-      .source = "Karis 2014; presets: INSIDE, Salvi 2016, three.js, PlayCanvas, Bevy",
-      .params = temporal_params(),
-      .make = [](const Settings& s) -> std::unique_ptr<Resolver> { return std::make_unique<Taa>(temporal_options(s)); },
-      .variants = variants,
-      .is_specification_only = true};
+  return {.name = "taa",
+          .summary = "one jittered sample per frame, averaged with the reprojected and validated history",
+          .source = "Karis 2014; presets: INSIDE, Salvi 2016, three.js, PlayCanvas, Bevy",
+          .params = temporal_params(),
+          .make = [](const Settings& s) -> std::unique_ptr<Resolver> {
+            return std::make_unique<TemporalAccumulation>(temporal_options(s));
+          },
+          .variants = variants,
+          .is_specification_only = true};
 }
 
 }  // namespace zoneplate::antialias

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "zoneplate/math/blend_lanes.h"
 #include "zoneplate/math/for_row.h"
 #include "zoneplate/upscale/fsr2/accumulate.h"
 #include "zoneplate/upscale/pixel_lanes.h"
@@ -12,14 +13,6 @@ namespace fsr2 {
 
 constexpr float epsilon = 1e-3f, greatest_half = 65504;
 
-template <class F>
-[[gnu::always_inline]] inline F saturated(F v) {
-  return min(max(v, F(0.0f)), F(1.0f));
-}
-template <class F>
-[[gnu::always_inline]] inline F mixed(F a, F b, F t) {
-  return a + (b - a) * t;
-}
 template <class F>
 [[gnu::always_inline]] inline F smaller_over_greater(F a, F b) {
   const F greater = max(a, b);

@@ -57,7 +57,8 @@ class Fsr2 {
 
   /// The intermediate results of the last frame.
   const Fsr2Passes& passes() const { return passes_; }
-  /// Elements of the sequence of jitters for an output of so many pixels per frame pixel and axis.
+  /// The length of the sequence of jitters for a frame and an output of these widths: 8 × the squared ratio, at
+  /// least 1.
   static int phases(int frame_width, int width);
   /// Element `index` of the sequence, rounded to 1/256 pixel: in [-½, ½].
   static float2 jitter(int index, int phases);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "zoneplate/math/blend_lanes.h"
 #include "zoneplate/math/for_row.h"
 #include "zoneplate/upscale/nis/directional.h"
 #include "zoneplate/upscale/pixel_lanes.h"
@@ -11,14 +12,6 @@ namespace zoneplate::stages {
 template <class F>
 [[gnu::always_inline]] inline F nis_luma(const F (&c)[4]) {
   return F(0.2126f) * c[0] + F(0.7152f) * c[1] + F(0.0722f) * c[2];
-}
-template <class F>
-[[gnu::always_inline]] inline F saturated(F v) {
-  return min(max(v, F(0.0f)), F(1.0f));
-}
-template <class F>
-[[gnu::always_inline]] inline F mixed(F a, F b, F t) {
-  return a + (b - a) * t;
 }
 
 template <class Full, class One>
