@@ -97,6 +97,42 @@ TEST_F(Options, SurfacesWithoutAMaterialTakeTheOneOfTheOptions) {
   EXPECT_TRUE(contains(run("teapot -o c.png --size 32 --color red").out, "no effect: the model has materials"));
 }
 
+TEST_F(Options, TheMaterialOfAnOffFileIsTheReadersOwn) {
+  write("a.off", "OFF\n3 1 0\n-1 -1 0\n1 -1 0\n0 1 0\n3 0 1 2\n");
+  const Rgba8 red = middle(rendered("a.off --color red"));
+  EXPECT_GT(red.r, 100);
+  EXPECT_EQ(red.g, 0);
+}
+
+TEST_F(Options, MetallicAndRoughnessAreRefusedForOtherShadingModels) {
+  write("a.stl", stl);
+  EXPECT_EQ(run("a.stl -o a.png --metallic 1 --shading-model pbr").code, 0);
+  const ProgramAnswer answer = run("a.stl -o a.png --roughness 0.5 --shading-model phong");
+  EXPECT_EQ(answer.code, 2);
+  EXPECT_TRUE(contains(answer.out, "--metallic and --roughness are those of --shading-model pbr")) << answer.out;
+}
+
+TEST_F(Options, WhiteSurfacesAreNotClippedOnes) {
+  write("a.stl", stl);
+  const ProgramAnswer answer = run("a.stl -o a.png --size 64 --color white --shading-model unlit");
+  EXPECT_EQ(middle(image("a.png")), (Rgba8{255, 255, 255, 255}));
+  EXPECT_FALSE(contains(answer.out, "clipped")) << answer.out;
+}
+
+TEST_F(Options, AContactSheetReportsItsModels) {
+  write("a.stl", stl), write("b.stl", "solid");
+  const ProgramAnswer answer = run("contact-sheet a.stl b.stl -o sheet.png --size 32 --json");
+  EXPECT_EQ(answer.code, 5);
+  const std::size_t line = answer.out.find('{');
+  ASSERT_NE(line, std::string::npos) << answer.out;
+  const nlohmann::json report = parsed_json(answer.out.substr(line, answer.out.find('\n', line) - line));
+  EXPECT_EQ(report["format"], "zoneplate-contact-sheet");
+  ASSERT_EQ(report["items"].size(), 2u);
+  EXPECT_EQ(report["items"][0]["status"], "done");
+  EXPECT_EQ(report["items"][1]["status"], "failed");
+  EXPECT_NE(report["items"][1]["error"], "");
+}
+
 TEST_F(Options, LightsOfAFileCanBeReplacedOrJoined) {
   write("bright.gltf", bright_gltf);
   const ProgramAnswer answer = run("bright.gltf -o a.png --size 64");

@@ -100,6 +100,8 @@ void Settings::set(const std::string& owner, std::string_view item) {
   }
 
   const Param& param = *found;
+  if (name.size() == item.size())
+    throw Error(ErrorKind::Usage, fmt::format("{}: {} requires a value: {}", owner, name, values_of(param)));
   Value& value = values_[static_cast<std::size_t>(found - params_.begin())];
   if (value.is_given) throw Error(ErrorKind::Usage, fmt::format("{}: {} is given twice", owner, name));
   bool is_valid = false;

@@ -81,7 +81,7 @@ TEST(Spec, MessagesNameWhatWasFoundWhatIsWantedAndTheClosest) {
             "filter blur: pattern is 'sobl', expected grid, halton or sobol; did you mean 'sobol'?");
   EXPECT_EQ(refusal("blur:radius=1.5"), "filter blur: radius is '1.5', expected a whole number from 1 to 8");
   EXPECT_EQ(refusal("blur:radius=9"), "filter blur: radius is '9', expected a whole number from 1 to 8");
-  EXPECT_EQ(refusal("blur:radius"), "filter blur: radius is '', expected a whole number from 1 to 8");
+  EXPECT_EQ(refusal("blur:radius"), "filter blur: radius requires a value: 1 to 8");
   for (const char* value : {"0", "2x", "nan", "inf", "1e400", "", "0x1p3", " 2"})
     EXPECT_EQ(refusal(std::string("blur:sigma=") + value),
               "filter blur: sigma is '" + std::string(value) + "', expected a number from 0.1 to 100");

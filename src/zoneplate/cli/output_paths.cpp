@@ -27,6 +27,13 @@ namespace fs = std::filesystem;
 
 constexpr const char* is_there = "is there already; give another folder or remove it";
 
+/// True for a folder, not a link to one, with a file of this name.
+bool is_folder_with(const std::string& path, const std::string& file) {
+  struct stat status {};
+  return !file.empty() && ::lstat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode) &&
+         ::lstat((path + '/' + file).c_str(), &status) == 0 && S_ISREG(status.st_mode);
+}
+
 std::string without_slashes(std::string path) {
   while (path.size() > 1 && path.ends_with('/')) path.pop_back();
   return path;
@@ -104,7 +111,8 @@ class StagedFolder {
     save_bytes(path, file.bytes);
   }
 
-  void commit() {
+  void commit(const std::string& replaced) {
+    if (is_folder_with(target_, replaced) && exchange()) return;
     int result = ::renameat2(AT_FDCWD, root_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE);
     // File systems without this flag use plain rename, which replaces only empty folders.
     if (result != 0 && (errno == EINVAL || errno == ENOSYS)) result = ::rename(root_.c_str(), target_.c_str());
@@ -116,6 +124,15 @@ class StagedFolder {
   }
 
  private:
+  /// Gives the staged folder the target's name, and removes the folder that had it. False if the file system cannot.
+  bool exchange() {
+    if (::renameat2(AT_FDCWD, root_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) != 0) return false;
+    is_committed_ = true;
+    std::error_code ignored;
+    fs::remove_all(root_, ignored);
+    return true;
+  }
+
   std::string target_, root_;
   std::set<std::string> files_, folders_;
   bool is_committed_ = false;
@@ -123,23 +140,27 @@ class StagedFolder {
 
 }  // namespace
 
-void check_output_folder(const std::string& output) {
+void check_output_folder(const std::string& output, const std::string& replaced) {
   if (output.empty()) throw Error(ErrorKind::Usage, "no output: give -o DIR");
   const std::string path = without_slashes(output);
   struct stat status {};
-  if (::lstat(path.c_str(), &status) == 0) refuse(path, is_there);
+  if (::lstat(path.c_str(), &status) == 0 && !is_folder_with(path, replaced))
+    refuse(path, replaced.empty()
+                     ? is_there
+                     : fmt::format("is there already, and is not a folder with {}: it is not replaced", replaced));
+  if (is_folder_with(path, replaced)) return check_parent(path);
   if (errno != ENOENT && errno != ENOTDIR) refuse(path, std::string("cannot be made: ") + std::strerror(errno));
   check_parent(path);
 }
 
-void save_folder(const std::string& output, std::span<const OutputFile> files) {
+void save_folder(const std::string& output, std::span<const OutputFile> files, const std::string& replaced) {
   const HeldSignals signals;
   StagedFolder staged(without_slashes(output));
   for (const OutputFile& file : files) {
     if (signals.has_one()) refuse(output, "is not made: a signal ended the run");
     staged.write(file);
   }
-  staged.commit();
+  staged.commit(replaced);
 }
 
 }  // namespace zoneplate::cli

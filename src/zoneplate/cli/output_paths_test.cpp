@@ -93,6 +93,23 @@ TEST_F(OutputPaths, NothingThatWasThereIsReplacedOrRemoved) {
   EXPECT_EQ(all(), after);
 }
 
+TEST_F(OutputPaths, AFolderIsReplacedOnlyIfItHasTheNamedFile) {
+  put("file", "text");
+  fs::create_directories(place / "out" / "deep");
+  put("out/deep/old.txt", "old");
+  for (const char* other : {"out", "file"}) {
+    EXPECT_EQ(refusal([&] { check_output_folder(at(other), "a.txt"); }),
+              std::string(other) + ": is there already, and is not a folder with a.txt: it is not replaced");
+    EXPECT_NE(refusal([&] { save_folder(at(other), two_files, "a.txt"); }), "");
+  }
+  put("out/a.txt", "earlier");
+  EXPECT_EQ(refusal([&] { check_output_folder(at("out"), "a.txt"); }), "");
+  save_folder(at("out"), two_files, "a.txt");
+  auto after = whole;
+  after["file"] = "text";
+  EXPECT_EQ(all(), after);
+}
+
 TEST_F(OutputPaths, AfterAnErrorNothingStays) {
   const std::vector<OutputFile> files = {{"a.txt", {}}, {"deep/b.txt", {}}, {"deep/" + std::string(300, 'n'), {}}};
   EXPECT_NE(refusal([&] { save_folder(at("out"), files); }).find("File name too long"), std::string::npos);

@@ -34,6 +34,10 @@ struct CompareArgs {
   RenderArgs render;  ///< size, view, lights, tone mapping, limits: the options of `zoneplate render`
   std::vector<std::string> scenes, command;
   std::string methods = "all", reference, page, metrics;
+  bool replaces = false;  ///< an earlier comparison in the folder of the output
+
+  /// The file by which save_folder recognises the folder that it replaces; empty: none.
+  std::string replaced() const { return replaces ? "compare.json" : ""; }
   int turns = 3, frames = 1;
 };
 
@@ -52,7 +56,8 @@ constexpr const char* notes =
     "SCENE is a file or a built-in scene; `all` selects every built-in scene that shows a class of artifacts. LIST is\n"
     "a comma-separated list of methods, or `all`: every method with its default and with its usual parameters.\n"
     "\n"
-    "The folder DIR must not exist; it is created completely or not at all, and no other file changes:\n"
+    "The folder DIR must not exist, or with --force be that of an earlier comparison, which it replaces; it is\n"
+    "created completely or not at all, and no other file changes:\n"
     "  compare.txt, compare.csv, compare.json   the results; the JSON contains all of them, and a version number\n"
     "  compare.md                               all methods on all scenes as a Markdown table\n"
     "  cost.svg                                 mean error against mean cost, with the Pareto front\n"
@@ -82,6 +87,8 @@ Syntax compare_syntax(CompareArgs& args) {
   const std::string group = "Comparison";
   syntax.options = {
       {"--output,-o", "DIR", "Folder to create", group, true, [&](auto& text) { args.render.output = text; }},
+      {"--force", "", "Replace DIR if it is the output of an earlier comparison", group, false,
+       [&](auto&) { args.replaces = true; }},
       {"--html", "FILE.html",
        "Write one page with all images, for a browser: linked zoom, differences, error maps, values of pixels", group,
        true, [&](auto& text) { args.page = text; }},
@@ -239,7 +246,7 @@ Sequence sequence_of(const CompareArgs& args, SceneSource& source) {
 }
 
 SceneTrials compare_scene(const CompareArgs& args, const std::string& name, const TrialOptions& options,
-                          const std::function<void(const std::string&)>& progress) {
+                          const TrialProgress& progress) {
   Scene scene = load_scene(name, args.render.load);
   View view = args.render.view;
   view.up = args.render.up.value_or(scene.up);
@@ -309,8 +316,12 @@ Comparison compare_all(const CompareArgs& args, const TrialOptions& options) {
   const double steps = static_cast<double>(args.scenes.size() * (options.methods.size() + 2));
   double done = 0;
   for (const std::string& name : args.scenes) {
-    SceneTrials scene = compare_scene(
-        args, name, options, [&](const std::string& method) { progress.begin(name + ", " + method, done++ / steps); });
+    SceneTrials scene = compare_scene(args, name, options, [&](const std::string& method) {
+      const std::string stage = name + ", " + method;
+      progress.begin(stage, done / steps);
+      const double begin = done++ / steps;
+      return percents(begin, done / steps, [&progress, stage](double now) { progress.begin(stage, now); });
+    });
     scene.name = folder_name(name, scenes);
     progress.begin(name + ", images", done++ / steps);
     if (!args.render.output.empty()) add_files(scene, files);
@@ -349,7 +360,7 @@ void run_compare(std::span<const std::string> arguments) {
   check_environment(args.render);
   const TrialOptions options = trial_options(args);
   if (!args.page.empty()) check_savable(args.page);
-  if (args.page.empty() || !args.render.output.empty()) check_output_folder(args.render.output);
+  if (args.page.empty() || !args.render.output.empty()) check_output_folder(args.render.output, args.replaced());
   check_scenes(args);
   if (args.render.verbosity == Verbosity::Quiet && !args.render.progress) args.render.progress = ProgressKind::None;
   Comparison made;
@@ -361,7 +372,7 @@ void run_compare(std::span<const std::string> arguments) {
     });
   });
   if (!args.render.output.empty())
-    save_folder(args.render.output, made.files);  // without other threads, as it requires
+    save_folder(args.render.output, made.files, args.replaced());  // without other threads, as it requires
   if (!args.page.empty()) save_bytes(args.page, bytes_of(made.page));
   if (args.render.verbosity != Verbosity::Quiet || args.render.prints_json)
     print(args.render.prints_json ? made.json : made.text);

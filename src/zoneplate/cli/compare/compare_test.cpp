@@ -173,6 +173,7 @@ TEST_F(CompareVerb, RefusesBeforeItWorksAndLeavesNothing) {
   expect("triangles cyclic --aa none -o out --reference small.png", 2, "one image is a reference for one scene");
   fs::create_directory(place / "there");
   expect("triangles --aa none -o there", 4, "is there already");
+  expect("triangles --aa none -o there --force", 4, "is not a folder with compare.json");
   std::size_t names = 0;
   for (const auto& entry : fs::directory_iterator(place)) names += !entry.path().empty();
   EXPECT_EQ(names, 2u);  // small.png and there

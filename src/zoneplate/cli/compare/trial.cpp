@@ -33,8 +33,17 @@ metrics::Picture picture_of(const Rgba8Image& codes) {
   return metrics::make_picture(std::move(display));
 }
 
+/// The settings of frame `index` of `count`, which reports its part of the progress.
+RenderSettings frame_settings(const TrialSetup& stage, int index, int count,
+                              const std::function<void(double)>& progress) {
+  RenderSettings settings = stage.settings;
+  settings.options.progress = [index, count, &progress](double done) { progress((index + done) / count); };
+  return settings;
+}
+
 /// Renders the turns of one method, like consecutive frames of a program.
-Trial rendered(const TrialSetup& stage, const std::string& method, int turns) {
+Trial rendered(const TrialSetup& stage, const std::string& method, int turns,
+               const std::function<void(double)>& progress) {
   Trial trial{.method = method};
   std::optional<Renderer> renderer;
   double sum_ms = 0;
@@ -43,7 +52,7 @@ Trial rendered(const TrialSetup& stage, const std::string& method, int turns) {
     const double used_before = processor_ms();
     const Stopwatch watch;
     if (!renderer) renderer.emplace(stage.scene, upscale::make_method(method));
-    RenderedImage image = renderer->render_still(stage.camera, stage.settings);
+    RenderedImage image = renderer->render_still(stage.camera, frame_settings(stage, turn, turns, progress));
     const double ms = watch.ms();
     if (turn == 0 || ms < trial.least_ms()) trial.counts = image.counts;
     trial.frame_ms.push_back(ms);
@@ -58,7 +67,7 @@ Trial rendered(const TrialSetup& stage, const std::string& method, int turns) {
 }
 
 /// Renders a sequence by one method.
-Trial filmed(const TrialSetup& stage, const std::string& method) {
+Trial filmed(const TrialSetup& stage, const std::string& method, const std::function<void(double)>& progress) {
   Trial trial{.method = method};
   const MemoryWatch memory_watch;
   std::optional<Renderer> renderer;
@@ -70,7 +79,7 @@ Trial filmed(const TrialSetup& stage, const std::string& method) {
       renderer.emplace(std::move(view.scene), upscale::make_method(method));
     const double used_before = processor_ms();
     const Stopwatch watch;
-    RenderedImage image = renderer->render(view.camera, stage.settings);
+    RenderedImage image = renderer->render(view.camera, frame_settings(stage, i, stage.frames, progress));
     const double ms = watch.ms();
     if (i == 0 || ms < trial.least_ms()) trial.counts = image.counts;
     trial.frame_ms.push_back(ms);
@@ -106,10 +115,13 @@ void judge(Trial& trial, const SceneTrials& scene, const TrialOptions& options) 
   trial.worst = worst_places(trial.error_map, worst_count);
 }
 
-void set_reference(const TrialSetup& stage, const TrialOptions& options, SceneTrials& out) {
+void set_reference(const TrialSetup& stage, const TrialOptions& options, const TrialProgress& progress,
+                   SceneTrials& out) {
   out.reference = options.reference;
   if (!options.is_reference_file) {
-    Trial trial = stage.frames > 1 ? filmed(stage, options.reference) : rendered(stage, options.reference, 1);
+    const auto step = progress(options.reference);
+    Trial trial =
+        stage.frames > 1 ? filmed(stage, options.reference, step) : rendered(stage, options.reference, 1, step);
     out.reference_ms = trial.frame_ms[0];
     out.reference_processor_ms = trial.processor_ms[0];
     out.reference_shaded = trial.counts.shaded;
@@ -185,16 +197,14 @@ void find_front(std::vector<Trial>& trials) {
   }
 }
 
-SceneTrials run_trials(const TrialSetup& stage, const TrialOptions& options,
-                       const std::function<void(const std::string&)>& progress) {
+SceneTrials run_trials(const TrialSetup& stage, const TrialOptions& options, const TrialProgress& progress) {
   SceneTrials out;
   out.turns = stage.frames > 1 ? stage.frames : options.turns;
-  progress(options.reference);
-  set_reference(stage, options, out);
+  set_reference(stage, options, progress, out);
   Plane<float> sum(out.reference_picture.width(), out.reference_picture.height());
   for (const std::string& method : options.methods) {
-    progress(method);
-    Trial trial = stage.frames > 1 ? filmed(stage, method) : rendered(stage, method, options.turns);
+    const auto step = progress(method);
+    Trial trial = stage.frames > 1 ? filmed(stage, method, step) : rendered(stage, method, options.turns, step);
     judge(trial, out, options);
     for (std::size_t i = 0; i < sum.values().size(); ++i) sum.values()[i] += trial.error_map.values()[i];
     out.trials.push_back(std::move(trial));

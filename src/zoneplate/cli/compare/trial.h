@@ -76,14 +76,16 @@ struct TrialSetup {
   std::function<SceneView(int)> view = {};  ///< of a sequence: its frames
 };
 
+/// Begins a method, and returns the function to which its progress from 0 to 1 is reported, by any thread.
+using TrialProgress = std::function<std::function<void(double)>(const std::string& method)>;
+
 /// Renders a scene with every method and the reference, and measures the methods. `progress` is called with each
-/// method's text before it is rendered.
+/// method's text before it is rendered, and its result with the fraction of the method's frames that is complete.
 ///
 /// The metrics are applied to the 8-bit images that are written; of a sequence, to all of its frames, and the error map
 /// is that of the last frame.
 /// Errors    those of methods and files; ErrorKind::Input if the reference has another size.
-SceneTrials run_trials(const TrialSetup& stage, const TrialOptions& options,
-                       const std::function<void(const std::string&)>& progress);
+SceneTrials run_trials(const TrialSetup& stage, const TrialOptions& options, const TrialProgress& progress);
 
 /// The `count` squares with the greatest mean errors that do not overlap, in descending order.
 std::vector<Place> worst_places(const Plane<float>& error, int count);

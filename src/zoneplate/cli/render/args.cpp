@@ -5,20 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/spec.h"
-#include "zoneplate/cli/config/config.h"
 #include "zoneplate/cli/look/shadow_args.h"
 #include "zoneplate/cli/look/solid_texture.h"
 #include "zoneplate/cli/render/environment_file.h"
-#include "zoneplate/cli/render/film.h"
-#include "zoneplate/cli/render/frame_name.h"
-#include "zoneplate/cli/render/input_names.h"
-#include "zoneplate/cli/render/output_name.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/elementary.h"
@@ -167,21 +161,6 @@ double parse_render_scale(const std::string& text) {
   for (const auto& [name, scale] : presets)
     if (text == name) return scale;
   return parse_number(text, scale_param.low, scale_param.high);
-}
-
-/// Appends the upscaler to the method. A temporal one jitters its own samples: it follows `none`.
-void append_upscaler(RenderArgs& args) {
-  if (args.upscaler.empty()) {
-    if (args.render_scale) throw Error(ErrorKind::Usage, "--render-scale requires --upscale, for example fsr1");
-    return;
-  }
-  const Upscaler* const row = find_row(upscale::upscalers(), args.upscaler);
-  if (row != nullptr && row->make_temporal && !args.has_method) args.method = "none";
-  args.method += '+' + args.upscaler;
-  if (args.render_scale)
-    args.method +=
-        fmt::format("{}scale={}", args.upscaler.find(':') == std::string::npos ? ':' : ',', *args.render_scale);
-  args.upscaler.clear(), args.render_scale.reset();
 }
 
 Choices texture_filter_list() {
@@ -581,38 +560,7 @@ std::vector<Option> run_options(RenderArgs& a) {
   };
 }
 
-bool is_one_of(const std::string& word, std::initializer_list<const char*> words) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-void check_output(RenderArgs& args) {
-  if (args.output.empty()) throw Error(ErrorKind::Usage, "no output: give -o OUT.png, or -o - for stdout");
-  const bool is_film = extension_of(args.output) == ".apng" || is_encoded_by_ffmpeg(args.output);
-  args.sequence.is_film = is_film || has_frame_number(args.output);
-  if (args.output == "-") {
-    if (!args.aovs.empty() && args.stdout_format != "exr")
-      throw Error(ErrorKind::Usage, "--aov writes files next to OUT, which cannot be -; an .exr contains the passes");
-    if (args.sequence.is_sequence()) throw Error(ErrorKind::Usage, "several frames cannot be written to -");
-    return;
-  }
-  std::error_code ignored;
-  if (std::filesystem::is_directory(args.output, ignored))
-    throw Error(ErrorKind::Output, args.output + ": is a directory; write into it with a / at its end");
-  if (!is_film) check_picture_ending(args.output);
-}
-
 }  // namespace
-
-// Several inputs, and one file for all of them. After `convert in out` an output without -o is a likely mistake.
-[[noreturn]] void refuse_single_output(const RenderArgs& args) {
-  const std::string& last = args.inputs.back();
-  if (args.output.empty() &&
-      (is_encoded_by_ffmpeg(last) || is_one_of(extension_of(last), {".png", ".jpg", ".jpeg", ".webp", ".pfm", ".exr"})))
-    throw Error(ErrorKind::Usage, fmt::format("no output: did you mean -o {}?", last));
-  throw Error(
-      ErrorKind::Usage,
-      "several inputs require a folder as output, as pictures/, or {model} in its name, as pictures/{model}.png");
-}
 
 Syntax render_syntax(RenderArgs& args) {
   args.cache = environment_cache();
@@ -625,137 +573,6 @@ Syntax render_syntax(RenderArgs& args) {
                            scene_options, teaching_options, run_options})
     for (Option& option : table(args)) syntax.options.push_back(std::move(option));
   return syntax;
-}
-
-void check_picture_ending(const std::string& output) {
-  if (output != "-" && !is_one_of(extension_of(output), {".png", ".jpg", ".jpeg", ".webp", ".pfm", ".exr", ".rgba"}))
-    throw Error(
-        ErrorKind::Usage,
-        fmt::format("--output: {} is not a format that can be written (images: .png, .jpg, .webp, .exr, .pfm, .rgba; "
-                    "videos: .apng, .webp, .gif, .mp4, .mov, .mkv, .webm)",
-                    output));
-}
-
-void check_environment(RenderArgs& args) {
-  if (args.options.background) {
-    if (args.display.is_transparent)
-      throw Error(ErrorKind::Usage, "--background environment is opaque: it does not go with --no-background");
-    args.options.background->blur = args.background_blur;
-  } else if (args.background_blur > 0) {
-    throw Error(ErrorKind::Usage, "--background-blur requires --background environment");
-  }
-  if (args.environment_color) args.lighting.environment = Environment{.color = *args.environment_color};
-  if (args.is_in_studio) args.lighting.environment = Environment{.color = {1, 1, 1}, .is_in_camera_space = true};
-  if (args.hdri_file.empty()) {
-    if (args.hdri_rotation != 0 || args.hdri_intensity != 1 || args.hdri_layout)
-      throw Error(ErrorKind::Usage, "--hdri-rotation, --hdri-intensity and --hdri-layout require --hdri-file");
-    return;
-  }
-  if (args.environment_color || args.is_in_studio)
-    throw Error(ErrorKind::Usage, "--environment and --hdri-file both name an environment: give one of them");
-  args.lighting.environment =
-      Environment{.color = {1, 1, 1}, .rotation = args.hdri_rotation, .strength = args.hdri_intensity};
-}
-
-bool exists(const std::string& path) {
-  std::error_code ignored;
-  return path != "-" && std::filesystem::exists(path, ignored);
-}
-
-void check_args(RenderArgs& args) {
-  append_upscaler(args);
-  check_output(args);
-  check_environment(args);
-  const std::string ending = extension_of(args.named_output());
-  if (ending == ".exr" && !args.background && !args.options.background) args.display.is_transparent = true;
-  if (args.output != "-" && args.stdout_format != "png")
-    throw Error(ErrorKind::Usage, "--output-format requires -o -: otherwise the extension of OUT selects the format");
-  if (args.options.ground == GroundKind::Shadow && !has_visibility(args.options))
-    throw Error(ErrorKind::Usage, "--ground shadow requires --shadows or --ambient-occlusion");
-  if (args.bit_depth == 16 && ending != ".png" && ending != ".rgba")
-    throw Error(ErrorKind::Usage, "--bit-depth: only .png and .rgba have 16 bits");
-  if (args.display.is_transparent && (ending == ".jpg" || ending == ".jpeg"))
-    throw Error(ErrorKind::Usage, "--no-background: JPEG has no alpha; write a .png or a .webp");
-  if (args.dithers && (args.bit_depth == 16 || ending == ".pfm" || ending == ".exr"))
-    throw Error(ErrorKind::Usage, "--dither is for 8 bits a channel");
-  if (args.sequence.jump != 1 && !args.sequence.is_sequence())
-    throw Error(ErrorKind::Usage,
-                "--frame-jump requires a sequence: --frames, --frame-start, --frame-end or --turntable");
-  if (args.sequence.shutter && !args.sequence.is_sequence())
-    throw Error(ErrorKind::Usage, "--shutter requires a sequence: --frames, --frame-start, --frame-end or --turntable");
-  if (args.sequence.shutter && (!args.aovs.empty() || args.options.crop))
-    throw Error(ErrorKind::Usage, "--shutter goes with neither --aov nor --crop");
-  if (args.sequence.shutter_filter != ShutterFilter::Box && !args.sequence.shutter)
-    throw Error(ErrorKind::Usage, "--shutter-filter requires --shutter");
-  for (const Aov* aov : args.aovs) {
-    if ((aov->plane == &Planes::motion || aov->plane == &Planes::flow) && !args.sequence.is_sequence())
-      throw Error(ErrorKind::Usage,
-                  fmt::format("--aov {} requires a sequence, or a frame of one: -s 5 -e 5", aov->name));
-    if (aov->plane == &Planes::sample_triangles && ending == ".pfm")
-      throw Error(ErrorKind::Usage,
-                  fmt::format("--aov {} requires an .exr, or an image format such as .png", aov->name));
-  }
-  const bool has_animation = args.load.choice.animation || !args.load.choice.animation_name.empty();
-  if (args.has_animation_time && !has_animation && !args.sequence.is_sequence()) args.load.choice.animation = 0;
-  if (const auto& crop = args.options.crop)
-    if (crop->x + crop->width > args.options.width || crop->y + crop->height > args.options.height)
-      throw Error(ErrorKind::Usage, fmt::format("--crop: the rectangle is not inside the image of {}x{}",
-                                                args.options.width, args.options.height));
-}
-
-namespace {
-
-// Refuses options of the command line that change nothing for this kind of output. Those of the configuration are for
-// all kinds.
-void check_effects(const RenderArgs& args, const std::string& ending) {
-  const auto refuse = [](const std::string& cause) { throw Error(ErrorKind::Usage, cause); };
-  const SequenceArgs& sequence = args.sequence;
-  const bool is_linear = ending == ".exr" || ending == ".pfm";
-  const bool is_frame = !sequence.is_sequence() || has_frame_number(args.output);
-  if (args.file.jpeg_quality && ending != ".jpg" && ending != ".jpeg")
-    refuse("--jpeg-quality is for .jpg; --webp-quality is for .webp, and --png-compression for .png");
-  if (args.file.webp_quality && (ending != ".webp" || !is_frame)) refuse("--webp-quality is for .webp with one image");
-  if (args.file.is_small_png && ending != ".png") refuse("--png-compression is for .png");
-  if (args.file.exr_compression && ending != ".exr") refuse("--exr-compression is for .exr");
-  if (args.display.mapping != ToneMapping::None && is_linear)
-    refuse("--tone-mapping: .exr and .pfm contain linear light, before tone mapping");
-  if (args.display.mapping != ToneMapping::None && args.display.raw)
-    refuse("--tone-mapping does not go with --color-management raw");
-  if (!sequence.is_sequence() && sequence.rate != SequenceArgs{}.rate)
-    refuse("--frame-rate requires a sequence: --frames, --frame-start, --frame-end or --turntable");
-  if (!sequence.shutter && sequence.shutter_samples != SequenceArgs{}.shutter_samples)
-    refuse("--shutter-samples requires --shutter");
-}
-
-}  // namespace
-
-std::optional<RenderArgs> parse_render_args(std::span<const std::string> arguments) {
-  // The command line is parsed twice: first for the choice of a preset, then on top of the configuration.
-  RenderArgs first;
-  Syntax first_syntax = render_syntax(first);
-  if (!parse(first_syntax, arguments)) return std::nullopt;
-  RenderArgs args;
-  Syntax syntax = render_syntax(args);
-  if (!first.reads_config && !first.preset.empty())
-    throw Error(ErrorKind::Usage, "--preset requires the configuration, which --no-config ignores");
-  if (first.reads_config) apply_config(user_config(), first.preset, syntax);
-  parse(syntax, arguments);
-  args.inputs = with_folders_listed(syntax.found_operands);
-  if (!args.manifest.empty()) {
-    if (!args.inputs.empty())
-      throw Error(ErrorKind::Usage, "--manifest lists the inputs: remove " + args.inputs.front());
-    return args;
-  }
-  if (args.inputs.empty()) throw Error(ErrorKind::Usage, "no input: give a model or a built-in scene");
-  args.has_placeholders = names_input(args.output);
-  if (args.inputs.size() > 1 && !args.has_placeholders) refuse_single_output(args);
-  args.input = args.inputs.front();
-  const std::string pattern = args.output;
-  args.output = first.output = output_name(pattern, args.input, 0);
-  check_effects(first, extension_of(args.named_output()));
-  check_args(args);
-  if (args.is_batch()) args.output = pattern;
-  return args;
 }
 
 }  // namespace zoneplate::cli

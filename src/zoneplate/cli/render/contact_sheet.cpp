@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <map>
@@ -14,11 +15,13 @@
 #include "zoneplate/cli/render/input_names.h"
 #include "zoneplate/cli/render/item_process.h"
 #include "zoneplate/cli/render/picture.h"
+#include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/report/figure.h"
+#include "zoneplate/report/json.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {
@@ -89,7 +92,7 @@ void use_studio(RenderArgs& render) {
 
 struct Cell {
   Panel panel;
-  bool has_failed = false;
+  std::string failure;  ///< the cause, if the model's image is missing
 };
 
 // A model's image with its name, or the error message in its place.
@@ -116,7 +119,7 @@ Cell cell_of(const SheetArgs& args, const std::string& input, const std::string&
     say_error(dynamic_cast<const std::bad_alloc*>(&error) ? input + ": out of memory" : error.what());
     std::string cause = error.what();
     if (cause.starts_with(input + ": ")) cause = cause.substr(input.size() + 2);
-    return {{placeholder(args), name + "\n" + cause}, true};
+    return {{placeholder(args), name + "\n" + cause}, cause};
   }
 }
 
@@ -155,7 +158,7 @@ Syntax make_syntax(SheetArgs& args) {
                      "Sheet", true, [&](auto& text) { args.columns = parse_whole(text, 1, 1000); }},
                     {"--title", "TEXT", "Title of the sheet", "Sheet", false, [&](auto& text) { args.title = text; }}};
   constexpr std::string_view left_out[] = {
-      "--output",  "--output-format", "--bit-depth",       "--crop",   "--aov",       "--no-background", "--json",
+      "--output",  "--output-format", "--bit-depth",       "--crop",   "--aov",       "--no-background",
       "--verbose", "--displacement",  "--exr-compression", "--preset", "--no-config", "--dry-run"};
   for (Option& option : render_syntax(args.render).options) {
     const std::string first = option.names.substr(0, option.names.find(','));
@@ -163,6 +166,7 @@ Syntax make_syntax(SheetArgs& args) {
     if (std::ranges::find(left_out, first) != std::end(left_out)) continue;
     if (first == "--resolution") option.meaning = "Size of each model's image, 200x150 or 200; default 200,150";
     if (first == "--background-color") option.meaning = "Background colour of each image; default #444444";
+    if (first == "--json") option.meaning = "Print a report with the state of every model as one line of JSON";
     syntax.options.push_back(std::move(option));
   }
   return syntax;
@@ -191,6 +195,7 @@ void run_contact_sheet(std::span<const std::string> arguments) {
   std::vector<Panel> panels;
   Rendered sheet;
   std::size_t failed = 0;
+  Json::Array items;
   const auto render_all = [&] {
     if (args.render.hdri_file.empty()) use_studio(args.render);
     Progress progress(args.render.verbosity == Verbosity::Quiet ? ProgressKind::None
@@ -200,7 +205,10 @@ void run_contact_sheet(std::span<const std::string> arguments) {
       progress.begin(fmt::format("{} of {}: {}", i + 1, names.size(), names[i]),
                      static_cast<double>(i) / static_cast<double>(names.size()));
       Cell cell = cell_of(args, inputs[i], names[i]);
-      failed += cell.has_failed;
+      failed += !cell.failure.empty();
+      Json::Object item{{"input", inputs[i]}, {"status", cell.failure.empty() ? "done" : "failed"}};
+      if (!cell.failure.empty()) item.emplace_back("error", cell.failure);
+      items.emplace_back(std::move(item));
       panels.push_back(std::move(cell.panel));
     }
     progress.clear();
@@ -208,6 +216,18 @@ void run_contact_sheet(std::span<const std::string> arguments) {
   };
   with_isa(args.render.isa, [&] { with_threads(args.render.threads, render_all); });
   save_bytes(args.output, encode_picture(sheet, args.output, args.render.file));
+  if (args.render.prints_json) {
+    const std::string line = Json(Json::Object{{"format", "zoneplate-contact-sheet"},
+                                               {"version", report_version},
+                                               {"output", args.output},
+                                               {"items", std::move(items)}})
+                                 .text() +
+                             '\n';
+    if (args.output == "-")
+      std::fwrite(line.data(), 1, line.size(), stderr);
+    else
+      print(line);
+  }
   if (failed > 0) throw PartialFailure(fmt::format("{} of {} models failed", failed, names.size()));
 }
 

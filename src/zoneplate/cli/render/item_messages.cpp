@@ -2,9 +2,9 @@
 #include "zoneplate/cli/render/item_messages.h"
 
 #include <algorithm>
-#include <atomic>
-#include <memory>
 #include <utility>
+
+#include "zoneplate/cli/progress.h"
 
 namespace zoneplate::cli {
 
@@ -88,12 +88,7 @@ void ItemSender::progress(std::string_view stage, double done) {
   send(Kind::Progress, static_cast<int>(std::clamp(done, 0.0, 1.0) * progress_steps), 0, bytes_of(stage));
 }
 std::function<void(double)> ItemSender::progress_of(std::string stage, double from, double to) {
-  auto last = std::make_shared<std::atomic<int>>(static_cast<int>(100 * from));
-  return [this, stage = std::move(stage), from, to, last](double done) {
-    const int now = static_cast<int>(100 * (from + (to - from) * done));
-    for (int before = *last; before < now;)
-      if (last->compare_exchange_weak(before, now)) return progress(stage, now / 100.0);
-  };
+  return percents(from, to, [this, stage = std::move(stage)](double done) { progress(stage, done); });
 }
 void ItemSender::has_read() {
   is_past_reading_ = true;

@@ -84,7 +84,9 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   }
   summary.exposure = args.display.exposure;
   const Rendered picture = finish_picture(args, std::move(image), scene, camera, args.named_output(), summary);
-  if (std::string warning = clipping(args, picture); !warning.empty()) summary.warnings.push_back(std::move(warning));
+  const auto metered = [&] { return metered_exposure(scene_->lit(make_lighting(scene, args.lighting)), camera, args); };
+  if (std::string warning = clipping(args, picture, metered); !warning.empty())
+    summary.warnings.push_back(std::move(warning));
   if (summary.counts.triangles_set_up == 0) summary.warnings.push_back(emptiness(args, summary.counts));
 
   out.progress("encode", 0.9);

@@ -208,8 +208,9 @@ std::vector<std::uint8_t> encode_picture(const Rendered& picture, const std::str
   return picture.image16.empty() ? encode_png(picture.image, png) : encode_png(picture.image16, png);
 }
 
-std::string clipping(const RenderArgs& args, const Rendered& picture) {
+std::string clipping(const RenderArgs& args, const Rendered& picture, const std::function<float()>& metered) {
   constexpr double least = 0.25;
+  constexpr float metered_white = 0.8f, most_light = 1.25f;  // the brightest surfaces' channel at the metered exposure
   const float4 b = background_of(args);
   const auto code = [](float x) { return static_cast<std::uint8_t>(x * 255 + 0.5f); };
   const Rgba8 background{code(b.x), code(b.y), code(b.z), code(b.w)};
@@ -220,7 +221,7 @@ std::string clipping(const RenderArgs& args, const Rendered& picture) {
     white += c.r == 255 && c.g == 255 && c.b == 255;
   }
   const double part = static_cast<double>(white) / static_cast<double>(std::max<std::size_t>(surfaces, 1));
-  if (part < least) return {};
+  if (part < least || args.display.exposure * metered_white <= most_light * metered()) return {};
   return fmt::format(
       "{}: {:.0f} % of the surfaces are clipped to white; see --exposure auto, --lights and "
       "--tone-mapping",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -72,8 +73,10 @@ Rendered finish_picture(const RenderArgs& args, RenderedImage image, const Scene
 std::vector<std::uint8_t> encode_picture(const Rendered& picture, const std::string& output,
                                          const FileOptions& options = {});
 
-/// The warning about an image of which a quarter of the surfaces or more is clipped to white; empty for others.
-std::string clipping(const RenderArgs& args, const Rendered& picture);
+/// The warning about an image of which a quarter of the surfaces or more is white and its light well above white; empty
+/// for others, as for surfaces that are just white. `metered` returns metered_exposure of the image, and is called only
+/// if so much of it is white.
+std::string clipping(const RenderArgs& args, const Rendered& picture, const std::function<float()>& metered);
 
 /// The warning about an image without visible surfaces; empty if there are any.
 std::string emptiness(const RenderArgs& args, const RenderCounts& counts);

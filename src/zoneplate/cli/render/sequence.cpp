@@ -235,9 +235,14 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
     const double end = static_cast<double>(done) / static_cast<double>(count);
     Rendered picture =
         render_frame(args, sequence, frame, output, renderer, out.progress_of(stage, begin, end), summary);
-    if (frame == plan.frames().front())
-      if (std::string warning = clipping(args, picture); !warning.empty())
+    if (frame == plan.frames().front()) {
+      const auto metered = [&] {
+        const SceneView view = sequence.view(frame);
+        return metered_exposure(view.scene, view.camera, args);
+      };
+      if (std::string warning = clipping(args, picture, metered); !warning.empty())
         summary.warnings.push_back(std::move(warning));
+    }
     if (is_numbered) {
       const auto send = [&out, picture = std::make_shared<Rendered>(std::move(picture)), output, frame,
                          compression = args.file] {

@@ -120,10 +120,12 @@ class Conversion {
   }
 
  private:
-  // Where a file has no materials, its importer adds one of this name.
+  // Where a file has no materials, its importer adds one of this name, or that of OFF one without a name.
   void add_material(const aiMaterial& from) {
     scene_.materials.push_back(make_material(mtl_of(from), "", folder_));
-    scene_.materials.back().is_default = scene_.materials.back().name == AI_DEFAULT_MATERIAL_NAME;
+    Material& material = scene_.materials.back();
+    material.is_default =
+        material.name == AI_DEFAULT_MATERIAL_NAME || (material.name.empty() && budget_.file().ends_with(".off"));
   }
 
   /// Adds an image that is embedded in the file; materials refer to it by its index or its name.
