@@ -130,7 +130,7 @@ template <class F, bool is_line>
   } else {
     // The derivative of half of the squared distance is q · v; its own derivative is kept at a quarter of |v|² at
     // least, so that every step descends.
-    constexpr int steps = 6;
+    constexpr int steps = 9;
     const F ax(piece.a_x), ay(piece.a_y), bx(piece.b_x), by(piece.b_y), cx(piece.c_x), cy(piece.c_y);
     const auto look = [&] {
       qx = x - ((ax * t + bx) * t + cx) * t, qy = y - ((ay * t + by) * t + cy) * t;

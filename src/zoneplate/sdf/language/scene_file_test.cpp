@@ -3,7 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "zoneplate/base/error.h"
+#include "zoneplate/math/random.h"
+#include "zoneplate/sdf/evaluate.h"
 
 namespace zoneplate::sdf {
 namespace {
@@ -43,6 +48,28 @@ TEST(SdfSceneFile, BothLanguagesGiveTheSameImage) {
   EXPECT_EQ(image, draw(b.drawing, raster, b.background));
   EXPECT_EQ(image(63, 47), a.background);
   EXPECT_NE(image(20, 24), a.background);
+}
+
+// The library's shapes are measured by brute force in shape_test.cpp.
+TEST(SdfSceneFile, WordsGiveTheDistancesOfTheirShapes) {
+  std::vector<Point> points;
+  for (std::uint32_t i = 0; i < 100'000; ++i)
+    points.push_back(
+        {static_cast<double>(20 * unit_float(hash(i, 1))), static_cast<double>(20 * unit_float(hash(i, 2)))});
+  const auto distances = [&](const std::string& shape) {
+    return distances_at(read_scene_file("fill #000 " + shape, "s", {.keeps_shapes = true}).shapes.at(0), points);
+  };
+  EXPECT_EQ(distances("square(9, 10, 6)"), distances_at(moved({9, 10}, rectangle(6, 6)), points));
+  EXPECT_EQ(distances("diamond(9, 10, 6)"), distances_at(moved({9, 10}, rhombus(6, 6)), points));
+  EXPECT_EQ(distances("path(\"M 3 4 h 10 l 2 8 z\")"), distances("polygon(3, 4, 13, 4, 15, 12)"));
+  const std::vector<float> found = distances("line(4, 5, 15, 12, 3)");
+  const Point a{4, 5}, along = Point{15, 12} - a;
+  double worst = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double t = std::clamp(dot(points[i] - a, along) / dot(along, along), 0.0, 1.0);
+    worst = std::max(worst, std::abs(length(points[i] - (a + along * t)) - 1.5 - static_cast<double>(found[i])));
+  }
+  EXPECT_LT(worst, 1e-5);
 }
 
 TEST(SdfSceneFile, EveryTextErrorNamesLineAndColumn) {
