@@ -72,10 +72,6 @@ TemporalAccumulation::TemporalAccumulation(const TemporalOptions& options)
 
 bool TemporalAccumulation::tests_surfaces() const { return options_.parts.rejection != TemporalParts::Rejection::None; }
 
-bool TemporalAccumulation::tests_visibility() const {
-  return options_.parts.rejection == TemporalParts::Rejection::Unseen;
-}
-
 Request TemporalAccumulation::request(const FrameContext& context) {
   context_ = context;
   Request request;
@@ -87,8 +83,7 @@ Request TemporalAccumulation::request(const FrameContext& context) {
   request.planes.depth = true;
   request.planes.object_id = true;
   request.planes.motion = !options_.follows_camera;
-  request.planes.last_position = tests_surfaces() && !tests_visibility();
-  request.planes.was_visible = tests_visibility();
+  request.planes.last_position = tests_surfaces();
   return request;
 }
 
@@ -125,11 +120,7 @@ TemporalAccumulation::Current TemporalAccumulation::current_of(const Frame& fram
   out.motion[0] = plane([&](int x, int y) { return motion(x, y).x; });
   out.motion[1] = plane([&](int x, int y) { return motion(x, y).y; });
   if (options_.parts.trusts_rest && !context_.is_first) out.restless = restless(frame, motion);
-  if (tests_visibility()) {
-    out.seen = Plane<float>(width, height);
-    std::ranges::copy(frame.was_visible.values(), out.seen.values().begin());
-  }
-  if (!tests_surfaces() || tests_visibility()) return out;
+  if (!tests_surfaces()) return out;
   const LastDepths last(context_.last_camera, static_cast<float>(width) / static_cast<float>(height));
   const auto distance = [&](int x, int y) {
     return frame.object_id(x, y) == Frame::no_id ? std::numeric_limits<float>::infinity()
@@ -140,9 +131,9 @@ TemporalAccumulation::Current TemporalAccumulation::current_of(const Frame& fram
   return out;
 }
 
-/// 1 where the 3 × 3 surfaces do not move as one, 2 where a surface of the last frame moves otherwise: history there
-/// may contain colours that have moved elsewhere. But for the oracle also where they move at all. An object of the last
-/// frame is taken to have moved by its mean motion.
+/// 1 where a surface moves, or the 3 × 3 surfaces do not move as one, 2 where a surface of the last frame moves
+/// otherwise: history there may contain colours that have moved elsewhere. An object of the last frame is taken to have
+/// moved by its mean motion.
 Plane<float> TemporalAccumulation::restless(const Frame& frame, const Plane<float2>& motion) const {
   constexpr float likeness = 1 / 128.0f;  // pixels; over twenty frames a sixth of a pixel
   const int width = motion.width(), height = motion.height();
@@ -159,7 +150,7 @@ Plane<float> TemporalAccumulation::restless(const Frame& frame, const Plane<floa
           std::clamp(std::floor(static_cast<float>(x) - own.x + 0.5f), -2.0f, static_cast<float>(width + 1));
       const auto source_y =
           std::clamp(std::floor(static_cast<float>(y) - own.y + 0.5f), -2.0f, static_cast<float>(height + 1));
-      float unrest = !tests_visibility() && differs(own, {0, 0}, 1 / 2048.0f) ? 1.0f : 0.0f;
+      float unrest = differs(own, {0, 0}, 1 / 2048.0f) ? 1.0f : 0.0f;
       for (int j = -1; j <= 1; ++j)
         for (int i = -1; i <= 1; ++i) {
           const float2 other = motion(std::clamp(x + i, 0, width - 1), std::clamp(y + j, 0, height - 1));
@@ -238,7 +229,6 @@ LinearImage TemporalAccumulation::blended(const Frame& frame) {
                           .surface = begin_of(current.surface, y),
                           .last_depth = or_nearness(current.last_depth),
                           .last_nearness = or_nearness(current.last_nearness),
-                          .seen = current.seen.empty() ? nullptr : &current.seen(0, y),
                           .restless = current.restless.empty() ? nullptr : &current.restless(0, y),
                           .stride = stride,
                           .column = column.data(),

@@ -25,10 +25,9 @@ class TemporalAccumulation : public Resolver {
   struct Current {
     LinearImage color;
     Bordered nearness, motion[2], surface, last_depth, last_nearness;
-    Plane<float> seen, restless;
+    Plane<float> restless;
   };
   bool tests_surfaces() const;
-  bool tests_visibility() const;
   Current current_of(const Frame& frame) const;
   struct ObjectMotion {
     float2 mean;

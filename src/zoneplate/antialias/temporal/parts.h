@@ -19,10 +19,9 @@ struct TemporalParts {
   enum class Box { Extremes, Rounded, Variance, Both };
   /// When history is dropped: never; where all of the 3 × 3 surfaces around the reprojected position were nearer than
   /// the surface was then (Depth), or of other objects (Id); where all were of other objects or depths and none was
-  /// farther away (Both), so that details thinner than a pixel keep their history; as three.js, where a nearer surface
-  /// was there, but not at edges of depth; or where the last frame's camera did not see the surface point itself, which
-  /// only a renderer knows.
-  enum class Rejection { None, Depth, Id, Both, Edge, Unseen };
+  /// farther away (Both), so that details thinner than a pixel keep their history; or as three.js, where a nearer
+  /// surface was there, but not at edges of depth.
+  enum class Rejection { None, Depth, Id, Both, Edge };
   /// The weight of the current frame: fixed; 1 / n of n frames; or that of INSIDE, three.js, Bevy, Unreal Engine 4.
   enum class Blend { Fixed, Count, Contrast, Velocity, Confidence, Motion };
   /// The factor of each colour's weight: 1, or 1 / (1 + luminance) of the colour (Luma) or of the compressed colour.

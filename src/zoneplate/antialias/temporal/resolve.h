@@ -23,7 +23,6 @@ struct TemporalRow {
   const float* surface;        ///< a number of the object; negative without a surface
   const float* last_depth;     ///< the distance that the surface had from the last camera
   const float* last_nearness;  ///< its reversed depth in the last frame
-  const float* seen;           ///< 1 where the last frame's camera saw the surface point; without a border
   const float*
       restless;  ///< 0 where the 3 × 3 surfaces move as one, as those of the last frame did; 2 where one has left
   std::ptrdiff_t stride;

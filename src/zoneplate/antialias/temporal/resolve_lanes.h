@@ -11,17 +11,6 @@ namespace zoneplate::stages {
 
 using antialias::TemporalKernels;
 
-/// True where the last frame's camera saw the surface point, or a pixel without a surface.
-template <class F>
-[[gnu::always_inline]] inline typename F::Bool was_seen(const TemporalRow& row, const Source<F>& source,
-                                                        std::ptrdiff_t i) {
-  const F half(0.5f), zero(0.0f);
-  const F x = source.first[0] + floor(source.fraction[0] + half),
-          y = source.first[1] + floor(source.fraction[1] + half);
-  const auto was_empty = zero > F::gather(row.past_surface, index_at(row, x, y));
-  return (F::load(row.seen + i) > zero) | ((zero > F::load(row.surface + i)) & was_empty);
-}
-
 /// True where the history belongs to the followed surface, as far as the parts test it.
 template <class F>
 [[gnu::always_inline]] inline typename F::Bool is_valid(const TemporalRow& row, const TemporalParts& parts,
@@ -29,7 +18,6 @@ template <class F>
                                                         std::ptrdiff_t i) {
   using Rejection = TemporalParts::Rejection;
   if (parts.rejection == Rejection::None) return source.is_inside;
-  if (parts.rejection == Rejection::Unseen) return source.is_inside & was_seen(row, source, i);
   if (parts.rejection != Rejection::Edge) return source.is_inside & has_surface(row, parts, surface, source);
   // three.js: depthThreshold and edgeDepthDiff of depths in [0, 1].
   const F threshold(0.0005f), edge(0.001f), half(0.5f);
@@ -90,7 +78,7 @@ template <class Full, class One>
       square = past_value(row.squares, row, source, i);
       const auto is_trusted = is_steady(row, source, current, past, square, i);
       history = select(is_trusted, past, history);
-      if (parts.rejection != TemporalParts::Rejection::Unseen) valid = valid | is_trusted;
+      valid = valid | is_trusted;
     }
     const Share<F> share = valid_share(row, parts, source, current, history, i);
     const F weight = weighted(share.weight, current, history, parts.weighting);

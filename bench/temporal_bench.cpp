@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Speed of methods with history and of upscalers: the time of their own passes, without rendering, per pixel of the
+// image, against a copy of an 8-bit image in the same run. The camera moves, so that history is filtered.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <cstring>
+#include <string>
+
+#include "zoneplate/base/clock.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/math/transform.h"
+#include "zoneplate/render/lighting.h"
+#include "zoneplate/render/renderer.h"
+#include "zoneplate/render/view.h"
+#include "zoneplate/scene/builtin/builtin.h"
+#include "zoneplate/upscale/upscaler.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr int width = 1280, height = 720;
+constexpr double pixels = double{width} * height;
+
+/// The least time of several copies of an 8-bit image, in ns per pixel.
+double copy_ns() {
+  Rgba8Image from(width, height), to(width, height);
+  double least = 1e9;
+  for (int i = 0; i < 20; ++i) {
+    const Stopwatch watch;
+    std::memcpy(to.values().data(), from.values().data(), from.values().size_bytes());
+    benchmark::ClobberMemory();
+    least = std::min(least, watch.ms());
+  }
+  return least * 1e6 / pixels;
+}
+
+void measure(benchmark::State& state, const std::string& method) {
+  Scene scene = *make_builtin_scene("city");
+  const Camera camera = choose_camera(scene, {.index = 0}, static_cast<float>(width) / height);
+  Lighting lighting = make_lighting(scene, {});
+  scene.lights = std::move(lighting.lights);
+  scene.environment = lighting.environment;
+  with_threads(1, [&] {
+    Renderer renderer(PreparedScene(std::move(scene)), upscale::make_method(method));
+    const RenderSettings settings{.options = {.width = width, .height = height}};
+    double least = 1e9;
+    int frame = 0;
+    for (auto _ : state) {
+      Camera moved = camera;
+      moved.world_from_camera =
+          camera.world_from_camera * translation(float3{0.003f * static_cast<float>(frame++), 0, 0});
+      const RenderCounts counts = renderer.render(moved, settings).counts;
+      if (frame > 1) least = std::min(least, counts.resolve_ms + counts.filter_ms);
+    }
+    const double copy = copy_ns();
+    state.counters["ns_per_pixel"] = least * 1e6 / pixels;
+    state.counters["copy_ns"] = copy;
+    state.counters["over_copy"] = least * 1e6 / pixels / copy;
+  });
+}
+
+}  // namespace
+}  // namespace zoneplate
+
+int main(int argc, char** argv) {
+  for (const std::string method :
+       {"taa", "taa:preset=karis", "taa:preset=inside", "taa:preset=salvi", "taa:preset=three", "taa:preset=playcanvas",
+        "taa:preset=bevy", "oracle-taa", "smaa:mode=t2x", "bilinear:scale=2", "lanczos:scale=2", "sgsr1:scale=2",
+        "nis:scale=2", "fsr1:scale=2", "fsr2:scale=2"})
+    benchmark::RegisterBenchmark(method.c_str(), [method](benchmark::State& s) { zoneplate::measure(s, method); })
+        ->Iterations(6)
+        ->Unit(benchmark::kMillisecond);
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}
