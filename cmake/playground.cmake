@@ -9,7 +9,7 @@ list(FILTER readers INCLUDE REGEX "^src/zoneplate/formats/(gltf|import|json|obj|
 list(FILTER readers EXCLUDE REGEX "_test\\.cpp$|/(draco|image_file|scene_bytes)\\.cpp$")
 # Compiled alone, since they define the same names as others of their folders.
 set_source_files_properties(src/zoneplate/formats/gltf/mesh.cpp src/zoneplate/formats/obj/mtl_material.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-add_executable(zoneplate_playground web/playground/session.cpp web/playground/files.cpp ${readers})
+add_executable(zoneplate_playground web/playground/session.cpp web/playground/look.cpp web/playground/files.cpp ${readers})
 compile_folders_together(zoneplate_playground)
 target_link_libraries(zoneplate_playground PRIVATE zoneplate)
 # Sizes have 32 bits here; session.cpp limits the memory of a model to less. A library, so that its options come last.

@@ -14,7 +14,7 @@ export function writeSpec({ name, given }) {
 }
 
 /// The default value of a parameter as its text.
-const defaultOf = ({ names, value }) => (names.length ? names[value] : String(value));
+export const defaultOf = ({ names, value }) => (names.length ? names[value] : String(value));
 
 function numberFields(param, id, value, set) {
   const { low, high, decimals } = param, isWhole = decimals === 0;
@@ -27,7 +27,7 @@ function numberFields(param, id, value, set) {
 }
 
 /// One parameter with its help. `set` gets its value as a text.
-function makeField(param, prefix, value, set) {
+export function makeField(param, prefix, value, set) {
   const { name, meaning, names, choices } = param, id = `${prefix}-${name}`, options = names.length ? names : choices.map(String);
   const fields = options.length
     ? [element('select', { id, onchange: (event) => set(event.target.value) }, options.map((text) => element('option', { selected: text === value }, text)))]
@@ -47,6 +47,13 @@ export class Chooser {
     this.fields = element('div');
     this.details = element('details', {}, element('summary', {}, 'Parameters'), this.fields);
     this.node = element('div', {}, this.list, this.spec, this.summary, this.details);
+  }
+
+  /// Only the parameters of the only row, without the list.
+  bare(title) {
+    this.list.hidden = this.spec.hidden = this.summary.hidden = true;
+    this.details.firstChild.textContent = title;
+    return this;
   }
 
   show(text) {

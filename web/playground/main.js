@@ -5,8 +5,9 @@ import { element, list } from './report/dom.js';
 import { addPicture, sizeOf } from './report/picture.js';
 import { Sequence } from './report/sequence.js';
 import { Stage } from './report/stage.js';
+import { LessonPanel } from './lesson.js';
 import { Samples } from './samples.js';
-import { commandOf, hashOf, readState, sizes } from './state.js';
+import { commandOf, defaults, hashOf, readState, sizes } from './state.js';
 
 const app = document.getElementById('app');
 const state = readState(location.hash);
@@ -31,10 +32,12 @@ const number = (text) => (text === '' ? NaN : Number(text));
 const sizeNow = () => state.size.split('x').map(Number);
 const sizeText = (picture) => { const { width, height } = sizeOf(picture); return `${width}x${height}`; };
 
+const lookOf = (key) => (state[`look${key}`] ? `look:${state[`look${key}`]}` : 'look');
+
 /// The work that makes the displayed image of a side.
 function jobOf({ key }) {
   const [width, height] = sizeNow();
-  return { width, height, azimuth: number(state.azimuth), elevation: number(state.elevation), viewAngle: number(state.angle), method: state[key],
+  return { width, height, azimuth: number(state.azimuth), elevation: number(state.elevation), viewAngle: number(state.angle), method: state[key], look: lookOf(key),
     frame: state.frame === '' ? -1 : Number(state.frame) };
 }
 
@@ -68,6 +71,17 @@ function display(side, job, { width, height }) {
   stage.show({ images: sides.map(({ image }) => image), chosen: [0, 1] });
   stage.set({ current: 1 });
   restorePixel();
+  restoreView();
+}
+
+/// Enlarges the images as the state demands.
+function restoreView() {
+  if (state.view === '') return;
+  const [zoom, x, y] = state.view.split(',').map(Number), { width, height } = stage.size;
+  stage.view.zoom = zoom, stage.view.isFitted = false;
+  stage.view.middle = { x: (x + 0.5) / width, y: (y + 0.5) / height };
+  stage.set({});
+  stage.arrange();
 }
 
 /// Changes the state, and renders what it changes.
@@ -174,13 +188,16 @@ function onStage() {
 
 // ---- the page
 
+const lessonPanel = new LessonPanel(() => choosers, (next) => go({ ...defaults, ...next }));
+
 const sizeList = list('Size', sizes.map((size) => size.replace('x', ' × ')), (i) => set({ size: sizes[i], pixel: '' }));
 const sceneFacts = element('p');
 const commands = element('code');
 function showControls() {
   if (!about) return;
   sceneChooser.show(state.scene);
-  for (const { key } of sides) choosers[key].show(state[key]);
+  for (const { key } of sides) choosers[key].show(state[key]), choosers[`look${key}`].show(lookOf(key));
+  lessonPanel.show(state);
   sizeList.selectedIndex = sizes.indexOf(state.size);
   for (const [name, part] of Object.entries(lens)) {
     part.range.value = valueOf(name);
@@ -191,7 +208,7 @@ function showControls() {
   still.setAttribute('aria-pressed', state.frame === '');
   const row = sceneChooser.rows.find(({ name }) => name === state.scene.split(':')[0]);
   sceneFacts.textContent = [row?.complaint, `${about.triangles.toLocaleString('en')} triangles.`, ...about.warnings].filter(Boolean).join(' ');
-  commands.textContent = sides.map(({ key, hasHistory }) => commandOf(state, about, state[key], hasHistory, `${key}.png`)).join('\n');
+  commands.textContent = sides.map(({ key, hasHistory }) => commandOf(state, about, { method: state[key], look: state[`look${key}`], hasHistory, output: `${key}.png` })).join('\n');
 }
 
 const keys = [
@@ -220,26 +237,28 @@ for (const type of ['dragover', 'dragleave', 'drop']) {
 }
 
 function build(catalogue) {
-  const { scenes, methods, upscalers } = catalogue;
+  const { scenes, methods, upscalers, look } = catalogue;
   const groups = [['Antialiasing', methods.filter((m) => !m.is_reference)], ['References', methods.filter((m) => m.is_reference)], ['Upscalers', upscalers]];
   choosers = Object.fromEntries(sides.map(({ key }) => [key, new Chooser(key, `Method ${key.toUpperCase()}`, groups, (text) => set({ [key]: text }))]));
+  for (const { key } of sides)
+    choosers[`look${key}`] = new Chooser(`look${key}`, `Rendering of ${key.toUpperCase()}`, [['', look]], (text) => set({ [`look${key}`]: text.slice(5) })).bare('Rendering');
   const failures = scenes.filter((scene) => scene.failure), others = scenes.filter((scene) => !scene.failure);
-  sceneChooser = new Chooser('scene', 'Scene', [['Scenes', others], ['Scenes that show a failure', failures]], chooseScene);
+  sceneChooser = choosers.scene = new Chooser('scene', 'Scene', [['Scenes', others], ['Scenes that show a failure', failures]], chooseScene);
   const card = (title, ...parts) => element('section', { class: 'card', 'aria-label': title.at(-1).textContent ?? title.at(-1) }, element('h2', {}, title), ...parts);
   app.replaceChildren(
     element('header', {}, element('div', {}, element('h1', {}, 'Zoneplate playground'),
       element('p', {}, 'The renderer runs in this page. Its images have the same bytes as those of the program.')),
-    element('div', { class: 'corner' }, element('nav', { class: 'link-list', 'aria-label': 'Site' }, element('a', { href: '../index.html' }, 'Documentation'),
+    element('div', { class: 'corner' }, lessonPanel.list, element('nav', { class: 'link-list', 'aria-label': 'Site' }, element('a', { href: '../index.html' }, 'Documentation'),
       element('a', { href: '../lessons/index.html' }, 'Lessons'), element('a', { href: '../gallery/index.html' }, 'Gallery')),
     element('button', { type: 'button', onclick: () => help.showModal() }, 'Keys'), themeButton)),
     error,
     element('div', { class: 'controls' },
       card(['Scene'], sceneChooser.node, sceneFacts, element('div', { class: 'row' },
         element('button', { type: 'button', title: 'Or drop the files on the page', onclick: () => files.click() }, 'Open a model …'), files)),
-      ...sides.map(({ key }) => card([element('span', { class: 'mark' }, key.toUpperCase()), `Method ${key.toUpperCase()}`], choosers[key].node)),
+      ...sides.map(({ key }) => card([element('span', { class: 'mark' }, key.toUpperCase()), `Method ${key.toUpperCase()}`], choosers[key].node, choosers[`look${key}`].node)),
       card(['Camera'], element('div', { class: 'field' }, element('label', {}, 'Size'), sizeList), ...Object.values(lens).map((part) => part.node),
         element('div', { class: 'row' }, element('button', { type: 'button', onclick: () => set({ azimuth: '', elevation: '', angle: '' }) }, 'Reset the camera')))),
-    element('div', { class: 'show' }, wait, sequence.node, stage.node, samples.node,
+    element('div', { class: 'show' }, lessonPanel.node, wait, sequence.node, stage.node, samples.node,
       element('section', { class: 'command', 'aria-label': 'Commands' }, element('span', { class: 'label' }, 'The same images by the program:'), commands)),
     help);
 }
@@ -257,11 +276,18 @@ for (const type of ['keydown', 'keyup']) {
   });
 }
 addEventListener('blur', () => stage.isHeld && stage.set({ isHeld: false }));
-addEventListener('hashchange', async () => {
-  const next = readState(location.hash), { scene } = state;
+/// Displays another state as a whole.
+async function go(next) {
+  const { scene } = state;
+  sequence.stop();
   Object.assign(state, next);
-  if (next.scene === scene || await load(next.scene)) set({});
-});
+  stage.set({ layout: state.layout, pixel: null });
+  if (next.scene !== scene && !await load(next.scene)) return;
+  if (stage.scene) stage.fit(), restoreView();
+  set({});
+  restorePixel();
+}
+addEventListener('hashchange', () => go(readState(location.hash)));
 
 try {
   build(await sides[0].renderer.ask('catalogue'));

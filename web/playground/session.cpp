@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 
+#include "look.h"
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
@@ -72,7 +73,10 @@ Json::Object catalogue() {
     methods.push_back(std::move(row));
   }
   for (const Upscaler& upscaler : upscale::upscalers()) upscalers.push_back(row_of(upscaler));
-  return {{"scenes", std::move(scenes)}, {"methods", std::move(methods)}, {"upscalers", std::move(upscalers)}};
+  return {{"scenes", std::move(scenes)},
+          {"methods", std::move(methods)},
+          {"upscalers", std::move(upscalers)},
+          {"look", Json::Array{Json::Object{{"name", "look"}, {"summary", ""}, {"params", params_of(look_params())}}}}};
 }
 
 /// A scene, its camera, and the image of one method.
@@ -82,7 +86,7 @@ class Session {
   void set_builtin(const std::string& text);
   void set_model(const std::string& file);
   void set_view(const View& view, int width, int height);
-  Json::Object render(const std::string& method, int frame);
+  Json::Object render(const std::string& method, const std::string& look, int frame);
   const Rgba8Image& image() const { return image_; }
   Json::Object about() const;
   Json::Object samples(int x, int y) const;
@@ -104,7 +108,7 @@ class Session {
   int width_ = 640, height_ = 360;
   float4 background_ = default_background;
 
-  std::string method_;
+  std::string method_, look_;
   std::unique_ptr<Renderer> renderer_;  ///< of `method_`; null: none yet for this scene
   bool has_history_ = false;            ///< of `method_`
   int next_frame_ = no_frame;           ///< that continues the renderer's sequence
@@ -205,6 +209,7 @@ RenderSettings Session::settings() const {
   RenderSettings out;
   out.options.width = width_, out.options.height = height_;
   out.options.display.background = background_;
+  set_look(look_, out.options);
   return out;
 }
 
@@ -230,13 +235,14 @@ Json::Object Session::about() const {
 
 /// Renders a frame of the sequence, or a still image for -1. A method with history gets the frames before it, if they
 /// are not those that were rendered last, but at most `most_warm_up`.
-Json::Object Session::render(const std::string& method, int frame) {
+Json::Object Session::render(const std::string& method, const std::string& look, int frame) {
   if (!renderer_ || method_ != method) {
     std::unique_ptr<Resolver> resolver = upscale::make_method(method);
     has_history_ = resolver->request({}).has_history();
     renderer_ = std::make_unique<Renderer>(*still_, std::move(resolver));
     method_ = method, next_frame_ = no_frame;
   }
+  look_ = look;
   Stopwatch watch;
   RenderedImage out;
   if (frame < 0) {
@@ -385,8 +391,8 @@ EMSCRIPTEN_KEEPALIVE const char* set_view(Session* session, int width, int heigh
   });
 }
 
-EMSCRIPTEN_KEEPALIVE const char* render_frame(Session* session, const char* method, int frame) {
-  return answer([&] { return session->render(method, frame); });
+EMSCRIPTEN_KEEPALIVE const char* render_frame(Session* session, const char* method, const char* look, int frame) {
+  return answer([&] { return session->render(method, look, frame); });
 }
 
 EMSCRIPTEN_KEEPALIVE const char* samples_of(Session* session, int x, int y) {

@@ -52,9 +52,9 @@ const requests = {
     }
   },
   samples: (x, y) => call('samples_of', ['number', 'number'], [x, y]),
-  async render({ width, height, azimuth = NaN, elevation = NaN, viewAngle = NaN, method, frame = -1 }) {
+  async render({ width, height, azimuth = NaN, elevation = NaN, viewAngle = NaN, method, look = 'look', frame = -1 }) {
     await call('set_view', Array(5).fill('number'), [width, height, azimuth, elevation, viewAngle]);
-    const counts = await call('render_frame', ['string', 'number'], [method, frame]);
+    const counts = await call('render_frame', ['string', 'string', 'number'], [method, look, frame]);
     const { module, session } = await ready;
     const at = module.ccall('pixels_of', 'number', ['number'], [session]);
     return { ...counts, data: module.HEAPU8.slice(at, at + 4 * counts.width * counts.height) };

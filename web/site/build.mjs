@@ -8,7 +8,8 @@ import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { failures, lessons } from './content.mjs';
+import { lessonOf, lessons } from '../playground/lessons.js';
+import { failures } from './content.mjs';
 import { escapeText, pageOf } from './template.mjs';
 import { rendered, sectionsOf } from './markdown.mjs';
 
@@ -56,17 +57,22 @@ function writeDocuments() {
 
 const card = (href, title, text, image) => `<a class="card" href="${href}">${image ? `<img src="${image}" alt="" loading="lazy">` : ''}<strong>${escapeText(title)}</strong><span>${escapeText(text)}</span></a>`;
 
+/// A link to the first step of a lesson of the playground.
+const liveLink = (name) => `<a class="live" href="../playground/index.html#lesson=${name}&amp;${escapeText(new URLSearchParams(lessonOf(name).steps[0].state).toString())}">live in the playground</a>`;
+
 function writeLessons() {
   fs.mkdirSync(at('lessons'), { recursive: true });
   const listed = run('demo', '--help').split('\nLessons:\n')[1].split('\n').map((line) => /^ {2}([a-z-]+) {2,}(.*)$/.exec(line)).filter((match) => match && match[1] !== 'all');
   const cards = listed.map(([, name, summary]) => {
     run('demo', name, '--html', `lessons/${name}.html`, '-o', `lessons/${name}.png`);
-    const live = lessons[name] ? `<a class="live" href="../playground/index.html#${lessons[name]}">live in the playground</a>` : '';
+    const live = lessonOf(name) ? liveLink(name) : '';
     index.push({ page: `lessons/${name}.html`, title: 'Lessons', heading: name, text: summary });
     return `<li>${card(`${name}.html`, name, summary, `${name}.png`)}${live}</li>`;
   });
+  const more = lessons.filter(({ name }) => !listed.some((row) => row[1] === name));
   writePage('lessons/index.html', 'Lessons', `<h1>Lessons</h1><p>Each lesson displays an artifact, its remedy and measurements. Its page has the images of the lesson at
-every zoom; the playground renders the same subject with every parameter at hand.</p><ul class="cards">${cards.join('')}</ul>`, 'lessons/index.html');
+every zoom; those that are also lessons of the playground continue there, with their knobs live.</p><ul class="cards">${cards.join('')}</ul>
+<h2 id="playground">Lessons of the playground alone</h2><ul>${more.map(({ name, title }) => `<li>${liveLink(name).replace('live in the playground', title).replace(' class="live"', '')}</li>`).join('')}</ul>`, 'lessons/index.html');
 }
 
 function writeGallery() {

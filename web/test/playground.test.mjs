@@ -83,11 +83,43 @@ test('frames of sequences have the same bytes as those that the stated command m
     const command = await page.evaluate(async (name, wanted, number) => {
       const { commandOf, readState } = await import('./state.js');
       const about = await window.testRenderer.ask('builtin', name);
-      return commandOf({ ...readState(''), scene: name, size: '128x72', frame: String(number) }, about, wanted, wanted === 'taa', 'image.rgba');
+      return commandOf({ ...readState(''), scene: name, size: '128x72', frame: String(number) }, about, { method: wanted, look: '', hasHistory: wanted === 'taa', output: 'image.rgba' });
     }, scene, method, frame);
     execFileSync(program, [...command.split(' ').slice(1), '--quiet'], { cwd: folder });
     assert.ok(Buffer.from(bytes, 'base64').equals(fs.readFileSync(path.join(folder, 'image.rgba'))), command);
   }
+});
+
+test('every option of rendering has the same bytes as that of the program', async () => {
+  const page = await open('#size=320x180'), [width, height] = [128, 72];
+  const cases = [['cyclic', 'visibility=painter'], ['crossing', 'edge-rule=inside'], ['teapot', 'shading-frequency=flat'], ['teapot', 'shading-frequency=gouraud'],
+    ...['nearest', 'trilinear', 'ewa', 'probes', 'sat', 'catmull-rom'].map((filter) => ['tiles', `texture-filter=${filter}`]), ['checkerboard', 'anisotropy=8'],
+    ...['geometric', 'full'].map((kind) => ['metal', `specular-aa=${kind}`]), ...['map', 'hard', 'soft'].map((kind) => ['teapot', `shadows=${kind},ground=shadow`]),
+    ['teapot', 'ambient-occlusion=rays'], ...['aces', 'neutral', 'agx', 'filmic'].map((curve) => ['sun-roof', `tone-mapping=${curve},exposure=-1.5`])];
+  const images = await renderAll(page, cases.map(([scene, look]) => ({ scene, width, height, method: 'msaa:n=4', look: `look:${look}` })));
+  cases.forEach(([scene, look], i) => {
+    const options = look.split(',').flatMap((item) => [`--${item.split('=')[0]}`, item.split('=')[1]]);
+    assert.ok(Buffer.from(images[i].bytes, 'base64').equals(nativeImage(scene, 'msaa:n=4', [width, height], ...options)), `${scene} ${look}`);
+  });
+});
+
+test('every lesson opens at every step with its knobs, and a knob changes the image', async () => {
+  const page = await open('#size=320x180');
+  const all = await page.evaluate(async () => (await import('./lessons.js')).lessons);
+  for (const { name, steps } of all)
+    for (let step = 0; step < steps.length; ++step) {
+      await page.evaluate(`document.getElementById('app').dataset.done = 'false', location.hash = '#lesson=${name}&step=${step + 1}&${new URLSearchParams({ ...steps[step].state, size: '320x180', pixel: '', view: '' })}'`);
+      await done(page);
+      assert.equal(await page.evaluate('document.querySelector(".error").textContent'), '', `${name} ${step + 1}`);
+      assert.equal(await page.evaluate('document.querySelectorAll(".knobs .field").length'), steps[step].knobs.length, `${name} ${step + 1}`);
+    }
+  await page.evaluate(() => { const list = document.querySelector('[aria-label="Lesson"]'); document.getElementById('app').dataset.done = 'false', list.selectedIndex = 1; list.dispatchEvent(new Event('change')); });
+  await done(page);
+  const before = await page.shot();
+  await page.evaluate(() => { const knob = document.getElementById('knob-b-n'); document.getElementById('app').dataset.done = 'false', knob.value = '2', knob.dispatchEvent(new Event('change')); });
+  await done(page);
+  assert.match(await hashOf(page), /b=msaa:n=2/);
+  assert.notDeepEqual((await page.shot()).data, before.data);
 });
 
 test('models of every format have the same bytes as those of the program', async () => {
