@@ -6,9 +6,9 @@ export const lessons = [
     name: 'jaggies', title: 'Jaggies',
     steps: [
       { text: 'With one sample per pixel, a pixel is covered completely or not at all: edges become stairs. On the right side of the slider, coverage is tested at several samples. Change their number.',
-        state: { b: 'msaa:n=4', view: '6,330,36' }, knobs: [['b', 'n']] },
+        state: { b: 'msaa:n=4', view: '6,249,30' }, knobs: [['b', 'n']] },
       { text: 'Multisampling (B) tests coverage and depth at every sample, and shades each surface once per pixel. Step through the samples of the chosen pixel: on the outline, some have the colour of the teapot and some that of the background. Their mean is the pixel.',
-        state: { b: 'msaa:n=8', layout: 'grid', size: '320x180', view: '12,157,17', pixel: '157,17' }, knobs: [['b', 'n'], ['b', 'centroid']] },
+        state: { b: 'msaa:n=8', layout: 'grid', size: '320x180', view: '12,238,66', pixel: '238,66' }, knobs: [['b', 'n'], ['b', 'centroid']] },
       { text: 'Supersampling (B) shades every sample. Highlights inside the outline become smooth as well, and the time grows with the number of samples.',
         state: { scene: 'metal', a: 'msaa:n=16', b: 'ssaa:n=4' }, knobs: [['a', 'n'], ['b', 'n'], ['b', 'pattern']] },
     ],
@@ -37,7 +37,7 @@ export const lessons = [
     name: 'exact-coverage', title: 'Exact coverage',
     steps: [
       { text: 'B is the exact area of each surface in each pixel. A grid of n × n samples has n steps along an edge close to an axis. Press D for the difference, and raise n.',
-        state: { scene: 'crossing', a: 'ssaa:n=2', b: 'analytic', layout: 'grid' }, knobs: [['a', 'n'], ['a', 'pattern']] },
+        state: { scene: 'crossing', a: 'ssaa:n=2', b: 'analytic', layout: 'grid', size: '480x270' }, knobs: [['a', 'n'], ['a', 'pattern']] },
       { text: 'The same areas under wider filters than the pixel: smoother edges, less sharpness, and ringing where a filter has negative lobes.',
         state: { scene: 'near-axis', a: 'analytic', b: 'analytic:filter=mitchell', view: '6,330,180' }, knobs: [['b', 'filter']] },
     ],
@@ -46,14 +46,14 @@ export const lessons = [
     name: 'gamma', title: 'Gamma',
     steps: [
       { text: 'Coverage is light, and light adds up linearly. If sRGB values are blended instead (A), half-covered pixels are too dark and thin bright lines look like ropes.',
-        state: { scene: 'thin-diagonal', a: 'msaa:n=8,mix=codes', b: 'msaa:n=8', view: '4,320,180' }, knobs: [['a', 'mix'], ['b', 'mix'], ['b', 'n']] },
+        state: { scene: 'thin-diagonal', a: 'msaa:n=8,mix=codes', b: 'msaa:n=8', view: '4,225,180' }, knobs: [['a', 'mix'], ['b', 'mix'], ['b', 'n']] },
     ],
   },
   {
     name: 'hdr-edges', title: 'Edges of bright light',
     steps: [
       { text: 'The sun is 120 times as bright as white. In the mean of linear light, one bright sample of eight makes the pixel white: the edge remains a stair. Smaller weights for brighter samples, or the mean after tone mapping, make it smooth, and lose light.',
-        state: { scene: 'sun-roof', a: 'msaa:n=8', b: 'msaa:n=8,resolve=karis', view: '4,320,180' }, knobs: [['b', 'resolve'], ['b', 'n']] },
+        state: { scene: 'sun-roof', a: 'msaa:n=8', b: 'msaa:n=8,resolve=karis', view: '4,395,160' }, knobs: [['b', 'resolve'], ['b', 'n']] },
       { text: 'Tone-mapping curves bring unbounded light into the range of the display.',
         state: { scene: 'sun-roof', a: 'msaa:n=8', b: 'msaa:n=8', lookb: 'tone-mapping=agx' }, knobs: [['lookb', 'tone-mapping'], ['lookb', 'exposure']] },
     ],
@@ -62,9 +62,9 @@ export const lessons = [
     name: 'zbuffer', title: 'The z-buffer',
     steps: [
       { text: 'The painter’s algorithm (A) draws triangles from the farthest to the nearest. Each of these three is before the next: no order is correct. The z-buffer (B) keeps the nearest surface at each sample.',
-        state: { scene: 'cyclic', a: 'msaa:n=4', looka: 'visibility=painter', layout: 'grid' }, knobs: [['looka', 'visibility'], ['lookb', 'visibility']] },
+        state: { scene: 'cyclic', a: 'msaa:n=4', looka: 'visibility=painter', layout: 'grid', size: '480x270' }, knobs: [['looka', 'visibility'], ['lookb', 'visibility']] },
       { text: 'Squares that pass through each other: each is partly before and partly behind the others.',
-        state: { scene: 'crossing', a: 'msaa:n=4', looka: 'visibility=painter', layout: 'grid' }, knobs: [['looka', 'visibility'], ['lookb', 'visibility']] },
+        state: { scene: 'crossing', a: 'msaa:n=4', looka: 'visibility=painter', layout: 'grid', size: '480x270' }, knobs: [['looka', 'visibility'], ['lookb', 'visibility']] },
     ],
   },
   {
@@ -99,23 +99,23 @@ export const lessons = [
     name: 'upscaling', title: 'Upscaling',
     steps: [
       { text: 'Both images are rendered with a quarter of the pixels. A is enlarged by a filter. B accumulates jittered frames at the size of the image. Enlarge an edge, and change the scale.',
-        state: { a: 'bilinear:scale=2', b: 'fsr2:scale=2', view: '6,330,36' }, knobs: [['a', 'scale'], ['b', 'scale']] },
+        state: { a: 'bilinear:scale=2', b: 'fsr2:scale=2', view: '6,249,30' }, knobs: [['a', 'scale'], ['b', 'scale']] },
     ],
   },
   {
     name: 'temporal', title: 'Accumulation over frames',
     steps: [
       { text: 'One sample per pixel and frame, each at another point of the pixel, averaged with the last result, which is moved along. Press Play: without it (A) the wires crawl.',
-        state: { scene: 'panning-wires', b: 'taa', frame: '12', layout: 'grid' }, knobs: [['b', 'preset'], ['b', 'length'], ['b', 'alpha']] },
+        state: { scene: 'panning-wires', b: 'taa', frame: '12', layout: 'grid', size: '480x270' }, knobs: [['b', 'preset'], ['b', 'length'], ['b', 'alpha']] },
     ],
   },
   {
     name: 'ghosting', title: 'Ghosting',
     steps: [
       { text: 'The disc has jumped. Without tests (A) its history remains as a ghost. With them (B) history is dropped where the last frame had another object, or clipped to the colours of the neighbours.',
-        state: { scene: 'teleport', a: 'taa:rectify=none,reject=none,blend=fixed', b: 'taa', frame: '17', layout: 'grid' }, knobs: [['b', 'rectify'], ['b', 'reject'], ['b', 'gamma']] },
+        state: { scene: 'teleport', a: 'taa:rectify=none,reject=none,blend=fixed', b: 'taa', frame: '17', layout: 'grid', size: '480x270' }, knobs: [['b', 'rectify'], ['b', 'reject'], ['b', 'gamma']] },
       { text: 'The oracle decides by rays to the triangles of the last frame whether a surface was visible: what remains is the limit of accumulation itself.',
-        state: { scene: 'teleport', a: 'taa', b: 'oracle-taa', frame: '17', layout: 'grid' }, knobs: [['a', 'rectify'], ['a', 'reject'], ['b', 'most']] },
+        state: { scene: 'teleport', a: 'taa', b: 'oracle-taa', frame: '17', layout: 'grid', size: '480x270' }, knobs: [['a', 'rectify'], ['a', 'reject'], ['b', 'most']] },
     ],
   },
   {

@@ -64,7 +64,8 @@ async function render(side) {
 }
 
 function display(side, job, { width, height }) {
-  side.image = { name: job.method, frames: [side.picture], facts: `${side.ms.toFixed(1)} ms` };
+  const name = job.look === 'look' ? job.method : `${job.method} ${job.look.slice(5)}`;
+  side.image = { name, frames: [side.picture], facts: `${side.ms.toFixed(1)} ms` };
   if (stage.scene && stage.size.width === width && stage.size.height === height) return stage.replace(sides.indexOf(side), side.image);
   if (sides.some(({ image }) => !image || sizeText(image.frames[0]) !== `${width}x${height}`)) return;
   wait.hidden = true, stage.node.hidden = samples.node.hidden = false;
@@ -156,7 +157,7 @@ async function inspect() {
   asked = question;
   if (state.pixel === '') return samples.show(null, []);
   try {
-    const results = await Promise.all(sides.map(async ({ key, renderer }) => ({ name: state[key], result: await renderer.ask('samples', x, y) })));
+    const results = await Promise.all(sides.map(async ({ key, renderer }) => ({ name: stage.scene.images[sides.findIndex((side) => side.key === key)].name, result: await renderer.ask('samples', x, y) })));
     if (results.every(({ result }) => result.pixel)) samples.show({ x, y }, results);
   } catch (failure) {
     fail(failure.message);

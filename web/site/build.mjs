@@ -78,9 +78,9 @@ every zoom; those that are also lessons of the playground continue there, with t
 function writeGallery() {
   fs.mkdirSync(at('gallery'), { recursive: true });
   const { scenes } = JSON.parse(run('list', 'scenes', '--json'));
-  const cards = failures.map(({ scene, methods, frames }) => {
+  const cards = failures.map(({ scene, methods, frames, size }) => {
     const more = frames ? ['--frames', String(frames)] : ['--turns', '1'];
-    run('compare', scene, '--aa', methods, '--size', '320x180', '--html', `gallery/${scene}.html`, '--quiet', ...more);
+    run('compare', scene, '--aa', methods, '--size', size, '--html', `gallery/${scene}.html`, '--quiet', ...more);
     run('render', scene, '--aa', 'none', '--size', '320x180', '-o', `gallery/${scene}.png`, '--quiet');
     const { summary, artifact } = scenes.find(({ name }) => name === scene), about = artifact || summary;
     index.push({ page: `gallery/${scene}.html`, title: 'Gallery', heading: scene, text: about });
