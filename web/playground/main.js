@@ -85,11 +85,20 @@ function restoreView() {
   stage.arrange();
 }
 
+/// Writes the state into the address, at most a few times a second: browsers limit how often that may be.
+let writing;
+function writeAddress() {
+  writing ??= setTimeout(() => {
+    writing = undefined;
+    history.replaceState(null, '', hashOf(state));
+  }, 300);
+}
+
 /// Changes the state, and renders what it changes.
 function set(changes) {
   Object.assign(state, changes);
   app.dataset.done = 'false';
-  history.replaceState(null, '', hashOf(state));
+  writeAddress();
   showControls();
   for (const side of sides) render(side);
 }
@@ -171,7 +180,7 @@ function restorePixel() {
 function choosePixel() {
   if (!stage.pixel) return;
   state.pixel = `${stage.pixel.x},${stage.pixel.y}`;
-  history.replaceState(null, '', hashOf(state));
+  writeAddress();
   inspect();
 }
 let pressed;
@@ -184,7 +193,7 @@ stage.room.addEventListener('keyup', (event) => event.key.startsWith('Arrow') &&
 function onStage() {
   if (stage.layout === state.layout) return;
   state.layout = stage.layout;
-  history.replaceState(null, '', hashOf(state));
+  writeAddress();
 }
 
 // ---- the page
@@ -293,6 +302,7 @@ addEventListener('hashchange', () => go(readState(location.hash)));
 try {
   build(await sides[0].renderer.ask('catalogue'));
   if (await load(state.scene)) set({});
+  else wait.hidden = true;
 } catch (failure) {
   app.replaceChildren(error);
   fail(failure.message);

@@ -31,7 +31,8 @@ async function open(hash = '', options = {}) {
   return page;
 }
 const done = async (page) => { await page.until('document.getElementById("app").dataset.done === "true"', 60); await page.settle(); };
-const hashOf = (page) => page.evaluate('decodeURIComponent(location.hash)');
+/// The address, which follows within a third of a second.
+const hashOf = async (page) => { await new Promise((wait) => setTimeout(wait, 400)); return page.evaluate('decodeURIComponent(location.hash)'); };
 
 before(async () => { browser = new Browser(), server = await serve(site); });
 after(async () => {
@@ -135,6 +136,23 @@ test('models of every format have the same bytes as those of the program', async
     }, files);
     assert.ok(Buffer.from(text, 'base64').equals(nativeImage(names[0], 'ssaa:n=2', [64, 48])), names[0]);
   }
+});
+
+test('files are opened from the disk, and one that is no model is refused', async () => {
+  const page = await open('#size=320x180');
+  const drop = (names) => page.evaluate(async (list) => {
+    const transfer = new DataTransfer(), input = document.querySelector('input[type="file"]');
+    for (const { name, text } of list) transfer.items.add(new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], name));
+    document.getElementById('app').dataset.done = 'false';
+    input.files = transfer.files, input.dispatchEvent(new Event('change'));
+  }, names.map((name) => ({ name, text: fs.readFileSync(path.join(folder, name)).toString('base64') })));
+  writeModels(folder);
+  await drop(['face.png', 'square.mtl', 'square.obj']);
+  await done(page);
+  assert.match(await hashOf(page), /scene=square\.obj/);
+  assert.match(await page.evaluate('document.querySelector(".card").textContent'), /2 triangles/);
+  await drop(['face.png']);
+  await page.until('!document.querySelector(".error").hidden');
 });
 
 test('a frame of the teapot takes at most 60 ms', async (t) => {
