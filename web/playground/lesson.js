@@ -31,14 +31,15 @@ export class LessonPanel {
     this.place.textContent = steps.length > 1 ? `${this.step + 1} of ${steps.length}` : '';
     this.back.hidden = this.next.hidden = steps.length < 2;
     this.back.disabled = this.step === 0, this.next.disabled = this.step === steps.length - 1;
-    if (!this.knobs.contains(document.activeElement)) this.knobs.replaceChildren(...steps[this.step].knobs.map((knob) => this.field(...knob, state)).filter(Boolean));
+    if (!this.knobs.contains(document.activeElement)) this.knobs.replaceChildren(...steps[this.step].knobs.map((knob) => this.field(knob[0], knob[1], knob[2], state)).filter(Boolean));
   }
 
-  /// The field of a parameter, if the method of the state has it.
-  field(part, name, state) {
+  /// The field of a parameter, if the method of the state has it; `range` changes its limits.
+  field(part, name, range, state) {
     const chooser = this.choosersOf()[part], text = part.startsWith('look') ? `look:${state[part]}` : state[part], { name: rowName, given } = readSpec(text);
-    const param = chooser.rows.find((row) => row.name === rowName)?.params.find((p) => p.name === name);
-    if (!param) return null;
+    const whole = chooser.rows.find((row) => row.name === rowName)?.params.find((p) => p.name === name);
+    if (!whole) return null;
+    const param = { ...whole, ...range };
     const field = makeField(param, `knob-${part}`, given.get(name) ?? defaultOf(param), (value) => chooser.set(param, value)), side = part === 'scene' ? '' : part.at(-1).toUpperCase();
     if (side) field.querySelector('label').prepend(element('span', { class: 'mark' }, side));
     return field;

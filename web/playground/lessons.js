@@ -1,4 +1,4 @@
-// The lessons of the page. A step is a text, a state of the page (state.js), and its knobs: [part of the state, parameter].
+// The lessons of the page. A step is a text, a state of the page (state.js), and its knobs: [part of the state, parameter, changes of its range].
 // Lessons whose names are those of `zoneplate demo` continue them.
 
 export const lessons = [
@@ -116,6 +116,13 @@ export const lessons = [
         state: { scene: 'teleport', a: 'taa:rectify=none,reject=none,blend=fixed', b: 'taa', frame: '17', layout: 'grid', size: '480x270' }, knobs: [['b', 'rectify'], ['b', 'reject'], ['b', 'gamma']] },
       { text: 'The oracle decides by rays to the triangles of the last frame whether a surface was visible: what remains is the limit of accumulation itself.',
         state: { scene: 'teleport', a: 'taa', b: 'oracle-taa', frame: '17', layout: 'grid', size: '480x270' }, knobs: [['a', 'rectify'], ['a', 'reject'], ['b', 'most']] },
+    ],
+  },
+  {
+    name: 'wagon-wheel', title: 'The wagon wheel',
+    steps: [
+      { text: 'A film samples time. A wheel that turns by a whole spoke from frame to frame looks the same in every frame: it appears to stand still. If it turns by 0.9 spokes a frame, it appears to roll backwards by 0.1. Slide from 0 to 0.9: both directions of motion have the same two images.',
+        state: { scene: 'wheel', a: 'none', b: 'ssaa:n=4', size: '480x270' }, knobs: [['scene', 'turn', { low: 0, high: 2, decimals: 2 }], ['scene', 'spokes', { low: 1, high: 60 }]] },
     ],
   },
   {

@@ -288,6 +288,8 @@ Json::Object Session::samples(int x, int y) const {
   const std::unique_ptr<Resolver> method = upscale::make_method(method_);
   Request request = method->request({.image = {width_, height_, {}}, .camera = camera_, .last_camera = camera_});
   if (request.draw) return without_samples("The method has its own rasterization: its result is no mean of samples.");
+  if (request.has_history())
+    return without_samples("The method averages frames, whose samples lie at other positions each time.");
   if (request.frame) return without_samples("The method renders fewer pixels than the image has.");
   if (request.content != Content::Colour) return without_samples("The first round of the method has no colours.");
   request.planes = {.samples = true};

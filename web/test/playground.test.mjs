@@ -193,6 +193,9 @@ test('the samples of a pixel are stepped through by keys, and their mean is the 
   assert.equal(codes[0], codes[1]);
   await page.key('b');
   assert.match(await text(), /sample 3 of 4/);
+  const temporal = await open('#size=320x180&b=taa&pixel=150,60');
+  await temporal.until('document.querySelectorAll(".samples figure").length === 2');
+  assert.match(await temporal.evaluate('document.querySelector(".samples figure:last-child").textContent'), /averages frames/);
 });
 
 test('a mistake is one line', async () => {
