@@ -2,7 +2,6 @@
 # The renderer without what needs a library: no file formats, no command. So it can be built for processors for which
 # Debian has a compiler but no libraries, and its tests run in an emulator (./check --targets).
 include(CTest)
-include(GoogleTest)
 
 # Headers that hold all of their library are this machine's own; GoogleTest comes as source.
 foreach(header fmt/format.h hwy/highway.h)
@@ -16,9 +15,6 @@ target_compile_definitions(zoneplate_flags INTERFACE FMT_HEADER_ONLY)
 if(EMSCRIPTEN) # whose popcount and countr_zero give what they are given
   target_compile_options(zoneplate_flags INTERFACE -Wno-sign-conversion)
 endif()
-set(BUILD_GMOCK OFF)
-set(INSTALL_GTEST OFF)
-add_subdirectory(/usr/src/googletest googletest EXCLUDE_FROM_ALL SYSTEM)
 
 # The rooms of the core are those that layers.txt lists before `os`.
 file(STRINGS src/zoneplate/layers.txt rooms REGEX "^[a-z]")
@@ -34,7 +30,16 @@ add_kernels("${simd_sources}")
 add_library(zoneplate STATIC ${library_sources} ${kernel_objects})
 target_link_libraries(zoneplate PUBLIC zoneplate_flags)
 target_precompile_headers(zoneplate PRIVATE ${common_headers})
+compile_folders_together(zoneplate)
+if(NOT BUILD_TESTING)
+  include(cmake/playground.cmake)
+  return()
+endif()
 
+include(GoogleTest)
+set(BUILD_GMOCK OFF)
+set(INSTALL_GTEST OFF)
+add_subdirectory(/usr/src/googletest googletest EXCLUDE_FROM_ALL SYSTEM)
 # Of the tests, those that hold instruction sets or pictures to each other bit by bit; but not those that read files.
 list(FILTER test_sources EXCLUDE REGEX "/(fxaa|smaa)(_[a-z]+)*_test\\.cpp$|/smaa/tables_test\\.cpp$")
 foreach(test IN LISTS test_sources)

@@ -3,14 +3,16 @@
 
 # Every object may become part of a shared library, which exports what the public headers declare and nothing
 # else (each header sets the default visibility for its declarations); calls within the library stay direct.
-set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+if(NOT EMSCRIPTEN)
+  set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+endif()
 set(CMAKE_CXX_VISIBILITY_PRESET hidden)
 set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 
 # One scene, one image, on every compiler: no contraction of a * b + c, no fast-math (docs/architecture.md).
 add_library(zoneplate_flags INTERFACE)
 target_compile_options(zoneplate_flags INTERFACE -ffp-contract=off $<$<CXX_COMPILER_ID:GNU>:-fno-semantic-interposition> -Wall -Wextra -Wconversion
-                       $<IF:$<BOOL:${CMAKE_UNITY_BUILD}>,-Wshadow=local,-Wshadow> # not names of other sources of a folder
+                       $<IF:$<BOOL:${CMAKE_UNITY_BUILD}>,$<$<CXX_COMPILER_ID:GNU>:-Wshadow=local>,-Wshadow> # not names of other sources of a folder
                        -Wno-missing-field-initializers # designated initialisers leave out what keeps its default
                        $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>
                        $<$<CXX_COMPILER_ID:Clang>:-Wno-undefined-var-template>) # tables of PerIsa (base/isa.h) have sources of their own
@@ -31,6 +33,8 @@ set(cli_sources ${all_sources})
 list(FILTER cli_sources INCLUDE REGEX "^src/zoneplate/cli/")
 list(FILTER cli_sources EXCLUDE REGEX "_test\\.cpp$|_simd\\.cpp$|/main\\.cpp$")
 file(GLOB whole_tests RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS tests/*_test.cpp)
+
+set_source_files_properties(src/zoneplate/scene/geometry/smooth_normals.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS -fno-math-errno) # roots in vectors, of the same bits
 
 # A catalogue is a list of names, one a line, in <folder>/<list>.txt. The table is made from it: a function <table>() of
 # <namespace>, which <header> declares, with a row for each name, that <prefix><name>() makes. Appends the source to

@@ -9,13 +9,14 @@ const markColor = '#ffc400', shadeColor = '#000a';
 
 export class Pane {
   constructor(stage, i) {
-    const { text, facts } = stage.scene.images[i];
+    const { text } = stage.scene.images[i];
     Object.assign(this, { stage, i, imageSize: stage.sizes[i], size: { width: 0, height: 0 } });
     this.canvas = element('canvas', { role: 'img' });
     this.note = element('p', { class: 'note' });
     this.name = element('span', { class: 'name' });
+    this.facts = element('span', { class: 'facts' });
     this.node = element('figure', {},
-      element('figcaption', {}, element('kbd', {}, stage.keyOf(i)), this.name, element('span', { class: 'facts' }, facts ?? '')),
+      element('figcaption', {}, element('kbd', {}, stage.keyOf(i)), this.name, this.facts),
       element('div', { class: 'pane' }, this.canvas, this.note), text ? element('p', { class: 'words' }, text) : null);
   }
 
@@ -51,6 +52,7 @@ export class Pane {
     this.drawMarks(context);
     const name = isDivided ? `${images[stage.reference].name} | ${images[shown].name}` : images[shown].name;
     this.name.textContent = this.name.title = name;
+    this.facts.textContent = (isDivided ? [stage.reference, shown] : [this.i]).map((i) => images[i].facts).filter(Boolean).join(' | ');
     this.note.textContent = missing ?? '';
     canvas.setAttribute('aria-label', `${name}: ${stage.describe(shown)}`);
     canvas.style.touchAction = stage.view.isFitted ? 'pan-y' : 'none';

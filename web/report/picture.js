@@ -11,6 +11,10 @@ class Cache {
     if (entry) this.entries.delete(key), this.entries.set(key, entry);
     return entry?.value;
   }
+  remove(key) {
+    this.held -= this.entries.get(key)?.size ?? 0;
+    this.entries.delete(key);
+  }
   set(key, value, size) {
     this.entries.set(key, { value, size });
     this.held += size;
@@ -43,8 +47,19 @@ export function loadPicture(index) {
   return loading.get(index);
 }
 
-/// The size of a picture, from its header alone.
+/// Adds a picture of 8-bit codes that is not in the page, in place of the one with index `old`; returns its index.
+let added = 0;
+export function addPicture({ width, height, data }, old = -1) {
+  const index = stored.length + added++;
+  decoded.remove(old);
+  decoded.set(index, { width, height, data, depth: 8, values: 'codes', index }, data.byteLength);
+  return index;
+}
+
+/// The size of a picture; of one in the page, from its header alone.
 export function sizeOf(index) {
+  const known = pictureNow(index);
+  if (known) return { width: known.width, height: known.height };
   const bytes = bytesOfText(stored[index].textContent.slice(0, 48)), view = new DataView(bytes.buffer);
   return { width: view.getUint32(16), height: view.getUint32(20) };
 }

@@ -79,10 +79,7 @@ export class Stage {
     this.hasFrames = hasFrames;
     if ((this.what === 'errors' && !this.hasErrors) || this.what === 'slice') this.what = 'picture';
     if (images.length === 1 && this.layout === 'slider') this.layout = 'grid';
-    this.referenceList.replaceChildren(...images.map((image) => element('option', {}, image.name)));
-    this.strip.replaceChildren(...images.map((image, i) => element('button', { type: 'button', onclick: () => this.choose(i) },
-      element('kbd', {}, this.keyOf(i)), image.name)));
-    this.strip.hidden = images.length < 2;
+    this.listImages();
     this.sequence.show(Math.max(...images.map((image) => image.frames.length)), scene.fps ?? 24);
     // Fits are those of the largest width and height.
     this.sizes = images.map((image) => image.frames.find((index) => index >= 0)).map((index) => (index === undefined ? { width: 1, height: 1 } : sizeOf(index)));
@@ -93,6 +90,22 @@ export class Stage {
     this.rebuild();
     // So that the first alternation does not wait for a decoder.
     images.forEach((_, i) => i < 16 && loadPicture(this.frameOf(i)));
+  }
+
+  listImages() {
+    const { images } = this.scene;
+    this.referenceList.replaceChildren(...images.map((image) => element('option', {}, image.name)));
+    this.strip.replaceChildren(...images.map((image, i) => element('button', { type: 'button', onclick: () => this.choose(i) },
+      element('kbd', {}, this.keyOf(i)), image.name)));
+    this.strip.hidden = images.length < 2;
+  }
+
+  /// Replaces an image by one of the same size; the view stays.
+  replace(i, image) {
+    const { images } = this.scene, isRenamed = images[i].name !== image.name;
+    images[i] = image;
+    if (isRenamed) this.listImages();
+    this.refresh();
   }
 
   /// The image of a key: 0 is the scene's reference, 1 to 9 are the others.
@@ -144,9 +157,11 @@ export class Stage {
     else this.zoomTo(zoom, at);
     return !isSmallest;
   }
+  /// Moves the images; while they are visible as a whole, `turn` gets the movement, if the page has set it.
   moveBy(dx, dy) {
+    if (this.turn && this.view.isFitted) return this.turn(dx, dy);
     this.view.move(dx, dy, this.size, this.pane);
-    this.refresh();
+    return this.refresh();
   }
   showRegion() {
     const { x, y, size } = this.scene.region;

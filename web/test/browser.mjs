@@ -90,12 +90,12 @@ export class Page {
   }
 
   /// Waits until an expression is true.
-  async until(expression) {
-    for (let i = 0; i < 200; ++i) {
+  async until(expression, seconds = 10) {
+    for (let i = 0; i < 20 * seconds; ++i) {
       if (await this.evaluate(expression)) return;
       await new Promise((done) => setTimeout(done, 50));
     }
-    throw new Error(`not true after ten seconds: ${expression}`);
+    throw new Error(`not true after ${seconds} seconds: ${expression}`);
   }
 
   /// Waits for two painted frames after the decoding of the displayed pictures.

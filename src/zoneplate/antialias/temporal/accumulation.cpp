@@ -169,7 +169,8 @@ Plane<float> TemporalAccumulation::restless(const Frame& frame, const Plane<floa
 /// The mean motions of the objects of this frame and of the last one, by their number plus one.
 std::vector<TemporalAccumulation::ObjectMotion> TemporalAccumulation::object_motions(
     const Frame& frame, const Plane<float2>& motion) const {
-  float most = *std::ranges::max_element(past_surface_.values());
+  const auto past = past_surface_.values();
+  float most = *std::max_element(past.begin(), past.end());
   for (const std::uint32_t id : frame.object_id.values()) most = std::max(most, number_of(id));
   struct Sum {
     double x = 0, y = 0;

@@ -65,7 +65,7 @@ template <class Code>
 void keep_coverage(Code* codes, const TextureView& view, float cutoff) {
   if (!(cutoff > 0 && cutoff <= 1)) return;
   const std::vector<float> first = sorted_alphas(codes, view, 0);
-  const auto passing = static_cast<double>(first.end() - std::ranges::lower_bound(first, cutoff));
+  const auto passing = static_cast<double>(first.end() - std::lower_bound(first.begin(), first.end(), cutoff));
   const double coverage = passing / static_cast<double>(first.size());
   for (std::int32_t l = 1; l < view.levels; ++l) {
     const std::vector<float> alphas = sorted_alphas(codes, view, l);
@@ -73,7 +73,7 @@ void keep_coverage(Code* codes, const TextureView& view, float cutoff) {
     // The alpha that comes to lie on the cutoff: that of the last texel that is to pass, or, if it has many equals and
     // the coverage without them is nearer, the next greater one.
     const float last = wanted > 0 ? alphas[alphas.size() - wanted] : alphas.back();
-    const auto from = std::ranges::lower_bound(alphas, last), to = std::ranges::upper_bound(alphas, last);
+    const auto [from, to] = std::equal_range(alphas.begin(), alphas.end(), last);
     const auto with = static_cast<std::size_t>(alphas.end() - from),
                without = static_cast<std::size_t>(alphas.end() - to);
     const bool includes = wanted > without && with - wanted <= wanted - without;

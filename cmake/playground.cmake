@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+# The renderer for the page of web/playground, as an ES module and its WebAssembly: the core, and the readers of models.
+find_path(nlohmann_headers nlohmann/json.hpp PATHS /usr/include REQUIRED NO_CMAKE_FIND_ROOT_PATH)
+file(CREATE_LINK ${nlohmann_headers}/nlohmann ${CMAKE_CURRENT_BINARY_DIR}/headers/nlohmann SYMBOLIC)
+
+# files.cpp takes the place of the sources that need libraries or child processes.
+set(readers ${all_sources})
+list(FILTER readers INCLUDE REGEX "^src/zoneplate/formats/(gltf|import|json|obj|ply|stl)/|report/json\\.cpp$")
+list(FILTER readers EXCLUDE REGEX "_test\\.cpp$|/(draco|image_file|scene_bytes)\\.cpp$")
+# Compiled alone, since they define the same names as others of their folders.
+set_source_files_properties(src/zoneplate/formats/gltf/mesh.cpp src/zoneplate/formats/obj/mtl_material.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+add_executable(zoneplate_playground web/playground/session.cpp web/playground/look.cpp web/playground/files.cpp ${readers})
+compile_folders_together(zoneplate_playground)
+target_link_libraries(zoneplate_playground PRIVATE zoneplate)
+# Sizes have 32 bits here; session.cpp limits the memory of a model to less. A library, so that its options come last.
+add_library(zoneplate_playground_flags INTERFACE)
+target_compile_options(zoneplate_playground_flags INTERFACE -include ${CMAKE_CURRENT_SOURCE_DIR}/cmake/wasm_readers.h
+                       -Wno-shorten-64-to-32 -Wno-unused-private-field)
+target_link_libraries(zoneplate_playground PRIVATE zoneplate_playground_flags)
+target_precompile_headers(zoneplate_playground PRIVATE ${common_headers})
+target_link_options(zoneplate_playground PRIVATE -O2 --no-entry -sMODULARIZE -sEXPORT_ES6 -sENVIRONMENT=worker -sEXIT_RUNTIME=0
+                    -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=ccall,FS)

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the readers of models need of an operating system and of libraries of codecs, in a page: files are those of the
+// module's memory, and images are decoded by the browser.
+#include <emscripten/emscripten.h>
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/formats/gltf/draco.h"
+#include "zoneplate/formats/import/image_file.h"
+#include "zoneplate/formats/meshopt/meshopt.h"
+#include "zoneplate/os/file.h"
+
+// Module.images: the decoded images, { bytes, width, height, depth, data }, where data is null for one that the browser
+// cannot decode. Module.missing: the bytes of those that a reader met and that are not decoded.
+// clang-format off
+EM_JS(int, find_image, (const std::uint8_t* bytes, std::size_t size), {
+  const own = HEAPU8.subarray(bytes, bytes + size);
+  const found = Module.images.findIndex((image) => image.bytes.length === size && image.bytes.every((byte, i) => byte === own[i]));
+  if (found < 0) Module.missing.push(own.slice());
+  return found;
+});
+EM_JS(int, image_value, (int image, int which), {
+  const { width, height, depth, data } = Module.images[image];
+  return data ? [width, height, depth][which] : 0;
+});
+EM_JS(void, copy_image, (int image, void* to), {
+  const { data } = Module.images[image];
+  HEAPU8.set(new Uint8Array(data.buffer, data.byteOffset, data.byteLength), to);
+});
+// clang-format on
+
+namespace zoneplate {
+
+FileBytes::FileBytes(const std::string& path, std::uint64_t limit) {
+  // The module's memory opens no name of /proc/self/fd, which is a link there.
+  std::error_code failure;
+  const std::filesystem::path linked = std::filesystem::read_symlink(path, failure);
+  std::FILE* const file = std::fopen(failure ? path.c_str() : linked.c_str(), "rb");
+  if (file == nullptr) throw Error(ErrorKind::Input, path + ": no such file was dropped");
+  std::fseek(file, 0, SEEK_END);
+  const auto size = static_cast<std::size_t>(std::ftell(file));
+  std::rewind(file);
+  if (size > limit) {
+    std::fclose(file);
+    throw Error(ErrorKind::Input, fmt::format("{}: {} bytes, at most {} are allowed", path, size, limit));
+  }
+  auto* const memory = new std::uint8_t[size];
+  const std::size_t read = std::fread(memory, 1, size, file);
+  std::fclose(file);
+  bytes_ = {memory, read};
+}
+FileBytes::~FileBytes() { delete[] bytes_.data(); }
+FileBytes::FileBytes(FileBytes&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
+FileBytes& FileBytes::operator=(FileBytes&& other) noexcept {
+  std::swap(bytes_, other.bytes_);
+  return *this;
+}
+void FileBytes::forget(const void*, std::size_t) const {}
+
+std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes) {
+  const int image = find_image(bytes.data(), bytes.size());
+  if (image < 0 || image_value(image, 0) == 0) return std::nullopt;
+  return int2{image_value(image, 0), image_value(image, 1)};
+}
+
+std::uint64_t decoded_image_memory(std::span<const std::uint8_t> bytes) {
+  const std::optional<int2> size = find_image_size(bytes);
+  return size
+             ? std::uint64_t{sizeof(Rgba16)} * static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y)
+             : 0;
+}
+std::uint64_t image_working_memory(std::span<const std::uint8_t>) { return 0; }
+
+template <class Texel>
+static Plane<Texel> image_of(int image) {
+  Plane<Texel> out(image_value(image, 0), image_value(image, 1));
+  copy_image(image, out.values().data());
+  return out;
+}
+
+TexelImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  const std::optional<int2> size = find_image_size(bytes);
+  if (!size) throw Error(ErrorKind::Input, name + ": the browser does not decode this image");
+  if (static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y) > max_pixels)
+    throw Error(ErrorKind::Input, name + ": too many pixels");
+  const int image = find_image(bytes.data(), bytes.size());
+  if (image_value(image, 2) == 16) return image_of<Rgba16>(image);
+  return image_of<Rgba8>(image);
+}
+
+std::optional<std::string> size_warning(const TextureImage&) { return std::nullopt; }
+
+DracoMesh decode_draco(std::span<const std::uint8_t>, std::uint64_t, std::span<const DracoWish>,
+                       const std::string& place, ImportBudget&) {
+  throw Error(ErrorKind::Input, place + ": meshes packed by Draco are read by the program, not by this page");
+}
+
+std::vector<std::uint8_t> decode_meshopt(const JsonView& json, std::span<const std::uint8_t>, ImportBudget&) {
+  json.fail("data packed by meshoptimizer are read by the program, not by this page");
+}
+
+}  // namespace zoneplate

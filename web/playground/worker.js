@@ -1,0 +1,71 @@
+// One instance of the renderer, in a thread of its own. Requests { id, name, args } get replies { id, result } or { id, error }.
+import { decodeImage } from './images.js';
+import makeModule from './zoneplate_playground.js';
+
+const studio = fetch(new URL('./studio.env', import.meta.url)).then((answer) => (answer.ok ? answer.arrayBuffer() : Promise.reject(new Error('studio.env is missing'))));
+const ready = makeModule().then((module) => ({ module, session: module.ccall('make_session', 'number', [], []) }));
+let models = 0;
+const isLit = setStudio();
+isLit.catch(() => {}); // the first scene reports it
+
+/// Gives the session the prepared light of scenes without lights.
+async function setStudio() {
+  const { module } = await ready, bytes = new Uint8Array(await studio), at = module._malloc(bytes.length);
+  module.HEAPU8.set(bytes, at);
+  await call('set_studio', ['number', 'number'], [at, bytes.length]);
+  module._free(at);
+}
+
+/// Calls a function of session.cpp that returns JSON.
+async function call(name, types = [], args = []) {
+  const { module, session } = await ready;
+  const result = JSON.parse(module.ccall(name, 'string', ['number', ...types], [session, ...args]));
+  if (result.error) throw new Error(result.error);
+  return result;
+}
+
+const requests = {
+  catalogue: () => call('list_catalogue'),
+  async builtin(text) {
+    await isLit;
+    return call('set_builtin', ['string'], [text]);
+  },
+  /// `files` are { path, bytes }; the first is the model.
+  async model(files) {
+    await isLit;
+    const { module } = await ready, { FS } = module, folder = `/models/${++models}`;
+    FS.mkdirTree(folder);
+    for (const { path, bytes } of files) {
+      const place = `${folder}/${path}`;
+      FS.mkdirTree(place.slice(0, place.lastIndexOf('/')));
+      FS.writeFile(place, bytes);
+    }
+    FS.chdir(folder);
+    // Readers run without interruption, and browsers decode images only between: what a reader met is decoded, and the model read again.
+    module.images = [];
+    for (;;) {
+      module.missing = [];
+      const about = await call('set_model', ['string'], [files[0].path]).catch((error) => ({ error }));
+      if (!module.missing.length && about.error) throw about.error;
+      if (!module.missing.length) return about;
+      module.images.push(...await Promise.all(module.missing.map(decodeImage)));
+    }
+  },
+  samples: (x, y) => call('samples_of', ['number', 'number'], [x, y]),
+  async render({ width, height, azimuth = NaN, elevation = NaN, viewAngle = NaN, method, look = 'look', frame = -1 }) {
+    await call('set_view', Array(5).fill('number'), [width, height, azimuth, elevation, viewAngle]);
+    const counts = await call('render_frame', ['string', 'string', 'number'], [method, look, frame]);
+    const { module, session } = await ready;
+    const at = module.ccall('pixels_of', 'number', ['number'], [session]);
+    return { ...counts, data: module.HEAPU8.slice(at, at + 4 * counts.width * counts.height) };
+  },
+};
+
+onmessage = async ({ data: { id, name, args } }) => {
+  try {
+    const result = await requests[name](...args);
+    postMessage({ id, result }, result.data ? [result.data.buffer] : []);
+  } catch (error) {
+    postMessage({ id, error: error.message ?? String(error) });
+  }
+};

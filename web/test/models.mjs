@@ -1,0 +1,49 @@
+// Models whose files the tests write: a square of two triangles with a texture, in every format that the page reads.
+import fs from 'node:fs';
+import path from 'node:path';
+import { writePng } from './pictures.mjs';
+
+const corners = [[-1, -1, 0.2], [1, -1, 0], [1, 1, -0.3], [-1, 1, 0.1]], faces = [[0, 1, 2], [0, 2, 3]];
+const flat = (rows) => rows.map((row) => row.join(' ')).join('\n');
+
+function gltfOf(image) {
+  const bin = Buffer.alloc(92 + image.length);
+  faces.flat().forEach((index, i) => bin.writeUInt16LE(index, 2 * i));
+  corners.flat().forEach((value, i) => bin.writeFloatLE(value, 12 + 4 * i));
+  [[0, 1], [1, 1], [1, 0], [0, 0]].flat().forEach((value, i) => bin.writeFloatLE(value, 60 + 4 * i));
+  image.copy(bin, 92);
+  const json = {
+    asset: { version: '2.0' }, scene: 0, scenes: [{ nodes: [0] }], nodes: [{ mesh: 0 }],
+    meshes: [{ primitives: [{ attributes: { POSITION: 1, TEXCOORD_0: 2 }, indices: 0, material: 0 }] }],
+    materials: [{ doubleSided: true, pbrMetallicRoughness: { baseColorTexture: { index: 0 }, metallicFactor: 0.2 } }],
+    textures: [{ source: 0 }], images: [{ bufferView: 3, mimeType: 'image/png' }],
+    accessors: [{ bufferView: 0, componentType: 5123, count: 6, type: 'SCALAR' },
+      { bufferView: 1, componentType: 5126, count: 4, type: 'VEC3', min: [-1, -1, -0.3], max: [1, 1, 0.2] }, { bufferView: 2, componentType: 5126, count: 4, type: 'VEC2' }],
+    bufferViews: [[0, 12], [12, 48], [60, 32], [92, image.length]].map(([byteOffset, byteLength]) => ({ buffer: 0, byteOffset, byteLength })),
+    buffers: [{ byteLength: bin.length }],
+  };
+  return { json, bin };
+}
+
+function glbOf({ json, bin }) {
+  const pad = (bytes, fill) => Buffer.concat([bytes, Buffer.alloc(-bytes.length & 3, fill)]);
+  const chunk = (type, bytes) => { const head = Buffer.alloc(8); head.writeUInt32LE(bytes.length), head.write(type, 4, 'latin1'); return Buffer.concat([head, bytes]); };
+  const body = Buffer.concat([chunk('JSON', pad(Buffer.from(JSON.stringify(json)), ' ')), chunk('BIN\0', pad(bin, 0))]), head = Buffer.alloc(12);
+  head.write('glTF', 0, 'latin1'), head.writeUInt32LE(2, 4), head.writeUInt32LE(12 + body.length, 8);
+  return Buffer.concat([head, body]);
+}
+
+/// Writes the models into a folder; returns the names of the files of each, the model first.
+export function writeModels(folder) {
+  const at = (name) => path.join(folder, name), write = (name, bytes) => fs.writeFileSync(at(name), bytes);
+  writePng(at('face.png'), 16, 16, (x, y) => [16 * x, 16 * y, (x ^ y) & 1 ? 255 : 40]);
+  const gltf = gltfOf(fs.readFileSync(at('face.png')));
+  write('square.glb', glbOf(gltf));
+  write('square.bin', gltf.bin);
+  write('square.gltf', JSON.stringify({ ...gltf.json, buffers: [{ byteLength: gltf.bin.length, uri: 'square.bin' }], images: [{ uri: 'face.png' }] }));
+  write('square.obj', `mtllib square.mtl\nusemtl face\n${corners.map((corner) => `v ${corner.join(' ')}`).join('\n')}\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n`);
+  write('square.mtl', 'newmtl face\nKd 1 1 1\nmap_Kd face.png\n');
+  write('square.ply', `ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n${flat(corners)}\n${flat(faces.map((face) => [3, ...face]))}\n`);
+  write('square.stl', `solid square\n${faces.map((face) => `facet normal 0 0 0\nouter loop\n${face.map((i) => `vertex ${corners[i].join(' ')}`).join('\n')}\nendloop\nendfacet`).join('\n')}\nendsolid\n`);
+  return [['square.glb'], ['square.gltf', 'square.bin', 'face.png'], ['square.obj', 'square.mtl', 'face.png'], ['square.ply'], ['square.stl']];
+}
