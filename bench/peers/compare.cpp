@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// The benchmark scenes drawn by Mesa's software OpenGL and by Zoneplate, in turns, in one run: times, their ratio, and
-// how far the two pictures are from each other. bench/peers/run builds and starts it.
+// The benchmark scenes drawn by Mesa's software OpenGL and by Zoneplate, in turns, in one run: times, their ratios, how
+// far each picture is from a supersampled reference, and how far from each other. bench/peers/run builds and starts it.
 #include <fmt/format.h>
 #include <sched.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <ctime>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +19,7 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/image/tonemap.h"
+#include "zoneplate/metrics/psnr.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/render/renderer.h"
 #include "zoneplate/scene/builtin/builtin.h"
@@ -36,13 +36,13 @@ constexpr float3 dusk{0.10f, 0.12f, 0.15f}, sky{0.45f, 0.60f, 0.80f};
 constexpr Case cases[] = {{"tri1m", 1, dusk}, {"fill", 1, dusk},          {"fillblend", 1, dusk},
                           {"city", 8, sky},   {"city-trilinear", 1, sky}, {"micro", 1, dusk}};
 
+/// Milliseconds a frame: wall-clock time, and that of all processors together.
 struct Times {
-  double least, median;
+  double least = 0, median = 0, processor = 0;
 };
-Times times_of(std::vector<double> ms) {
-  std::sort(ms.begin(), ms.end());
-  return {ms.front(), ms[ms.size() / 2]};
-}
+
+/// The CPU time of all threads so far.
+double processor_ms() { return 1e3 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
 /// At least three frames, and no new one after so many milliseconds.
 template <class Frame>
@@ -50,12 +50,15 @@ Times time_frames(double budget_ms, const Frame& frame) {
   frame();
   std::vector<double> ms;
   const Stopwatch whole;
+  const double processor = processor_ms();
   while (ms.size() < 3 || (whole.ms() < budget_ms && ms.size() < 40)) {
     const Stopwatch watch;
     frame();
     ms.push_back(watch.ms());
   }
-  return times_of(ms);
+  const double used = processor_ms() - processor;
+  std::sort(ms.begin(), ms.end());
+  return {ms.front(), ms[ms.size() / 2], used / static_cast<double>(ms.size())};
 }
 
 /// Mean and greatest distance of the colour channels, in steps of 1 / 255.
@@ -76,37 +79,81 @@ Distance distance(const Rgba8Image& p, const Rgba8Image& q) {
   return out;
 }
 
-void compare(const Case& c, int samples, double budget_ms, const std::string& pictures) {
-  const Scene scene = *make_builtin_scene(c.scene);
-  const Work work{.samples = samples, .anisotropy = c.anisotropy, .background = c.background};
-  Mesa mesa(scene, work);
-  // llvmpipe 22.3 does not come back from anisotropic filtering with several samples.
-  const bool is_drawn_by_mesa = samples == 1 || c.anisotropy == 1;
-  Times theirs{};
-  if (is_drawn_by_mesa) theirs = time_frames(budget_ms, [&] { mesa.frame(); });
-
-  Renderer renderer(PreparedScene(scene, {.raw_colors = true}),
-                    make_resolver(antialias::methods(), samples == 1 ? "none" : fmt::format("msaa:n={}", samples)));
+Rgba8Image render(Renderer& renderer, const Camera& camera, const Work& work) {
   const RenderSettings settings{
-      .options = {.width = work.width,
-                  .height = work.height,
-                  .display = {.background = {c.background.x, c.background.y, c.background.z, 1}, .raw = true}}};
-  RenderedImage image;
-  const Times ours = time_frames(budget_ms, [&] { image = renderer.render(scene.cameras.front(), settings); });
+      .options = {
+          .width = work.width,
+          .height = work.height,
+          .display = {.background = {work.background.x, work.background.y, work.background.z, 1}, .raw = true}}};
+  return renderer.render(camera, settings).display;
+}
 
-  const auto ms = [](Times t) { return fmt::format("{:8.1f} {:8.1f}", t.least, t.median); };
-  fmt::print("{:<15}{}x  {}  {}  ", c.scene, samples, is_drawn_by_mesa ? ms(theirs) : fmt::format("{:>17}", "-"),
-             ms(ours));
-  if (is_drawn_by_mesa) {
-    const Distance d = distance(mesa.picture(), image.display);
-    fmt::print("{:6.1f} {:6.1f}   {:.4f} {:3}", theirs.least / ours.least, theirs.median / ours.median, d.mean, d.most);
+/// Decibels of a picture against one of `scale` times its width and height, each of whose pixels is a sample.
+double psnr(const Rgba8Image& picture, const Rgba8Image& samples, int scale) {
+  double sum = 0;
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 0; x < picture.width(); ++x) {
+      int r = 0, g = 0, b = 0;
+      for (int j = 0; j < scale; ++j)
+        for (int i = 0; i < scale; ++i) {
+          const Rgba8 s = samples(scale * x + i, scale * y + j);
+          r += s.r, g += s.g, b += s.b;
+        }
+      const Rgba8 p = picture(x, y);
+      const double n = scale * scale;
+      for (const double d : {p.r - r / n, p.g - g / n, p.b - b / n}) sum += d * d;
+    }
+  return metrics::psnr_of_mse(sum / (3 * 255.0 * 255.0 * static_cast<double>(picture.values().size())));
+}
+
+/// llvmpipe 22.3 does not terminate with anisotropic filtering of several samples; 25.0 does.
+bool terminates(const std::string& version) {
+  const std::size_t at = version.find("Mesa ");
+  return at != std::string::npos && std::atoi(version.c_str() + at + 5) >= 25;
+}
+
+void compare(const Case& c, double budget_ms, const std::string& pictures) {
+  constexpr int scale = 4;
+  const Scene scene = *make_builtin_scene(c.scene);
+  Work work{.anisotropy = c.anisotropy, .background = c.background};
+  const auto renderer_of = [&](int samples) {
+    return Renderer(PreparedScene(scene, {.raw_colors = true}),
+                    make_resolver(antialias::methods(), samples == 1 ? "none" : fmt::format("msaa:n={}", samples)));
+  };
+  Work large = work;
+  large.width *= scale, large.height *= scale;
+  Renderer reference_renderer = renderer_of(1);
+  const Rgba8Image reference = render(reference_renderer, scene.cameras.front(), large);
+
+  for (const int samples : {1, 4}) {
+    work.samples = samples;
+    Mesa mesa(scene, work);
+    const bool is_drawn_by_mesa = samples == 1 || c.anisotropy == 1 || terminates(mesa.version());
+    Times theirs;
+    if (is_drawn_by_mesa) theirs = time_frames(budget_ms, [&] { mesa.frame(); });
+    Renderer renderer = renderer_of(samples);
+    Rgba8Image image;
+    const Times ours = time_frames(budget_ms, [&] {
+      renderer.recycle(std::move(image));
+      image = render(renderer, scene.cameras.front(), work);
+    });
+
+    const auto ms = [](Times t) { return fmt::format("{:8.1f} {:8.1f} {:8.1f}", t.least, t.median, t.processor); };
+    fmt::print("{:<15}{}x  {}  {}  ", c.scene, samples, is_drawn_by_mesa ? ms(theirs) : fmt::format("{:>26}", "-"),
+               ms(ours));
+    if (is_drawn_by_mesa) {
+      const Distance d = distance(mesa.picture(), image);
+      fmt::print("{:6.1f} {:6.1f} {:6.1f}  {:6.2f} {:6.2f}   {:.4f} {:3}", theirs.least / ours.least,
+                 theirs.median / ours.median, theirs.processor / ours.processor, psnr(mesa.picture(), reference, scale),
+                 psnr(image, reference, scale), d.mean, d.most);
+    }
+    fmt::print("\n");
+    std::fflush(stdout);
+    if (pictures.empty()) continue;
+    const std::string name = fmt::format("{}/{}-{}x", pictures, c.scene, samples);
+    if (is_drawn_by_mesa) save_bytes(name + "-mesa.png", encode_png(mesa.picture(), {.has_alpha = false}));
+    save_bytes(name + "-zoneplate.png", encode_png(image, {.has_alpha = false}));
   }
-  fmt::print("\n");
-  std::fflush(stdout);
-  if (pictures.empty()) return;
-  const std::string name = fmt::format("{}/{}-{}x", pictures, c.scene, samples);
-  if (is_drawn_by_mesa) save_bytes(name + "-mesa.png", encode_png(mesa.picture(), {.has_alpha = false}));
-  save_bytes(name + "-zoneplate.png", encode_png(image.display, {.has_alpha = false}));
 }
 
 /// One thread means one processor: Mesa's main thread would use a second one.
@@ -121,13 +168,18 @@ void set_threads(int threads) {
 
 void run(int threads, const std::string& only, double budget_ms, const std::string& pictures) {
   set_threads(threads);
-  fmt::print("1920x1080, {} thread{}: milliseconds a frame, least and median of several\n", threads,
-             threads == 1 ? "" : "s");
-  fmt::print("{:<19}{:>17}  {:>17}  {:>13}   picture: mean, most of 255\n", "", "Mesa", "Zoneplate", "ratio");
+  const Case& first = cases[0];
+  const std::string version =
+      Mesa(*make_builtin_scene(first.scene), {.anisotropy = first.anisotropy, .background = first.background})
+          .version();
+  fmt::print("OpenGL {}; 1920x1080, {} thread{}\n", version, threads, threads == 1 ? "" : "s");
+  fmt::print("{:<17}{:>28}  {:>26}  {:>20}  {:>13}\n", "", "Mesa: ms a frame", "Zoneplate", "ratios", "dB of 16x");
+  const std::string times = fmt::format("{:>8} {:>8} {:>8}", "least", "median", "cpu");
+  fmt::print("{:<19}{}  {}  {:>6} {:>6} {:>6}  {:>6} {:>6}   mean, most of 255\n", "", times, times, "least", "median",
+             "cpu", "Mesa", "ours");
   with_threads(threads, [&] {
     for (const Case& c : cases)
-      for (const int samples : {1, 4})
-        if (only.empty() || only == c.scene) compare(c, samples, budget_ms, pictures);
+      if (only.empty() || only == c.scene) compare(c, budget_ms, pictures);
   });
 }
 

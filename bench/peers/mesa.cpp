@@ -197,13 +197,13 @@ struct Mesa::State {
   void (*destroy)(void*) = nullptr;
   void* context = make_context();
   OpenGl gl{library};
-  std::string renderer;
+  std::string version;
   GLuint drawn = 0, resolved = 0;
   GLsizei indices = 0;
   std::vector<std::uint8_t> pixels;
 
   State(const Scene& scene, const Work& requested) : work(requested) {
-    renderer = reinterpret_cast<const char*>(gl.GetString(GL_RENDERER));
+    version = reinterpret_cast<const char*>(gl.GetString(GL_VERSION));
     pixels.resize(static_cast<std::size_t>(work.width) * static_cast<std::size_t>(work.height) * 4);
     make_framebuffers();
     upload(scene.meshes.at(0));
@@ -351,7 +351,7 @@ struct Mesa::State {
 Mesa::Mesa(const Scene& scene, const Work& work) : state_(std::make_unique<State>(scene, work)) {}
 Mesa::~Mesa() = default;
 void Mesa::frame() { state_->draw(); }
-const std::string& Mesa::renderer() const { return state_->renderer; }
+const std::string& Mesa::version() const { return state_->version; }
 
 Rgba8Image Mesa::picture() const {
   Rgba8Image out(state_->work.width, state_->work.height);

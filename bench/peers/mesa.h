@@ -32,7 +32,8 @@ class Mesa {
   void frame();
   /// The last frame, row 0 at the top.
   Rgba8Image picture() const;
-  const std::string& renderer() const;
+  /// What OpenGL says of itself, for example "4.5 (Core Profile) Mesa 25.0.7-2".
+  const std::string& version() const;
 
  private:
   struct State;

@@ -24,6 +24,8 @@ struct TonemapKernels : PerIsa<TonemapKernels> {
   void (*display_row)(const DisplayStep& step, const float* linear, float* display, std::size_t n);
   /// Applies display_row and quantize8 to n groups of eight pixels.
   void (*show_groups)(const DisplayStep& step, const Linear8* linear, Rgba8* shown, std::size_t n);
+  /// DisplayTransform::is_decided for a step without tone mapping over an opaque background.
+  bool (*is_decided)(const DisplayStep& step, const Linear8& front, float brightest, float rounding);
 };
 
 }  // namespace zoneplate

@@ -190,12 +190,17 @@ template <ToneMapping mapping, class Full, class One>
   });
 }
 
+/// The code from 0 to 255 of x in [0, 1].
+template <class F>
+[[gnu::always_inline]] inline typename F::Int code8(F x) {
+  return truncate(x * F(255.0f) + F(0.5f));
+}
+
 template <ToneMapping mapping, class F>
 [[gnu::always_inline]] inline void show_pixels(const DisplayStep& step, const Linear8* linear, Rgba8* shown,
                                                std::size_t n) {
   static_assert(sizeof(Rgba8) == 4 && Linear8::size % F::lanes == 0);
-  // Codes 0 to 255, for x in [0, 1].
-  const auto codes = [](F x) { return truncate(x * F(255.0f) + F(0.5f)); };
+  const auto codes = [](F x) { return code8(x); };
   for (const Linear8* group = linear; group != linear + n; ++group)
     for (std::size_t k = 0; k < Linear8::size; k += F::lanes, shown += F::lanes) {
       const PixelLanes<F> p = displayed<mapping>(
@@ -237,9 +242,31 @@ template <class F>
   }
 }
 
+/// With exposure e, the transmittance t of the front layers, their colour f and the background b, a pixel's colour c
+/// lies in [f, f + t brightest], its alpha a in [1 - t, 1], and what is encoded, min(c e, a) + b (1 - a), between
+/// min(f e, 1 - t) and (f + t brightest) e + b t. Both bounds are moved outwards by more than the rounding errors of
+/// the display transform, and of the sRGB curve, which ascends only but for these.
+template <class F>
+[[gnu::flatten]] bool is_decided(const DisplayStep& step, const Linear8& front, float brightest, float rounding) {
+  const float* const color[3] = {front.r, front.g, front.b};
+  const float error = (step.is_encoded ? 0x1p-19f : 0x1p-21f) + rounding;
+  const F exposure(step.exposure), one(1.0f), margin(error), less(1 - error), more(1 + error);
+  const auto code = [&](F x) { return code8(step.is_encoded ? encode_srgb(x) : clamp_unit(x)); };
+  for (std::size_t k = 0; k < Linear8::size; k += F::lanes) {
+    const F t = F::load(front.a + k);
+    for (int c = 0; c < 3; ++c) {
+      const F light = F::load(color[c] + k) * exposure;
+      const F low = min(light, one - t) * less - margin;
+      const F high = (light + t * F(brightest * step.exposure + step.light[c])) * more + margin;
+      if (!code(low).equals(code(high))) return false;
+    }
+  }
+  return true;
+}
+
 template <class Full, class One>
 constexpr TonemapKernels display_step() {
-  return {.display_row = &display_row<Full, One>, .show_groups = &show_groups<Full>};
+  return {.display_row = &display_row<Full, One>, .show_groups = &show_groups<Full>, .is_decided = &is_decided<Full>};
 }
 
 }  // namespace stages

@@ -22,6 +22,12 @@ class DisplayTransform {
 
   /// `out` has capacity for eight pixels per group.
   void present(std::span<const Linear8> groups, Rgba8* out) const;
+  /// Whether `present` gives the same codes to eight opaque or blended pixels whatever lies behind their front layers.
+  /// `front` has the colour of these layers and, as alpha, the transmittance to what lies behind, of which no
+  /// premultiplied channel exceeds `brightest` times its alpha. `rounding` bounds the error of the pixels that will be
+  /// presented, relative to colour and alpha. False without a proof: with tone mapping, or if the background is not
+  /// opaque.
+  bool is_decided(const Linear8& front, float brightest, float rounding) const;
   /// The display-referred colour of empty pixels.
   Rgba8 background() const { return background_; }
 

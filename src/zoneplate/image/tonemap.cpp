@@ -108,6 +108,11 @@ void DisplayTransform::present(std::span<const Linear8> groups, Rgba8* out) cons
   TonemapKernels::of().show_groups(step_, groups.data(), out, groups.size());
 }
 
+bool DisplayTransform::is_decided(const Linear8& front, float brightest, float rounding) const {
+  const bool ascends = step_.mapping == ToneMapping::None && !step_.is_transparent && step_.light[3] == 1;
+  return ascends && TonemapKernels::of().is_decided(step_, front, brightest, rounding);
+}
+
 LinearImage over_background(LinearImage image, const DisplayOptions& options) {
   const float4 b = options.background;
   const Linear behind{decode_srgb(b.x), decode_srgb(b.y), decode_srgb(b.z), 1};

@@ -289,5 +289,43 @@ TEST(DisplayTransform, ShowsWhatMakeDisplayDoesQuantized) {
     }
 }
 
+TEST(DisplayTransform, IsDecidedOnlyIfNothingBehindChangesACode) {
+  constexpr float brightest = 3;
+  int decided = 0;
+  for (std::uint32_t i = 0; i < 6000; ++i) {
+    const auto random = [&](std::uint32_t k) { return unit_float(hash(i, k)); };
+    const DisplayOptions options{
+        .exposure = i % 3 == 0 ? 1.0f : 0.5f + random(0), .background = {0.2f, 0.9f, 1, 1}, .raw = i % 2 == 0};
+    const DisplayTransform transform(options);
+    Linear8 front, behind;
+    for (std::uint32_t k = 0; k < 8; ++k)
+      front.set(k, {random(3 * k + 1), 0.01f * random(3 * k + 2), 1.5f * random(3 * k + 3),
+                    std::ldexp(random(k + 40), -12 - static_cast<int>(i % 10))});
+    for (const Isa isa : supported_isas())
+      with_isa(isa, [&] {
+        ASSERT_EQ(transform.is_decided(front, brightest, 0x1p-22f),
+                  with_isa(Isa::Scalar, [&] { return transform.is_decided(front, brightest, 0x1p-22f); }));
+      });
+    if (!transform.is_decided(front, brightest, 0x1p-22f)) continue;
+    ++decided;
+    Rgba8 first[8], shown[8];
+    for (std::uint32_t way = 0; way < 6; ++way) {
+      for (std::uint32_t k = 0; k < 8; ++k) {
+        const Linear f = front.get(k);
+        const float a = way < 2 ? 0.0f : way < 4 ? 1.0f : random(way * 8 + k), light = way % 2 == 0 ? 0 : a * brightest;
+        behind.set(k, {f.r + f.a * light, f.g + f.a * light, f.b + f.a * light, 1 - (1 - a) * f.a});
+      }
+      transform.present({&behind, 1}, way == 0 ? first : shown);
+      for (std::size_t k = 0; k < 8 && way > 0; ++k) ASSERT_EQ(shown[k], first[k]) << i << " " << way;
+    }
+  }
+  EXPECT_GT(decided, 1500);
+  const Linear8 nothing{};
+  EXPECT_TRUE(DisplayTransform({.background = {0, 0, 0, 1}}).is_decided(nothing, 1, 0));
+  EXPECT_FALSE(DisplayTransform({.mapping = ToneMapping::Aces, .background = {0, 0, 0, 1}}).is_decided(nothing, 1, 0));
+  EXPECT_FALSE(DisplayTransform({.background = {0, 0, 0, 0.5f}}).is_decided(nothing, 1, 0));
+  EXPECT_FALSE(DisplayTransform({.is_transparent = true}).is_decided(nothing, 1, 0));
+}
+
 }  // namespace
 }  // namespace zoneplate

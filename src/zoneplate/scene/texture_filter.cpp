@@ -6,7 +6,7 @@ namespace zoneplate {
 std::span<const TextureFilterEntry> texture_filters() {
   using Kind = TextureFilter::Kind;
   static const Param probes{
-      .name = "anisotropy", .meaning = "the most probes along a footprint", .value = 16, .low = 2, .high = 16};
+      .name = "anisotropy", .meaning = "the greatest ratio of the footprint's axes", .value = 16, .low = 2, .high = 16};
   static const Param ratio{
       .name = "anisotropy", .meaning = "the greatest ratio of the ellipse's axes", .value = 16, .low = 1, .high = 64};
   static const std::vector<TextureFilterEntry> table = {

@@ -37,7 +37,7 @@ constexpr std::array<Row, 7> reduced = {
      {"trilinear", "Mip levels by the longer side of the footprint: no aliasing, but blur towards the horizon."},
      {"ripmap", "Levels reduced along u and v separately: helps along the axes only, and this board lies across them."},
      {"sat", "The mean over the bounding box of the footprint: the same limit."},
-     {"probes:anisotropy=16", "Up to 16 trilinear probes along the footprint, as GPUs do."},
+     {"probes:anisotropy=16", "Up to 11 trilinear probes along the footprint, as GPUs do."},
      {"ewa:anisotropy=16", "The Gaussian mean over the footprint's ellipse."}}};
 
 struct Measured {

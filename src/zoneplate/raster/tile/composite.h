@@ -16,8 +16,9 @@ namespace zoneplate {
 //
 //   1. Blocks of 8 × 8 pixels (BlockCompositor). Where every triangle that reaches a block covers all of its samples in
 //      front of the opaque surfaces, and the depth ranges of the triangles do not overlap, one sort orders the block.
-//      The spans of such blocks are shaded layer by layer from the front, until nothing behind is visible. All other
-//      blocks go to route 2.
+//      The spans of such blocks are shaded layer by layer from the front, until nothing behind is visible: nothing that
+//      changes a colour or, where only display-referred colours are stored, their codes. All other blocks go to
+//      route 2.
 //   2. Spans of eight pixels (SpanCompositor). The same for each span by itself. A span is *slow* if a triangle covers
 //      only a part of it, if two triangles' depth ranges overlap, if it shows several opaque surfaces, or if the
 //      image's edge crosses it. Slow spans go to route 3.

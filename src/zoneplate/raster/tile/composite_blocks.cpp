@@ -26,6 +26,18 @@ bool sort_block(std::span<BlockLayer> layers) {
   return true;
 }
 
+/// Whether the codes of a span's display-referred colours do not depend on the layers behind.
+bool is_decided(const TileJob& job, const TransparentStack8& stack, std::size_t layers_behind) {
+  Linear8 front;
+  std::copy_n(stack.r, Linear8::size, front.r), std::copy_n(stack.g, Linear8::size, front.g);
+  std::copy_n(stack.b, Linear8::size, front.b), std::copy_n(stack.transmittance, Linear8::size, front.a);
+  // Each layer is added with an error of half a unit in the last place; a mean of equal samples has one of a unit for
+  // each sample.
+  const int samples = job.pass.count > 1 ? job.pass.count : 0;
+  const float rounding = 0x1p-24f * (static_cast<float>(layers_behind + 1) + 2 * static_cast<float>(samples));
+  return job.setup.target.display_transform->is_decided(front, job.setup.shader.brightest(), rounding);
+}
+
 }  // namespace
 
 std::uint64_t BlockCompositor::composite(const TileJob& job, const TileVisibility& visibility, FragmentBatcher& batcher,
@@ -92,9 +104,14 @@ void BlockCompositor::composite_strip(const TileJob& job, FragmentBatcher& batch
   const std::uint32_t first_span = strip * 8;
   std::size_t deepest = 0;
   for (TransparentStack8& stack : stacks_) stack.clear();
+  const bool may_be_decided = job.setup.target.display8 && !job.setup.target.color &&
+                              std::ranges::all_of(job.setup.weights, [](float weight) { return weight >= 0; });
+  float undecided[64];  // by span: once its first pixel's transmittance is this small, its codes may be decided
+  std::fill_n(undecided, 64, 0x1p13f * least);
   for (const auto& of_block : layers) deepest = std::max(deepest, of_block.size());
   FragmentSpan spans[64];
   TransparentStack8* stack_of[64];
+  std::uint8_t index_of[64];  // of the stacks
   for (std::size_t layer = 0; layer < deepest; ++layer) {
     std::size_t count = 0;
     for (std::uint32_t column = 0; column < 8; ++column) {
@@ -104,6 +121,7 @@ void BlockCompositor::composite_strip(const TileJob& job, FragmentBatcher& batch
         if (!stacks_[i * 8 + column].is_open) continue;
         spans[count] = {centre.x, centre.y + 256 * static_cast<std::int32_t>(i), centre.id,
                         centre.pixel + i * tile_size};
+        index_of[count] = static_cast<std::uint8_t>(i * 8 + column);
         stack_of[count++] = &stacks_[i * 8 + column];
       }
     }
@@ -111,6 +129,13 @@ void BlockCompositor::composite_strip(const TileJob& job, FragmentBatcher& batch
     batcher.shade_in_order(std::span(spans).first(count),
                            [&](const FragmentOutputs& color, std::size_t first, std::size_t shaded) {
                              kernels.composite_spans_under(color, static_cast<int>(shaded), least, stack_of + first);
+                             for (std::size_t i = first; may_be_decided && i < first + shaded; ++i) {
+                               TransparentStack8& stack = *stack_of[i];
+                               float& limit = undecided[index_of[i]];
+                               if (!stack.is_open || stack.transmittance[0] > limit) continue;
+                               limit = stack.transmittance[0] / 2;
+                               stack.is_open = !is_decided(job, stack, deepest - layer);
+                             }
                            });
   }
   for (std::uint32_t span = 0; span < 64; ++span) {

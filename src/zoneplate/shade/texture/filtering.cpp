@@ -72,23 +72,29 @@ std::int32_t mix_level(const Code* codes, int shift, const Taps& taps, int level
   return mix(mix(code(upper), code(lower), down), mix(code(upper + 1), code(lower + 1), down), right);
 }
 
+/// 8 or 15 bits: their value in 1/32640 or 1/32767.
 template <class Code>
-void mix_codes(const Code* codes, int shift, float unit, const Taps& taps, float* const out[4], int count) {
-  for (int i = 0; i < count; ++i)
-    for (int c = 0; c < 4; ++c) {
-      std::int32_t value = mix_level(codes, shift, taps, 0, i, c);
-      const std::int32_t mip_weight = taps.mip_weight[Taps::by_fours(i)];
-      if (mip_weight > 0) value = mix(value, mix_level(codes, shift, taps, 1, i, c), mip_weight);
-      out[c][i] = static_cast<float>(value) * unit;
-    }
-}
+struct Codes {
+  const Code* codes;
+  int shift;
+  float unit;
+
+  std::int32_t mix_levels(const Taps& taps, int i, int channel) const {
+    const std::int32_t first = mix_level(codes, shift, taps, 0, i, channel);
+    const std::int32_t mip_weight = taps.mip_weight[Taps::by_fours(i)];
+    return mip_weight > 0 ? mix(first, mix_level(codes, shift, taps, 1, i, channel), mip_weight) : first;
+  }
+  static std::int32_t mean(std::int32_t before, std::int32_t probe, std::int32_t weight) {
+    return mix(before, probe, weight);
+  }
+  float value(std::int32_t mixed) const { return static_cast<float>(mixed) * unit; }
+};
 
 float mix(float a, float b, float weight) { return a + (b - a) * weight; }
 
 float value_of(float value) { return value; }
 float value_of(Half half) { return half_value(half.bits); }
 
-/// `Value` is float or Half.
 template <class Value>
 float mix_level(const Value* values, const Taps& taps, int level, int point, int channel) {
   const Value* const upper = values + std::ptrdiff_t{4} * taps.upper[level][point] + channel;
@@ -99,28 +105,61 @@ float mix_level(const Value* values, const Taps& taps, int level, int point, int
              right);
 }
 
+/// `Value` is float or Half.
 template <class Value>
-void mix_values(const Value* values, const Taps& taps, float* const out[4], int count) {
-  for (int i = 0; i < count; ++i)
-    for (int c = 0; c < 4; ++c) {
-      const float value = mix_level(values, taps, 0, i, c);
-      const int mip_weight = taps.mip_weight[Taps::by_fours(i)];
-      const float weight = static_cast<float>(mip_weight) * 0x1p-15f;
-      out[c][i] = mip_weight > 0 ? mix(value, mix_level(values, taps, 1, i, c), weight) : value;
-    }
+struct Values {
+  const Value* values;
+
+  float mix_levels(const Taps& taps, int i, int channel) const {
+    const float first = mix_level(values, taps, 0, i, channel);
+    const int mip_weight = taps.mip_weight[Taps::by_fours(i)];
+    const float weight = static_cast<float>(mip_weight) * 0x1p-15f;
+    return mip_weight > 0 ? mix(first, mix_level(values, taps, 1, i, channel), weight) : first;
+  }
+  static float mean(float before, float probe, std::int32_t weight) {
+    return mix(before, probe, static_cast<float>(weight) * 0x1p-15f);
+  }
+  static float value(float mixed) { return mixed; }
+};
+
+/// Calls body(texels) with the texels that the texture has.
+template <class Body>
+void with_texels(const TextureView& t, const Body& body) {
+  if (t.unorm8 != nullptr) return body(Codes<std::uint8_t>{t.unorm8, 7, 1.0f / 32640.0f});
+  if (t.unorm15 != nullptr) return body(Codes<std::uint16_t>{t.unorm15, 0, 1.0f / 32767.0f});
+  if (t.halves != nullptr) return body(Values<Half>{t.halves});
+  body(Values<float>{t.values});
 }
 
 void mix_taps(const TextureView& t, const Taps& taps, float* const out[4], int count) {
-  if (t.unorm8 != nullptr) return mix_codes(t.unorm8, 7, 1.0f / 32640.0f, taps, out, count);
-  if (t.unorm15 != nullptr) return mix_codes(t.unorm15, 0, 1.0f / 32767.0f, taps, out, count);
-  if (t.halves != nullptr) return mix_values(t.halves, taps, out, count);
-  mix_values(t.values, taps, out, count);
+  with_texels(t, [&](const auto& texels) {
+    for (int i = 0; i < count; ++i)
+      for (int c = 0; c < 4; ++c) out[c][i] = texels.value(texels.mix_levels(taps, i, c));
+  });
+}
+
+/// Mixes the probes of each fragment to their mean.
+void mix_probes(const TextureView& t, const ProbeTaps& of, float* const out[4]) {
+  with_texels(t, [&](const auto& texels) {
+    for (int i = of.first, group = 0; i < of.last; i += 8) {
+      const int end = group + 8 * of.most[(i - of.first) / 8];
+      for (int k = 0; k < 8; ++k)
+        for (int c = 0; c < 4; ++c) {
+          auto mean = texels.mix_levels(of.taps, group + k, c);
+          for (int probe = group + 8 + k; probe < end; probe += 8) {
+            const int weight = of.mean_weight[Taps::by_fours(probe)];
+            if (weight > 0) mean = texels.mean(mean, texels.mix_levels(of.taps, probe, c), weight);
+          }
+          out[c][i + k] = texels.value(mean);
+        }
+      group = end;
+    }
+  });
 }
 
 void sample_anisotropic(const TextureView& t, const SamplerState& f, const Footprint& at, float* const out[4],
                         int count) {
-  zoneplate::sample_anisotropic<Float>(
-      t, f, at, out, count, [&](const Taps& taps, float* const probe[4], int n) { mix_taps(t, taps, probe, n); });
+  zoneplate::sample_anisotropic<Float>(t, f, at, count, [&](const ProbeTaps& probes) { mix_probes(t, probes, out); });
 }
 
 }  // namespace

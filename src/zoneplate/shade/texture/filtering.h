@@ -88,10 +88,16 @@ struct FilteringKernels : PerIsa<FilteringKernels> {
                     int count);
   void (*mix_taps)(const TextureView& texture, const Taps& taps, float* const out[4], int count);
 
-  /// Both stages for footprints that are longer than wide: the mean of N probes along the longer axis, at the LOD of
-  /// an N-th of its length: N = ceil(longer / shorter), at most `anisotropy` and ceil(longer) in texels of level 0.
-  /// Probe i of N lies at i / (N + 1) - 1/2 of the axis.
-  /// Source    EXT_texture_filter_anisotropic; the bound by texels is ours and only drops probes nearer than a texel.
+  /// Both stages for footprints that are longer than wide: the mean of N probes along the longer axis, each the
+  /// trilinear mean at the LOD of the shorter axis, which counts as at least a texel of level 0 and as at least an
+  /// `anisotropy`-th of the longer one. N is 2/3 of the ratio of the axes, rounded up; probe i of N lies at
+  /// (i - 1/2) / N - 1/2 of the axis.
+  ///
+  /// Exact     texels of one value give that value. A mean in fixed point is that of the probes before, mixed with the
+  ///           next one with the weight 1 / i: the error grows by at most half a unit for each probe.
+  /// Source    EXT_texture_filter_anisotropic, with fewer probes: a trilinear probe is wider than its texels. On the
+  ///           city of the benchmark, against 256 samples a pixel, as many probes as the ratio are 0.8 dB better,
+  ///           half as many 1.4 dB worse.
   void (*sample_anisotropic)(const TextureView& texture, const SamplerState& filtering, const Footprint& footprint,
                              float* const out[4], int count);
 };

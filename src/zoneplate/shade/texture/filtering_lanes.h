@@ -271,6 +271,7 @@ struct Probes {
 template <class F, class View>
 [[gnu::always_inline]] inline void find_probes(const View& t, int anisotropy, const Footprint& p, int i, Probes& out) {
   const F w(static_cast<float>(t.width[0])), h(static_cast<float>(t.height[0])), one(1.0f);
+  const float most = static_cast<float>(anisotropy);
   const F ux = F::load(p.dudx + i), vx = F::load(p.dvdx + i), uy = F::load(p.dudy + i), vy = F::load(p.dvdy + i);
   const F sx = ux * w, tx = vx * h, sy = uy * w, ty = vy * h;
   const F x = min(max(sx * sx + tx * tx, F(0x1p-60f)), F(0x1p60f));
@@ -278,12 +279,11 @@ template <class F, class View>
   const auto is_wide = x > y;
   const F longer = max(x, y);
 
-  // One probe per shorter axis along the longer one, but at most one per texel.
-  const F ratio = min(-floor(-sqrt(min(longer / min(x, y), longer))), F(static_cast<float>(anisotropy)));
-  const F count = max(ratio, one);
+  const F width = max(min(longer, max(min(x, y), one)), longer * F(1 / (most * most)));
+  const F count = max(-floor(sqrt(longer / width) * F(-2.0f / 3.0f)), one);
   select(is_wide, ux, uy).store(out.du + i), select(is_wide, vx, vy).store(out.dv + i);
   count.store(out.count + i);
-  (F(0.5f) * coarse_log2(longer / (count * count))).store(out.lod + i);
+  (F(0.5f) * coarse_log2(width)).store(out.lod + i);
 }
 
 /// Copies the probes before i to i and on, where all fragments have the same footprint.
@@ -297,6 +297,9 @@ template <class F>
 struct ProbeTaps {
   static_assert(Taps::capacity >= 8 * SamplerState::max_anisotropy);
   Taps taps;
+  /// Weight of a probe in the mean of it and the fragment's probes before it, stored twice, in the order of by_fours;
+  /// undefined for first probes.
+  alignas(64) std::int16_t mean_weight[2 * Taps::padded_capacity];
   int count = 0;            ///< of taps
   int first = 0, last = 0;  ///< the range of fragments
   int most[Taps::groups];   ///< the most probes of a fragment, by group from that of the first fragment on
@@ -308,15 +311,21 @@ struct ProbeTaps {
 template <class F, class View, class Filter>
 [[gnu::always_inline]] inline void store_probes(const View& t, const Filter& f, const Footprint& at,
                                                 const Probes& probes, int most, Lookup<F>& lookup, ProbeTaps& out) {
+  using Int = typename F::Int;
   const TexelFetch fetch(t);
   for (int k = 0; k < 8; k += F::lanes) {
     const int i = out.last + k;
     find_lookup<F>(t, f, F::load(probes.lod + i), lookup);
-    const F u = F::load(at.u + i), v = F::load(at.v + i), du = F::load(probes.du + i), dv = F::load(probes.dv + i);
-    const F all = F::load(probes.count + i), step = F(1.0f) / (all + F(1.0f));
+    const F all = F::load(probes.count + i), step = F(1.0f) / all, first = F(0.5f) * step - F(0.5f);
+    const F du = F::load(probes.du + i), dv = F::load(probes.dv + i);
+    const F u = F::load(at.u + i) + du * first, v = F::load(at.v + i) + dv * first, step_u = du * step,
+            step_v = dv * step, last = all - F(1.0f);
     for (int n = 0; n < most; ++n) {
-      const F along = min(F(static_cast<float>(n + 1)), all) * step - F(0.5f);
-      store_taps<F>(fetch, f, lookup, u + du * along, v + dv * along, out.taps, out.count + 8 * n + k);
+      const F number(static_cast<float>(n)), along = min(number, last);
+      const int entry = out.count + 8 * n + k;
+      store_taps<F>(fetch, f, lookup, u + step_u * along, v + step_v * along, out.taps, entry);
+      const Int weight = where(number < all, Int((32768 + (n + 1) / 2) / (n + 1)));
+      if (n > 0) weight.store_by_fours(weight, out.mean_weight, entry);
     }
   }
   out.most[(out.last - out.first) / 8] = most;
@@ -324,30 +333,10 @@ template <class F, class View, class Filter>
   out.last += 8;
 }
 
-/// Stores the mean of each fragment's probes.
-template <class F>
-[[gnu::always_inline]] inline void store_means(const ProbeTaps& of, const Probes& probes, const float* const mixed[4],
-                                               float* const out[4]) {
-  for (int i = of.first, from = 0; i < of.last; i += 8) {
-    const int most = of.most[(i - of.first) / 8];
-    for (int k = 0; k < 8; k += F::lanes) {
-      const F all = F::load(probes.count + i + k), mean_weight = F(1.0f) / all;
-      F sum[4];
-      for (int c = 0; c < 4; ++c) sum[c] = F::load(mixed[c] + from + k) * mean_weight;
-      for (int n = 1; n < most; ++n) {
-        const F weight = select(F(static_cast<float>(n + 1)) > all, F(0.0f), mean_weight);
-        for (int c = 0; c < 4; ++c) sum[c] = sum[c] + F::load(mixed[c] + from + 8 * n + k) * weight;
-      }
-      for (int c = 0; c < 4; ++c) sum[c].store(out[c] + i + k);
-    }
-    from += 8 * most;
-  }
-}
-
-/// The stage `sample_anisotropic` of shade/texture/filtering.h; mix(taps, out, count) mixes the first taps.
+/// The stage `sample_anisotropic` of shade/texture/filtering.h; mix(taps) stores the means of the probes.
 template <class F, class View, class Mix>
 [[gnu::always_inline]] inline void sample_anisotropic(const View& t, const SamplerState& f, const Footprint& at,
-                                                      float* const out[4], int count, Mix mix) {
+                                                      int count, Mix mix) {
   Probes probes;
   for (int i = 0; i < count; i += F::lanes) {
     if (at.repeats != nullptr && at.repeats[i / 8]) {
@@ -357,9 +346,6 @@ template <class F, class View, class Mix>
     }
   }
   ProbeTaps taps;
-  alignas(64) float mixed[4][Taps::padded_capacity];
-  float* const means[4] = {mixed[0], mixed[1], mixed[2], mixed[3]};
-  const float* const from[4] = {mixed[0], mixed[1], mixed[2], mixed[3]};
   const bool usual = is_trilinear_repeat(f);
   Lookup<F> lookup = begin_lookup<F>(t, f);
   while (taps.last < count) {
@@ -375,8 +361,7 @@ template <class F, class View, class Mix>
         store_probes<F>(t, f, at, probes, n, lookup, taps);
       }
     }
-    mix(taps.taps, means, taps.count);
-    store_means<F>(taps, probes, from, out);
+    mix(taps);
   }
 }
 

@@ -192,14 +192,18 @@ HWY_INLINE V mix_level(const Codes& codes, const Taps& taps, int level, int i, i
   return Codes::mixed(sides.left, sides.right, spread_weights(weights, spread.right, n));
 }
 
-/// Mixes both levels.
+/// Mixes both levels. The result is negated if Codes::is_negative.
 template <class Codes>
 HWY_INLINE V mix_levels(const Codes& codes, const Taps& taps, bool has_second, int i, int n) {
   const V first = mix_level(codes, taps, 0, i, n);
-  const auto positive = [&](V v) HWY_ATTR { return Codes::is_negative ? hn::Neg(v) : v; };
-  if (!has_second) return positive(first);
+  if (!has_second) return first;
   const V mip_weight = spread_weights(load_weights(taps.mip_weight, i, n), spread.right, n);
-  return positive(Codes::mixed(first, mix_level(codes, taps, 1, i, n), mip_weight));
+  return Codes::mixed(first, mix_level(codes, taps, 1, i, n), mip_weight);
+}
+
+template <class Codes>
+HWY_INLINE V positive(V mixed) {
+  return Codes::is_negative ? hn::Neg(mixed) : mixed;
 }
 
 /// Pairs of channels, each a 32-bit lane, as floats.
@@ -257,8 +261,27 @@ void mix_codes(const Codes& codes, const Taps& taps, float* const to[4], int cou
   for (int i = 0; i < count; i += 8) {
     const bool has_second = blends(taps, i);
     V mixed[vectors];
-    for (int n = 0; n < vectors; ++n) mixed[n] = mix_levels(codes, taps, has_second, i, n);
+    for (int n = 0; n < vectors; ++n) mixed[n] = positive<Codes>(mix_levels(codes, taps, has_second, i, n));
     store_channels<Codes>(mixed, out, i);
+  }
+}
+
+/// Mixes the probes of each fragment to their mean.
+template <class Codes>
+void mix_probe_codes(const Codes& codes, const ProbeTaps& of, float* const to[4]) {
+  float* const out[4] = {to[0], to[1], to[2], to[3]};
+  for (int i = of.first, entry = 0; i < of.last; i += 8) {
+    const int end = entry + 8 * of.most[(i - of.first) / 8];
+    const bool has_second = blends(of.taps, entry);
+    V mean[vectors];
+    for (int n = 0; n < vectors; ++n) mean[n] = mix_levels(codes, of.taps, has_second, entry, n);
+    for (entry += 8; entry < end; entry += 8)
+      for (int n = 0; n < vectors; ++n) {
+        const V weight = spread_weights(load_weights(of.mean_weight, entry, n), spread.right, n);
+        mean[n] = Codes::mixed(mean[n], mix_levels(codes, of.taps, has_second, entry, n), weight);
+      }
+    for (int n = 0; n < vectors; ++n) mean[n] = positive<Codes>(mean[n]);
+    store_channels<Codes>(mean, out, i);
   }
 }
 
@@ -288,16 +311,39 @@ HWY_INLINE Texel mix_level(const Value* values, const Taps& taps, int level, int
                     mix_texels(load_texel(upper + 4), load_texel(lower + 4), down), taps.right(level, point));
 }
 
+template <class Value>
+HWY_INLINE Texel mix_levels(const Value* values, const Taps& taps, int i) {
+  const Texel first = mix_level(values, taps, 0, i);
+  const int mip_weight = taps.mip_weight[Taps::by_fours(i)];
+  return mip_weight > 0 ? mix_texels(first, mix_level(values, taps, 1, i), mip_weight) : first;
+}
+
+HWY_INLINE void store_texel(Texel mixed, float* const out[4], int i) {
+  alignas(16) float channel[4];
+  hn::Store(mixed, Channels4(), channel);
+  for (int c = 0; c < 4; ++c) out[c][i] = channel[c];
+}
+
 /// Floats and half floats, fragment by fragment.
 template <class Value>
 void mix_values(const Value* values, const Taps& taps, float* const out[4], int count) {
-  for (int i = 0; i < count; ++i) {
-    Texel mixed = mix_level(values, taps, 0, i);
-    const int mip_weight = taps.mip_weight[Taps::by_fours(i)];
-    if (mip_weight > 0) mixed = mix_texels(mixed, mix_level(values, taps, 1, i), mip_weight);
-    alignas(16) float channel[4];
-    hn::Store(mixed, Channels4(), channel);
-    for (int c = 0; c < 4; ++c) out[c][i] = channel[c];
+  for (int i = 0; i < count; ++i) store_texel(mix_levels(values, taps, i), out, i);
+}
+
+template <class Value>
+void mix_probe_values(const Value* values, const ProbeTaps& of, float* const out[4]) {
+  int entry = 0;
+  for (int i = of.first; i < of.last; i += 8) {
+    const int end = entry + 8 * of.most[(i - of.first) / 8];
+    for (int k = 0; k < 8; ++k) {
+      Texel mean = mix_levels(values, of.taps, entry + k);
+      for (int probe = entry + 8 + k; probe < end; probe += 8) {
+        const int weight = of.mean_weight[Taps::by_fours(probe)];
+        if (weight > 0) mean = mix_texels(mean, mix_levels(values, of.taps, probe), weight);
+      }
+      store_texel(mean, out, i + k);
+    }
+    entry = end;
   }
 }
 
@@ -308,11 +354,17 @@ void mix_taps(const TextureView& t, const Taps& taps, float* const out[4], int c
   mix_values(t.values, taps, out, count);
 }
 
+void mix_probes(const TextureView& t, const ProbeTaps& probes, float* const out[4]) {
+  if (t.unorm8 != nullptr) return mix_probe_codes(Codes8{t.unorm8}, probes, out);
+  if (t.unorm15 != nullptr) return mix_probe_codes(Codes15{t.unorm15}, probes, out);
+  if (t.halves != nullptr) return mix_probe_values(t.halves, probes, out);
+  mix_probe_values(t.values, probes, out);
+}
+
 void sample_anisotropic(const TextureView& t, const SamplerState& f, const Footprint& at, float* const out[4],
                         int count) {
-  zoneplate::sample_anisotropic<Float>(t, f, at, out, count,
-                                       [&](const Taps& taps, float* const probe[4], int n)
-                                           HWY_ATTR { mix_taps(t, taps, probe, n); });
+  zoneplate::sample_anisotropic<Float>(t, f, at, count,
+                                       [&](const ProbeTaps& probes) HWY_ATTR { mix_probes(t, probes, out); });
 }
 
 }  // namespace

@@ -358,14 +358,14 @@ TEST(SamplerState, AnisotropicIsTheMeanOfProbesAlongTheFootprint) {
   for (int i = 0; i < points.count; ++i) {
     const double x = std::hypot(points.dudx[i], points.dvdx[i]) * 64,
                  y = std::hypot(points.dudy[i], points.dvdy[i]) * 64;
-    const double longer = std::max(x, y),
-                 n = std::max(1.0, std::min({std::ceil(longer / std::min(x, y)), std::ceil(longer), 8.0}));
+    const double longer = std::max(x, y), width = std::max(std::min(longer, std::max(std::min(x, y), 1.0)), longer / 8);
+    const double n = std::ceil(longer / width * 2 / 3);
     const double du = x > y ? points.dudx[i] : points.dudy[i], dv = x > y ? points.dvdx[i] : points.dvdy[i];
     Points probes;
-    for (int k = 1; k <= static_cast<int>(n); ++k) {
-      const double t = k / (n + 1) - 0.5;
+    for (int k = 0; k < static_cast<int>(n); ++k) {
+      const double t = (k + 0.5) / n - 0.5;
       probes.add(static_cast<float>(points.u[i] + du * t), static_cast<float>(points.v[i] + dv * t),
-                 static_cast<float>(longer / n / 64));
+                 static_cast<float>(width / 64));
     }
     const Values each = look_up(texture, {}, probes);
     for (int c = 0; c < 4; ++c) {
