@@ -58,7 +58,7 @@ TEST(Method, WrongTextsAreNamed) {
   EXPECT_NE(refusal("msaa:n=4,grid=4").find("exclude"), std::string::npos);
   EXPECT_NE(refusal("ssaa:n=17").find("1 to 16"), std::string::npos);
   EXPECT_NE(refusal("ssaa:n=x").find("whole number"), std::string::npos);
-  EXPECT_EQ(refusal("ssaa:n"), "method ssaa: n is '', expected a whole number from 1 to 16");
+  EXPECT_EQ(refusal("ssaa:n"), "method ssaa: n requires a value: 1 to 16");
   EXPECT_NE(refusal("analytic:filter=gaussian").find("box, tent, quadratic"), std::string::npos);
   EXPECT_NE(refusal("converged:samples=1000").find("512, 1024"), std::string::npos);
   EXPECT_NE(refusal("none:n=1").find("it has none"), std::string::npos);

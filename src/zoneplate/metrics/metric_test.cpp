@@ -34,7 +34,7 @@ TEST(ChooseMetric, SaysWhatThereIs) {
       {"flip:pd=3", "metric flip: unknown parameter 'pd'; did you mean 'ppd'?"},
       {"flip:ppd=0", "metric flip: ppd is '0', expected a number from 1 to 1000"},
       {"flip:ppd=x", "metric flip: ppd is 'x', expected a number from 1 to 1000"},
-      {"flip:ppd", "metric flip: ppd is '', expected a number from 1 to 1000"},
+      {"flip:ppd", "metric flip: ppd requires a value: 1 to 1000"},
       {"flop", "unknown metric 'flop'; did you mean 'flip'?"},
   };
   for (const auto& [text, message] : refused) EXPECT_EQ(message_of(text), message);

@@ -167,7 +167,7 @@ TEST(Demo, SaysWhatIsMissingOrUnknown) {
   EXPECT_EQ(message_of({"jagies", "-o", "x.png"}), "demo: no lesson jagies; did you mean jaggies?");
   EXPECT_EQ(message_of({"jaggies"}), "no output: give -o OUT.png");
   EXPECT_EQ(message_of({"all"}), "no output: give -o FOLDER");
-  EXPECT_EQ(message_of({"jaggies", "-o", "x.jpg"}), "--output: x.jpg is not a format for lessons (.png)");
+  EXPECT_EQ(message_of({"jaggies", "-o", "x.jpg"}), "--output: x.jpg is not a format for lessons (.png, .svg, .pdf)");
 }
 
 TEST_F(DemoFolder, FailsAtOnceWhereNothingCanBeWritten) {

@@ -94,8 +94,7 @@ TEST(BuiltinScenes, RefuseWhatTheyDoNotKnow) {
   EXPECT_EQ(message_of("teapot:divisions=0"), "scene teapot: divisions is '0', expected a whole number from 1 to 512");
   EXPECT_EQ(message_of("sphere:triangles=1e6"),
             "scene sphere: triangles is '1e6', expected a whole number from 12 to 100000000");
-  EXPECT_EQ(message_of("sphere:triangles"),
-            "scene sphere: triangles is '', expected a whole number from 12 to 100000000");
+  EXPECT_EQ(message_of("sphere:triangles"), "scene sphere: triangles requires a value: 12 to 100000000");
   EXPECT_EQ(message_of("city:"), "scene city: unknown parameter ''; it has none");
 }
 
