@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/image/hex_color.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <charconv>
 #include <cstdint>
@@ -22,5 +24,7 @@ std::optional<Rgba8> parse_hex_color(std::string_view text) {
   }
   return Rgba8{code[0], code[1], code[2], code[3]};
 }
+
+std::string hex_color(Rgba8 c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
 
 }  // namespace zoneplate

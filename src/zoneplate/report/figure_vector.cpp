@@ -11,6 +11,7 @@
 
 #include "zoneplate/codec/png.h"
 #include "zoneplate/formats/font/font.h"
+#include "zoneplate/image/hex_color.h"
 #include "zoneplate/report/figure_layout.h"
 #include "zoneplate/report/markup.h"
 
@@ -102,7 +103,6 @@ std::string pdf_path(const sdf::Outline& outline) {
   return out;
 }
 
-std::string svg_color(Rgba8 c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
 std::string pdf_color(Rgba8 c) { return fmt::format("{:.4f} {:.4f} {:.4f}", c.r / 255.0, c.g / 255.0, c.b / 255.0); }
 
 std::vector<std::uint8_t> deflated(std::span<const std::uint8_t> bytes) {
@@ -211,13 +211,13 @@ std::string figure_svg(const FigurePage& page) {
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\">\n"
       "<title>{2}</title>\n<rect width=\"{0}\" height=\"{1}\" fill=\"{3}\"/>\n",
-      size.x, size.y, escape_markup(page.figure.title), svg_color(style.paper));
+      size.x, size.y, escape_markup(page.figure.title), hex_color(style.paper));
   for (const FigureLayout::Image& image : layout.images()) {
     const int w = image.picture->width(), h = image.picture->height();
     if (w == 0 || h == 0) continue;
     if (image.has_outline)
       out += fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"{}\"/>\n", image.left - 1,
-                         image.top - 1, w + 2, h + 2, svg_color(outline_color(style)));
+                         image.top - 1, w + 2, h + 2, hex_color(outline_color(style)));
     const std::vector<std::uint8_t> png =
         encode_png(*image.picture, {.has_alpha = true, .is_small = true, .may_be_indexed = true});
     out += fmt::format(
@@ -225,7 +225,7 @@ std::string figure_svg(const FigurePage& page) {
         "href=\"data:image/png;base64,{}\"/>\n",
         image.left, image.top, w, h, base64(png));
   }
-  out += fmt::format("<g fill=\"{}\">\n", svg_color(style.ink));
+  out += fmt::format("<g fill=\"{}\">\n", hex_color(style.ink));
   for (const FigureLayout::Line& line : layout.lines())
     if (const std::string path = svg_path(fonts.outline(line)); !path.empty())
       out += fmt::format("<path aria-label=\"{}\" d=\"{}\"/>\n", escape_markup(line.text), path);

@@ -9,6 +9,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/codec/png.h"
+#include "zoneplate/image/hex_color.h"
 #include "zoneplate/os/run_program.h"
 
 namespace zoneplate {
@@ -33,8 +34,6 @@ constexpr Terminal svg = {"svg", "dynamic", 1, 0.55, 0.86}, cairo = {"pngcairo",
 constexpr Rgba8 palette[] = {{0, 114, 178}, {213, 94, 0},   {0, 158, 115}, {204, 121, 167},
                              {230, 159, 0}, {86, 180, 233}, {40, 40, 40}};
 constexpr Rgba8 grey = {130, 130, 130};
-
-std::string hex(Rgba8 c) { return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b); }
 
 // A gnuplot string in single quotes, in which no characters are special; single quotes in the text are replaced.
 std::string quoted(const std::string& text) {
@@ -65,7 +64,7 @@ Rgba8 color_of(const Curve& curve, std::size_t place) {
 // The part of a plot command that draws one curve from the data block of this name.
 std::string marks_of(const Curve& curve, const std::string& block, std::size_t place, const Terminal& terminal) {
   using Mark = Curve::Mark;
-  const std::string color = hex(color_of(curve, place));
+  const std::string color = hex_color(color_of(curve, place));
   const std::string title = curve.name.empty() ? "notitle" : "title " + quoted(curve.name);
   const double point = point_size * terminal.point;
   const auto line = [&](double width) { return fmt::format("lw {} lc rgb '{}'", width, color); };
@@ -100,7 +99,7 @@ std::string drawing_of(const Curve& curve, const std::string& block, std::size_t
       curve.labels_are == Curve::Beside::RightAbove ? "left offset 0.8,0.35" : "right offset -0.8,-0.45";
   if (!curve.labels.empty())
     text += fmt::format(", {} using 1:2:3 with labels {} font 'DejaVu Sans,{}' textcolor rgb '{}' notitle", block,
-                        place_of_labels, label_px * terminal.font, hex(color_of(curve, place)));
+                        place_of_labels, label_px * terminal.font, hex_color(color_of(curve, place)));
   return text;
 }
 

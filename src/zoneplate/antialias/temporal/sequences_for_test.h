@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <utility>
@@ -52,6 +53,16 @@ inline std::vector<LinearImage> film(const MovingScene& moving, const std::strin
 
 inline LinearImage last_frame(const MovingScene& moving, const std::string& method, int frames) {
   return std::move(film(moving, method, frames).back());
+}
+
+/// Root mean square difference of the colours.
+inline double rms(const LinearImage& a, const LinearImage& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.values().size(); ++i) {
+    const Linear &p = a.values()[i], &q = b.values()[i];
+    for (const double d : {double{p.r} - q.r, double{p.g} - q.g, double{p.b} - q.b}) sum += d * d;
+  }
+  return std::sqrt(sum / (3 * static_cast<double>(a.values().size())));
 }
 
 /// A wall of one colour with a square before it, seen by an orthographic camera of 1/32 unit per pixel. The square is

@@ -147,6 +147,14 @@ SurfaceHistory::Layer SurfaceHistory::moved(std::uint32_t object, float x, float
   return out;
 }
 
+/// The history of an object in a pixel; none where the last camera did not see it.
+SurfaceHistory::Layer SurfaceHistory::past_of(const Presence& presence, int x, int y) const {
+  if (presence.seen == 0) return {};
+  const float seen = static_cast<float>(presence.seen);
+  return moved(presence.object, static_cast<float>(x) - presence.motion.x / seen,
+               static_cast<float>(y) - presence.motion.y / seen);
+}
+
 /// The range of the lumas of an object's samples of 3 × 3 pixels.
 float SurfaceHistory::range_around(int x, int y) const {
   float low = luma_of(color_(x, y)), high = low;
@@ -168,14 +176,13 @@ void SurfaceHistory::find_changes() {
   for_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const Presence* const presence = presences_(x, y).find(object_(x, y));
-      if (presence == nullptr || presence->seen == 0) continue;
-      const float seen = static_cast<float>(presence->seen);
-      const Layer past = moved(presence->object, static_cast<float>(x) - presence->motion.x / seen,
-                               static_cast<float>(y) - presence->motion.y / seen);
+      if (presence == nullptr) continue;
+      const Layer past = past_of(*presence, x, y);
       if (past.frames == 0) continue;
       constexpr float floor = 0.002f, part = 0.05f;
       const float half_range = range_around(x, y) / 2;
-      changes_(x, y) = {.luma = luma_of(color_(x, y)) - past.luma,
+      changes_(x, y) = {.past = past,
+                        .luma = luma_of(color_(x, y)) - past.luma,
                         .variance = std::max(past.square - past.luma * past.luma, 0.0f) + half_range * half_range,
                         .tolerance = part * past.luma + floor};
     }
@@ -190,7 +197,7 @@ bool SurfaceHistory::has_changed(std::uint32_t object, int x, int y) const {
     for (int i = std::max(x - 1, 0); i <= std::min(x + 1, object_.width() - 1); ++i) {
       if (object_(i, j) != object) continue;
       const Change& c = changes_(i, j);
-      sum = {sum.luma + c.luma, sum.variance + c.variance, sum.tolerance + c.tolerance};
+      sum.luma += c.luma, sum.variance += c.variance, sum.tolerance += c.tolerance;
     }
   return std::abs(sum.luma) > deviations * std::sqrt(sum.variance) + sum.tolerance;
 }
@@ -216,11 +223,8 @@ SurfaceHistory::Layer SurfaceHistory::borrowed(std::uint32_t object, int x, int 
 SurfaceHistory::Layer SurfaceHistory::updated(const Presence& presence, int x, int y) const {
   const bool is_shaded = object_(x, y) == presence.object && is_finite(color_(x, y));
   Layer past;
-  if (!context_.is_first && presence.seen > 0 && !has_changed(presence.object, x, y)) {
-    const float seen = static_cast<float>(presence.seen);
-    past = moved(presence.object, static_cast<float>(x) - presence.motion.x / seen,
-                 static_cast<float>(y) - presence.motion.y / seen);
-  }
+  if (!context_.is_first && !has_changed(presence.object, x, y))
+    past = is_shaded ? changes_(x, y).past : past_of(presence, x, y);
   if (!is_shaded) return past.frames > 0 ? past : borrowed(presence.object, x, y);
   const Linear& color = color_(x, y);
   const float luma = luma_of(color);

@@ -52,8 +52,9 @@ class SurfaceHistory : public Resolver {
     Presence* find(std::uint32_t object);
   };
   using Layers = std::array<Layer, capacity>;
-  /// The luma of a shaded sample minus that of its object's history; 0 without history.
+  /// The history of a shaded sample's object, and the sample's luma minus that of the history; 0 without history.
   struct Change {
+    Layer past;
     float luma = 0;
     float variance = 0;   ///< of the luma of such samples under the same light
     float tolerance = 0;  ///< below this, changes of light do not matter
@@ -61,6 +62,7 @@ class SurfaceHistory : public Resolver {
 
   void add(const Frame& frame, SamplePosition position, int weight);
   Layer moved(std::uint32_t object, float x, float y) const;
+  Layer past_of(const Presence& presence, int x, int y) const;
   float range_around(int x, int y) const;
   void find_changes();
   bool has_changed(std::uint32_t object, int x, int y) const;

@@ -3,23 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "zoneplate/antialias/temporal/sequences_for_test.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/scene/builtin/builtin.h"
 
 namespace zoneplate::antialias {
 namespace {
-
-double error(const LinearImage& a, const LinearImage& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.values().size(); ++i) {
-    const Linear &p = a.values()[i], &q = b.values()[i];
-    for (const double d : {double{p.r} - q.r, double{p.g} - q.g, double{p.b} - q.b}) sum += d * d;
-  }
-  return std::sqrt(sum / (3 * static_cast<double>(a.values().size())));
-}
 
 /// A square that moves by half a pixel and a fraction in each frame.
 MovingScene passing_square() {
@@ -30,9 +19,9 @@ TEST(SurfaceHistory, NoColourOfAnObjectEntersAnother) {
   const MovingScene moving = passing_square();
   constexpr int frames = 8;
   const LinearImage reference = last_frame(moving, "converged:samples=128", frames);
-  const double oracle = error(last_frame(moving, "oracle-taa", frames), reference);
-  EXPECT_LE(oracle, 0.25 * error(last_frame(moving, "taa", frames), reference));
-  EXPECT_LE(oracle, 1.5 * error(last_frame(moving, "ssaa:pattern=halton,samples=16", frames), reference));
+  const double oracle = rms(last_frame(moving, "oracle-taa", frames), reference);
+  EXPECT_LE(oracle, 0.25 * rms(last_frame(moving, "taa", frames), reference));
+  EXPECT_LE(oracle, 1.5 * rms(last_frame(moving, "ssaa:pattern=halton,samples=16", frames), reference));
 }
 
 TEST(SurfaceHistory, AnObjectThatHasJumpedAwayLeavesNothing) {
@@ -47,8 +36,8 @@ TEST(SurfaceHistory, AStillSceneConverges) {
   for (const char* name : {"checkerboard", "text-ui"}) {
     const MovingScene moving = still(*make_builtin_scene(name));
     const LinearImage reference = last_frame(moving, "converged:samples=128", 1);
-    const double sampled = error(last_frame(moving, "ssaa:pattern=halton,samples=16", 1), reference);
-    const double accumulated = error(last_frame(moving, "oracle-taa", 48), reference);
+    const double sampled = rms(last_frame(moving, "ssaa:pattern=halton,samples=16", 1), reference);
+    const double accumulated = rms(last_frame(moving, "oracle-taa", 48), reference);
     EXPECT_LE(accumulated, 1.25 * sampled) << name << ' ' << accumulated / sampled;
   }
 }
@@ -63,8 +52,7 @@ TEST(SurfaceHistory, FollowsAChangeOfLight) {
     return scene;
   };
   const LinearImage reference = last_frame(moving, "ssaa:n=4", 9);
-  EXPECT_LE(error(last_frame(moving, "oracle-taa", 9), reference),
-            1.5 * error(last_frame(moving, "none", 9), reference));
+  EXPECT_LE(rms(last_frame(moving, "oracle-taa", 9), reference), 1.5 * rms(last_frame(moving, "none", 9), reference));
 }
 
 TEST(SurfaceHistory, BitsDoNotDependOnThreads) {

@@ -20,15 +20,6 @@ constexpr const char* all_presets[] = {"best", "karis", "inside", "salvi", "thre
 
 std::string of_preset(const std::string& preset) { return "taa:preset=" + preset; }
 
-double rms(const LinearImage& a, const LinearImage& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.values().size(); ++i) {
-    const Linear &p = a.values()[i], &q = b.values()[i];
-    for (const double d : {double{p.r} - q.r, double{p.g} - q.g, double{p.b} - q.b}) sum += d * d;
-  }
-  return std::sqrt(sum / (3 * static_cast<double>(a.values().size())));
-}
-
 float greatest_difference(const LinearImage& a, const LinearImage& b) {
   float most = 0;
   for (std::size_t i = 0; i < a.values().size(); ++i) {
