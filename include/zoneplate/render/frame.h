@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -20,7 +21,8 @@ struct Planes {
   bool position = false, motion = false, flow = false;                                  ///< as in Frame
   bool last_position = false, was_visible = false;                                      ///< as in Frame
   bool mip_level = false, anisotropy = false;                                           ///< as in Frame
-  bool error = false;             ///< only of methods that estimate it
+  bool error = false;                                                              ///< only of methods that estimate it
+  bool diffuse = false, specular = false, transmission = false, emission = false;  ///< Frame::light; of Renderer only
   bool samples = false;           ///< colour, depth and triangle id of every sample
   bool sample_triangles = false;  ///< triangle id of every sample alone
   bool sample_colors = false;     ///< colour of every sample alone
@@ -33,7 +35,9 @@ struct Planes {
            coverage || any_point_plane() || sample_triangles;
   }
   /// True if anything is requested.
-  bool any() const { return any_pixel_plane() || error || samples || sample_colors; }
+  bool any() const { return any_pixel_plane() || any_light() || error || samples || sample_colors; }
+  /// True if a component of the light is requested.
+  bool any_light() const { return diffuse || specular || transmission || emission; }
   /// The union of both.
   Planes operator|(const Planes& o) const;
 };
@@ -73,7 +77,10 @@ struct Frame {
   /// half lay before it. By rays to the triangles of the last frame.
   Plane<std::uint8_t> was_visible;
   Plane<float> coverage;  ///< in [0, 1]
-  Plane<float> error;     ///< estimated standard error of the colour, the maximum of its channels
+  /// The components of the colour, premultiplied by its alpha: diffuse, specular, transmission, emission, as in
+  /// LightComponent. Where the method's mean is linear, as that of ssaa and msaa, they add up to the colour.
+  std::array<Plane<float3>, 4> light;
+  Plane<float> error;  ///< estimated standard error of the colour, the maximum of its channels
 
   DisplayOptions display;  ///< the display transform of the image; set before `Resolver::resolve`
 
@@ -110,6 +117,7 @@ struct Frame {
     use(a.material_id, b.material_id), use(a.primitive_id, b.primitive_id), use(a.instance, b.instance);
     use(a.position, b.position), use(a.motion, b.motion), use(a.flow, b.flow), use(a.coverage, b.coverage);
     use(a.last_position, b.last_position), use(a.was_visible, b.was_visible), use(a.error, b.error);
+    for (std::size_t k = 0; k < a.light.size(); ++k) use(a.light[k], b.light[k]);
     for (std::size_t s = 0; s < a.sample_triangle.size(); ++s) use(a.sample_triangle[s], b.sample_triangle[s]);
   }
 };

@@ -43,8 +43,9 @@ struct RenderOptions {
   int anisotropy = 1;  ///< maximum texture probes along a footprint, for all samplers that blend mip levels; at most 16
   TextureFilter texture_filter;                                   ///< of all textures; by default that of each sampler
   SpecularAntialiasing specular_aa = SpecularAntialiasing::None;  ///< of metallic-roughness materials
-  ShadowOptions shadows;                                          ///< of the lights; none by default
-  OcclusionOptions occlusion;                                     ///< of the environment's light; none by default
+  LightComponent light_component = LightComponent::All;  ///< what the colours hold; All, except for light passes
+  ShadowOptions shadows;                                 ///< of the lights; none by default
+  OcclusionOptions occlusion;                            ///< of the environment's light; none by default
   /// Shadow requires shadows or occlusion. It moves the near and far planes, which may change data passes by rounding.
   GroundKind ground = GroundKind::None;
   bool sample_footprint = true;  ///< at rate *sample*, choose mip levels by the sample's footprint, not the pixel's

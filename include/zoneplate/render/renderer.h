@@ -101,6 +101,7 @@ class Renderer {
   void finish(LinearImage picture, const Frame& frame, ImageForm form, RenderedImage& out);
   void draw_behind(const Camera& camera, const RenderOptions& options, LinearImage& color) const;
   Frame render_data(const Camera& camera, const Request& request, const RenderSettings& settings, RenderCounts& counts);
+  void render_light(const Camera& camera, const RenderSettings& settings, RenderCounts& counts, Frame& data);
   void end_frame(const Camera& camera, bool keeps_moment, const Request& request, bool are_planes_requested,
                  Frame& data);
 

@@ -23,6 +23,15 @@ enum class Falloff {
   Quadratic,      ///< 1 / (a0 + a1 d + a2 d²)
 };
 
+/// The part of the light that surfaces send to the viewer.
+enum class LightComponent {
+  All,           ///< the sum of the others
+  Diffuse,       ///< reflected or transmitted by diffuse scattering, with the ambient term
+  Specular,      ///< reflected by microfacets, sheen and the clear coat
+  Transmission,  ///< passed through the surface without scattering (KHR_materials_transmission)
+  Emission,      ///< emitted, and the colour of surfaces without lighting
+};
+
 /// A punctual light, in world space or fixed to the camera.
 ///
 /// Units     `color` linear; `intensity` in lux (directional) or candela (point, spot), as KHR_lights_punctual;

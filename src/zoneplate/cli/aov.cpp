@@ -72,6 +72,17 @@ std::vector<std::uint8_t> albedo_picture(const Frame& frame, const Scene&) {
   });
 }
 
+// Over black, so that the passes of an image add up in linear light.
+template <std::size_t component>
+std::vector<std::uint8_t> light_picture(const Frame& frame, const Scene&) {
+  const Plane<float3>& plane = frame.light[component];
+  Rgba8Image image(plane.width(), plane.height());
+  std::ranges::transform(plane.values(), image.values().begin(), [](float3 c) {
+    return Rgba8{encode_srgb8(c.x), encode_srgb8(c.y), encode_srgb8(c.z), 255};
+  });
+  return encode_png(image, {.has_alpha = false});
+}
+
 std::vector<std::uint8_t> uv_picture(const Frame& frame, const Scene&) {
   return data_picture(frame, frame.uv, data, [](float2 uv) {
     return Rgba8{code8(uv.x - std::floor(uv.x)), code8(uv.y - std::floor(uv.y)), 0, 255};
@@ -210,6 +221,10 @@ constexpr Encoder encoders[] = {{"depth", depth_picture},
                                 {"crypto-material", matte_picture<MatteKind::Material>},
                                 {"mip-level", mip_level_picture},
                                 {"anisotropy", anisotropy_picture},
+                                {"diffuse", light_picture<0>},
+                                {"specular", light_picture<1>},
+                                {"transmission", light_picture<2>},
+                                {"emission", light_picture<3>},
                                 {"coverage", coverage_picture},
                                 {"error", error_picture}};
 

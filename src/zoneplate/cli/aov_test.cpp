@@ -167,7 +167,9 @@ TEST(Aov, ChannelsAreNamedAsPipelinesExpectThem) {
             "CryptoObject01.G CryptoObject01.B CryptoObject01.A CryptoObject02.R CryptoObject02.G CryptoObject02.B "
             "CryptoObject02.A CryptoMaterial00.R CryptoMaterial00.G CryptoMaterial00.B CryptoMaterial00.A "
             "CryptoMaterial01.R CryptoMaterial01.G CryptoMaterial01.B CryptoMaterial01.A CryptoMaterial02.R "
-            "CryptoMaterial02.G CryptoMaterial02.B CryptoMaterial02.A mipLevel anisotropy coverage error ");
+            "CryptoMaterial02.G CryptoMaterial02.B CryptoMaterial02.A mipLevel anisotropy diffuse.R "
+            "diffuse.G diffuse.B specular.R specular.G specular.B transmission.R transmission.G transmission.B "
+            "emission.R emission.G emission.B coverage error ");
 }
 
 TEST(Aov, ChannelsAreTheValuesThemselves) {

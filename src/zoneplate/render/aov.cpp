@@ -80,6 +80,12 @@ void add_anisotropy(const Frame& frame, const Scene&, DataChannels& out) {
   add_value<&Frame::anisotropy>(frame, out, "anisotropy");
 }
 
+template <std::size_t component>
+void add_light(const Frame& frame, const Scene&, DataChannels& out) {
+  constexpr std::string_view layers[] = {"diffuse.", "specular.", "transmission.", "emission."};
+  add_vector(&frame.light[component].values().data()->x, "RGB", ChannelPrecision::Half, layers[component], out);
+}
+
 constexpr Aov all[] = {
     {"depth", "distance along the view axis, near black, far white", &Planes::depth, add_depth},
     {"normal", "world-space normal as colour", &Planes::normal, add_normal},
@@ -97,6 +103,10 @@ constexpr Aov all[] = {
     {"mip-level", "level of detail in the base colour's texture as false colour", &Planes::mip_level, add_mip_level},
     {"anisotropy", "longer over shorter axis of the footprint in that texture as false colour", &Planes::anisotropy,
      add_anisotropy},
+    {"diffuse", "light of diffuse reflection", &Planes::diffuse, add_light<0>},
+    {"specular", "light of highlights and reflections", &Planes::specular, add_light<1>},
+    {"transmission", "light through transmissive surfaces", &Planes::transmission, add_light<2>},
+    {"emission", "emitted light, and the colour of unlit surfaces", &Planes::emission, add_light<3>},
     {"coverage", "fraction of the pixel that surfaces cover", &Planes::coverage, add_coverage},
     {"error", "estimated standard error of the colour, from methods that have one", &Planes::error, add_error}};
 

@@ -314,6 +314,8 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
   if (request.content == Content::Colour)
     backdrop = make_backdrop(prepared, view, draws.draws, shadow_catcher, clip_from_world, rules, options, memory_);
   if (backdrop) view.backdrop = backdrop->view();
+  // Transmissive surfaces refract all of the light behind them.
+  view.component = options.light_component;
   const SceneFragmentShader points(prepared, view, shadow_catcher);
   if (options.progress) rules.progress = &options.progress;
 

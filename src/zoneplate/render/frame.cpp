@@ -11,7 +11,8 @@ constexpr bool Planes::*all_planes[] = {
     &Planes::object_id,     &Planes::material_id,   &Planes::primitive_id, &Planes::coverage,
     &Planes::position,      &Planes::motion,        &Planes::flow,         &Planes::error,
     &Planes::mip_level,     &Planes::anisotropy,    &Planes::samples,      &Planes::sample_triangles,
-    &Planes::sample_colors, &Planes::last_position, &Planes::was_visible};
+    &Planes::sample_colors, &Planes::last_position, &Planes::was_visible,  &Planes::diffuse,
+    &Planes::specular,      &Planes::transmission,  &Planes::emission};
 static_assert(std::size(all_planes) * sizeof(bool) == sizeof(Planes), "a plane is missing");
 
 }  // namespace

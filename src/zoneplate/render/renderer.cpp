@@ -2,6 +2,8 @@
 #include "zoneplate/render/renderer.h"
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <utility>
 
 #include "zoneplate/base/clock.h"
@@ -94,6 +96,9 @@ Request Renderer::request_for(const RenderSettings& settings) {
   if (!request.frame) request.planes = request.planes | settings.planes;
   if (settings.planes.error && !request.estimates_error)
     throw Error(ErrorKind::Usage, "the method has no estimate of its error");
+  if (settings.planes.any_light() && (request.frame || request.has_history()))
+    throw Error(ErrorKind::Usage,
+                "light passes require an antialiasing method that renders each frame by itself, at the image's size");
   if (request.frame && request.is_display_referred && settings.form == ImageForm::Linear)
     throw Error(ErrorKind::Usage, "the upscaler works after tone mapping, and the image is scene-linear");
   request.writes_display8 = request.resolves_per_pixel && settings.form == ImageForm::Display8 &&
@@ -130,6 +135,29 @@ Frame Renderer::render_data(const Camera& camera, const Request& request, const 
   Frame frame = backend_->render(scene_, camera, data, options, &own);
   add(counts, own);
   return data_of(frame);
+}
+
+/// The requested components of the light, each drawn by the whole method.
+void Renderer::render_light(const Camera& camera, const RenderSettings& settings, RenderCounts& counts, Frame& data) {
+  constexpr std::pair<bool Planes::*, LightComponent> components[] = {
+      {&Planes::diffuse, LightComponent::Diffuse},
+      {&Planes::specular, LightComponent::Specular},
+      {&Planes::transmission, LightComponent::Transmission},
+      {&Planes::emission, LightComponent::Emission}};
+  static_assert(std::size(components) == std::tuple_size_v<decltype(data.light)>);
+  for (std::size_t k = 0; k < std::size(components); ++k) {
+    if (!(settings.planes.*components[k].first)) continue;
+    const Request request = method_->request(context_);
+    RenderOptions options = frame_options(settings, request);
+    options.light_component = components[k].second;
+    options.background.reset();
+    Rounds rounds = render_rounds(camera, request, options, counts);
+    const LinearImage picture = method_->resolve(rounds.frame);
+    data.light[k] = Plane<float3>(picture.width(), picture.height());
+    std::ranges::transform(picture.values(), data.light[k].values().begin(), [](const Linear& c) {
+      return float3{c.r, c.g, c.b};
+    });
+  }
 }
 
 Frame Renderer::Rounds::take_data() { return data ? std::move(*data) : data_of(frame); }
@@ -207,6 +235,7 @@ RenderedImage Renderer::render(const Camera& camera, const RenderSettings& setti
   const bool are_planes_requested = settings.planes.any();
   Frame data = rounds.take_data();
   if (request.frame && are_planes_requested) out.data = render_data(camera, request, settings, out.counts);
+  if (settings.planes.any_light()) render_light(camera, settings, out.counts, data);
   end_frame(camera, request.planes.motion || settings.planes.motion, request, are_planes_requested && !request.frame,
             data);
   if (are_planes_requested && !request.frame) out.data = std::move(data);

@@ -143,10 +143,13 @@ std::vector<const Aov*> parse_aovs(const std::string& text) {
   while (at <= text.size()) {
     const std::size_t comma = std::min(text.find(',', at), text.size());
     const std::string name = text.substr(at, comma - at);
-    if (name == "all") {
-      for (const Aov& aov : aovs())
-        if (aov.plane != &Planes::motion && aov.plane != &Planes::flow && aov.plane != &Planes::error)
-          found.push_back(&aov);
+    if (name == "all" || name == "light") {
+      for (const Aov& aov : aovs()) {
+        Planes planes;
+        planes.*aov.plane = true;
+        const bool is_special = planes.motion || planes.flow || planes.error;
+        if (name == "light" ? planes.any_light() : !planes.any_light() && !is_special) found.push_back(&aov);
+      }
     } else {
       found.push_back(&aovs()[parse_choice(name, names)]);
     }
@@ -349,9 +352,9 @@ std::vector<Option> picture_options(RenderArgs& a) {
        [&](auto& text) { a.options.crop = parse_crop(text); }},
       {"--aov", "NAMES",
        "Data passes to write as well: depth, normal, position, albedo, uv, motion, flow, object-id, material-id, "
-       "primitive-id, crypto-object, crypto-material, mip-level, anisotropy, coverage, error, or all that a still of "
-       "any method "
-       "has; layers of the image if it is an .exr",
+       "primitive-id, crypto-object, crypto-material, mip-level, anisotropy, coverage, error; diffuse, specular, "
+       "transmission and emission, or light for these four, which are rendered one after the other; all for the passes "
+       "that a still of any method has, without light; layers of the image if it is an .exr",
        group, false, [&](auto& text) { a.aovs = parse_aovs(text); }, aov_names()},
       choice_option("--color-management", "MODE",
                     "srgb, or raw: neither sRGB decoding of textures nor encoding of the image; default srgb", group,

@@ -80,11 +80,12 @@ void add_passes(const RenderArgs& args, const Scene& scene, const Frame& frame, 
 // Rgba8Image.
 void check_memory(const RenderArgs& args, const Request& request) {
   constexpr std::uint64_t bytes_per_sample = 24;  // if every sample is stored: colour, depth, triangle
-  const bool has_matte =
-      std::ranges::any_of(args.aovs, [](const Aov* a) { return a->plane == &Planes::sample_triangles; });
-  const std::uint64_t bytes_per_pixel = (args.aovs.empty() ? 44 : 136) +
-                                        (has_matte ? 96 + sizeof(std::uint32_t) * request.samples.size() : 0) +
-                                        (request.planes.samples ? bytes_per_sample * request.samples.size() : 0);
+  Planes planes;
+  for (const Aov* aov : args.aovs) planes.*(aov->plane) = true;
+  const std::uint64_t bytes_per_pixel =
+      (planes.any_light() ? 64 : 0) + (args.aovs.empty() ? 44 : 136) +
+      (planes.sample_triangles ? 96 + sizeof(std::uint32_t) * request.samples.size() : 0) +
+      (request.planes.samples ? bytes_per_sample * request.samples.size() : 0);
   const std::optional<Crop> crop = padded_crop(args.options, request.halo);
   const auto width = static_cast<std::uint64_t>(crop ? crop->width : args.options.width);
   const auto height = static_cast<std::uint64_t>(crop ? crop->height : args.options.height);

@@ -316,8 +316,22 @@ void BatchShading::light_layered(FragmentOutputs& out) {
                         out);
 }
 
-/// From base colour and normal to the fragment's colour.
+/// From base colour and normal to the fragment's colour, or to the component of it that the view selects.
 void BatchShading::light(FragmentOutputs& out) {
+  light_whole(out);
+  if (d.view.component == LightComponent::All) return;
+  kernels.keep_component(d.view.component, d.shading_uniforms[static_cast<std::size_t>(batch.material)],
+                         plan.layers != nullptr ? &plan.layers->uniforms : nullptr, batch, p, q, out);
+}
+
+/// The colour of surfaces without lighting counts as emission.
+void BatchShading::unlit(FragmentOutputs& out) {
+  kernels.unlit(plan.alpha_mode == AlphaMode::Blend, p, out);
+  if (d.view.component == LightComponent::All || d.view.component == LightComponent::Emission) return;
+  for (float* const channel : {out.r, out.g, out.b}) kernels.fill(channel, 0, p.count);
+}
+
+void BatchShading::light_whole(FragmentOutputs& out) {
   find_occlusion();
   if (d.view.visibility != nullptr) find_visibility();
   find_emissive();

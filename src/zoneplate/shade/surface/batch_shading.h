@@ -56,8 +56,10 @@ struct BatchShading {
   void find_thickness();
   void light_layered(FragmentOutputs& out);
   void light(FragmentOutputs& out);
+  void unlit(FragmentOutputs& out);
 
  private:
+  void light_whole(FragmentOutputs& out);
   void find_normals(const TextureSlot& normal_map, float scale);
   void find_coat_normals();
   void flatten_normals();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "zoneplate/base/isa.h"
+#include "zoneplate/scene/light.h"
 #include "zoneplate/shade/reflection/exponent.h"
 #include "zoneplate/shade/surface/layered.h"
 #include "zoneplate/shade/surface/lighting.h"
@@ -39,6 +40,7 @@ struct ShadingUniforms {
   Exponent exponent;
 
   // Metallic-roughness.
+  bool is_metallic = false;
   bool has_material_texture = false, has_environment = false;
   bool has_turning_normals = false;  ///< the lobes of lights are widened by ShadingState::normal_dx and normal_dy
   float metallic = 1, roughness = 1;
@@ -129,6 +131,11 @@ struct SurfaceKernels : PerIsa<SurfaceKernels> {
   /// the background's colour, or, before a transparent background, of the environment.
   void (*light_layered)(const ShadingUniforms& uniforms, const LayeredUniforms& layers, const FragmentBatch& batch,
                         const ShadingState& state, const LayerState& layer_state, FragmentOutputs& out);
+  /// Replaces colours that one of the stages above has computed by one of their components, with the same alpha. The
+  /// specular component is the colour without the others. `layers` is null after light_phong and light_metallic.
+  void (*keep_component)(LightComponent component, const ShadingUniforms& uniforms, const LayeredUniforms* layers,
+                         const FragmentBatch& batch, const ShadingState& state, const LayerState& layer_state,
+                         FragmentOutputs& out);
   void (*unlit)(bool is_blended, const ShadingState& state, FragmentOutputs& out);
 };
 

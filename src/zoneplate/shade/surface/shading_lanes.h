@@ -3,6 +3,7 @@
 
 #include "zoneplate/shade/surface/geometry_lanes.h"
 #include "zoneplate/shade/surface/layered_lanes.h"
+#include "zoneplate/shade/surface/light_component_lanes.h"
 #include "zoneplate/shade/surface/lighting_lanes.h"
 #include "zoneplate/shade/surface/normals_lanes.h"
 
@@ -31,6 +32,7 @@ constexpr SurfaceKernels all() {
       .light_metallic = &light_metallic<Wide>,
       .light_metallic_in_map = &light_metallic_in_map<Wide>,
       .light_layered = &light_layered<F>,
+      .keep_component = &keep_component<F>,
       .unlit = &unlit<Wide>,
   };
 }

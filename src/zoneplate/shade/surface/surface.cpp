@@ -99,7 +99,7 @@ void SurfaceShader::shade_fragments(const FragmentBatch& batch, OutputMask outpu
   if (outputs.color && plan.is_lit)
     shading.light(out);
   else if (outputs.color)
-    shading.kernels.unlit(plan.alpha_mode == AlphaMode::Blend, p, out);
+    shading.unlit(out);
 
   const auto copy = [&](const float* from, float* to) { std::copy_n(from, p.count, to); };
   if (outputs.normal) {

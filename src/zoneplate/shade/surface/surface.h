@@ -43,8 +43,9 @@ struct ViewUniforms {
   /// Requires  at Triangle and Vertex: no rays.
   ShadingFrequency shading_frequency = ShadingFrequency::Fragment;
   bool raw_colors = false;  ///< the values of images are linear, not decoded from sRGB (--color-management raw)
-  const LightVisibility* visibility = nullptr;  ///< of `lights`, in their order; null: nothing casts shadows
-  TextureFilter texture_filter;                 ///< of all textures; by default that of each sampler
+  LightComponent component = LightComponent::All;  ///< of each surface's colour
+  const LightVisibility* visibility = nullptr;     ///< of `lights`, in their order; null: nothing casts shadows
+  TextureFilter texture_filter;                    ///< of all textures; by default that of each sampler
   SpecularAntialiasing specular_aa = SpecularAntialiasing::None;
   int anisotropy = 1;  ///< maximum number of probes along a footprint, for all samplers that blend mip levels
 };

@@ -45,6 +45,7 @@ ShadingUniforms make_shading_uniforms(const MaterialPlan& plan, const std::vecto
   s.has_exponent_texture = plan.has_specular && plan.slot(TextureSlotIndex::Exponent).texture != nullptr;
   copy(plan.ambient_factor, s.ambient), copy(plan.specular, s.specular);
   s.exponent = plan.exponent;
+  s.is_metallic = plan.model == ShadingModel::MetallicRoughness;
   s.has_material_texture = plan.slot(TextureSlotIndex::MetallicRoughness).texture != nullptr || plan.widens();
   s.has_turning_normals = plan.has_turning_lobes();
   s.metallic = plan.metallic, s.roughness = plan.roughness;
