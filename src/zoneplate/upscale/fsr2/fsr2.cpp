@@ -16,10 +16,8 @@
 #include <optional>
 #include <utility>
 
-#include "zoneplate/antialias/temporal/camera_motion.h"
-#include "zoneplate/base/error.h"
-#include "zoneplate/image/transfer.h"
 #include "zoneplate/upscale/fsr2/fsr2_core.h"
+#include "zoneplate/upscale/jittered_frame.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::upscale {
@@ -31,23 +29,6 @@ float corner_of(const Camera& camera, float aspect) {
   const float4x4 clip = camera.clip_from_camera(aspect);
   const float x = 1 / clip.column[0].x, y = 1 / clip.column[1].y;
   return std::sqrt(1 + x * x + y * y);
-}
-
-/// The colours over the background, which the display transform would composite later.
-LinearImage over(LinearImage image, const DisplayOptions& display) {
-  const auto light = [&](float code) { return (display.raw ? code : decode_srgb(code)) / display.exposure; };
-  const float4 b = display.background;
-  const Linear background{light(b.x) * b.w, light(b.y) * b.w, light(b.z) * b.w, b.w};
-  for (Linear& c : image.values()) c = c + background * (1 - c.a);
-  return image;
-}
-
-LinearImage part(LinearImage image, const std::optional<Crop>& crop) {
-  if (!crop) return image;
-  LinearImage out(crop->width, crop->height);
-  for (int y = 0; y < crop->height; ++y)
-    std::copy_n(image.row(crop->y + y).begin() + crop->x, crop->width, out.row(y).begin());
-  return out;
 }
 
 class Fsr2Method : public Resolver {
@@ -73,25 +54,16 @@ class Fsr2Method : public Resolver {
   }
 
   LinearImage resolve(Frame& frame) override {
-    if (frame.display.is_transparent)
-      throw Error(ErrorKind::Usage, "fsr2 makes opaque images, and a transparent background is requested");
     const ImageExtent& image = context_.image;
     if (context_.is_first || !fsr2_) fsr2_.emplace(image.width, image.height, options_);
     const float aspect = static_cast<float>(image.width) / static_cast<float>(image.height);
     Fsr2Frame input{.jitter = {(128 - sample_.x) / 256.0f, (128 - sample_.y) / 256.0f},
                     .corner = corner_of(context_.camera, aspect),
                     .is_first = context_.is_first};
-    // The background moves as the camera does.
-    const antialias::CameraMotion camera(context_.camera, context_.last_camera, frame_.width, frame_.height);
-    for (int y = 0; y < frame_.height; ++y)
-      for (int x = 0; x < frame_.width; ++x)
-        if (float& depth = frame.depth(x, y); !(depth < Fsr2::far)) {
-          frame.motion(x, y) = camera.at(x + sample_.x / 256.0, y + sample_.y / 256.0, double{depth});
-          depth = Fsr2::far;
-        }
-    input.color = over(std::move(frame.color), frame.display);
+    complete_background(frame, context_, sample_, Fsr2::far);
+    input.color = over_background(std::move(frame.color), frame.display, "fsr2");
     input.depth = std::move(frame.depth), input.motion = std::move(frame.motion);
-    return part(fsr2_->accumulate(input), image.crop);
+    return cropped(fsr2_->accumulate(input), image.crop);
   }
 
  private:

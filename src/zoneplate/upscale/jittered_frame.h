@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "zoneplate/render/method.h"
+
+namespace zoneplate::upscale {
+
+/// What upscalers of sequences do with the frames that they get and with the images that they make.
+
+/// The colours over the background, which the display transform would composite later.
+///
+/// Errors    ErrorKind::Usage if the display options request a transparent background; `name` is the upscaler's.
+LinearImage over_background(LinearImage image, const DisplayOptions& display, std::string_view name);
+
+/// Gives pixels without a surface, or with one at `far` or beyond, the depth `far`, and the motion that the camera's
+/// causes. `sample` is the position of the frame's samples.
+void complete_background(Frame& frame, const FrameContext& context, SamplePosition sample, float far);
+
+/// The part of an image that a crop names, or all of it.
+LinearImage cropped(LinearImage image, const std::optional<Crop>& crop);
+
+}  // namespace zoneplate::upscale
