@@ -29,8 +29,9 @@ enum class Unfit {
 struct Result {
   const Metric* metric = nullptr;  ///< a row of the catalogue, never null in a Comparison
   double value = 0;                ///< pooled over all images
-  std::vector<double> values;      ///< of each image, or of each run of `metric->frames` frames
+  std::vector<double> values;      ///< of each image, or of each run of `metric->frames` frames with the feature
   std::size_t worst = 0;           ///< the index of the worst of `values`
+  std::size_t worst_image = 0;     ///< the index of its image, of several frames the newest
   Score score;                     ///< the map, curves and additional figures of the worst image
 };
 

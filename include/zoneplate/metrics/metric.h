@@ -71,7 +71,7 @@ struct Metric {
   std::span<const Param> params = {};   ///< what may follow the name: ppd of `flip:ppd=30`
   /// Measures the newest test image against its reference.
   /// Requires  `frames` images each (fewer if starts_short), of the sizes that `sizes` and `smallest` require. Nothing if
-  /// the images lack the measured feature.
+  /// the images lack the measured feature; of a sequence, the other windows are measured.
   std::function<std::optional<Score>(Frames reference, Frames test, const Settings&)> measure;
   double (*pool)(std::span<const double> values) = mean_of;  ///< of a sequence's scores
 };

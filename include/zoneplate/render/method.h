@@ -93,6 +93,12 @@ struct Request {
   static constexpr int whole_image = 1 << 20;
 };
 
+/// A frame that another program has rendered, in place of the one that a method would request.
+struct GivenFrame {
+  int width = 0, height = 0;             ///< pixels
+  std::optional<SamplePosition> sample;  ///< where in its pixels it was sampled; none: where the method would sample
+};
+
 /// The position of a frame in its sequence, and the data of the frame before it.
 struct FrameContext {
   ImageExtent image;     ///< the image that the frame becomes, without the apron of Request::halo
@@ -107,6 +113,8 @@ struct FrameContext {
   const Frame* previous = nullptr;
   Camera camera;       ///< of this frame, without jitter
   Camera last_camera;  ///< of the previous frame; for the first frame, `camera`
+  /// The frame exists already: methods with history and temporal upscalers use its size and sample.
+  std::optional<GivenFrame> given;
 };
 
 /// The state of an antialiasing method over sequences of frames. A method overrides the steps that it changes.

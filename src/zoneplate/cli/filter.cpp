@@ -11,6 +11,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/args.h"
+#include "zoneplate/cli/filter_sequence.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/progress.h"
 #include "zoneplate/cli/values.h"
@@ -28,7 +29,9 @@ namespace {
 namespace fs = std::filesystem;
 
 struct FilterArgs {
-  std::string output, method, upscaler;
+  std::string output, method, upscaler, motion, depth, jitter;
+  float2 motion_scale{1, 1};
+  double fov = 60;
   std::optional<int2> size;  ///< of the upscaled images
   int bit_depth = 8, threads = 0;
   std::optional<ProgressKind> progress;  ///< none: a bar on a terminal
@@ -43,15 +46,15 @@ bool reads_image_alone(Resolver& method) {
 std::string filter_names() {
   std::string names;
   for (const Method& method : antialias::methods())
-    if (reads_image_alone(*make_resolver(antialias::methods(), method.name)))
+    if (reads_image_alone(*make_resolver(antialias::methods(), method.name)) ||
+        filters_sequences(std::string(method.name)))
       names += fmt::format("{}{}", names.empty() ? "" : ", ", method.name);
   return names;
 }
 
 std::string upscaler_names() {
   std::string names;
-  for (const Upscaler& row : upscale::upscalers())
-    if (row.make_spatial) names += fmt::format("{}{}", names.empty() ? "" : ", ", row.name);
+  for (const Upscaler& row : upscale::upscalers()) names += fmt::format("{}{}", names.empty() ? "" : ", ", row.name);
   return names;
 }
 
@@ -101,10 +104,6 @@ UpscaleGrid grid_of(const Filters& filters, int width, int height, const std::st
   return {width, height, 0, 0, {size.x, size.y, std::nullopt}};
 }
 
-struct FilterItem {
-  std::string input, output;
-};
-
 /// The images of the operand, and the output file of each.
 ///
 /// Errors    ErrorKind::Usage if two images have the same output file.
@@ -114,18 +113,14 @@ std::vector<FilterItem> plan(const std::string& operand, const std::string& outp
   std::vector<FilterItem> items;
   std::map<std::string, std::string> input_of;  // maps an output to its input
   for (const std::string& input : inputs) {
-    items.push_back({input, (fs::path(output) / fs::path(input).stem()).string() + ".png"});
+    const std::string ending = is_linear_file(input) || extension_of(input) == ".hdr" ? ".exr" : ".png";
+    items.push_back({input, (fs::path(output) / fs::path(input).stem()).string() + ending});
     const auto [first, is_new] = input_of.emplace(items.back().output, input);
     if (!is_new)
       throw Error(ErrorKind::Usage,
                   fmt::format("--output: {} and {} would both be written to {}", first->second, input, first->first));
   }
   return items;
-}
-
-bool is_linear_file(const std::string& path) {
-  const std::string ending = extension_of(path);
-  return ending == ".exr" || ending == ".pfm";
 }
 
 void filter_linear(const FilterItem& item, const LinearImage& image, const Filters& filters) {
@@ -153,23 +148,67 @@ void filter_image(const FilterItem& item, const Filters& filters, int bit_depth)
   save_bytes(item.output, encode_png(quantize16(image)));
 }
 
+/// The method with history that the arguments select; empty: filters of single images.
+std::string sequence_method(const FilterArgs& args) {
+  const Upscaler* const upscaler =
+      args.upscaler.empty() ? nullptr : &parse_spec("upscaler", upscale::upscalers(), args.upscaler).row;
+  const bool is_temporal = upscaler && upscaler->make_temporal;
+  const bool has_history = !args.method.empty() && filters_sequences(args.method);
+  if (is_temporal && !args.method.empty())
+    throw Error(ErrorKind::Usage,
+                fmt::format("--upscale {}: it antialiases itself, give no --anti-aliasing", args.upscaler));
+  if (has_history && upscaler)
+    throw Error(ErrorKind::Usage, fmt::format("--anti-aliasing {}: filters a sequence; upscale its output in a second "
+                                              "step, or give a temporal upscaler alone",
+                                              args.method));
+  const bool has_data = !args.motion.empty() || !args.depth.empty() || !args.jitter.empty();
+  if (has_data && !is_temporal && !has_history)
+    throw Error(ErrorKind::Usage,
+                "--motion, --depth and --jitter are for methods with history: --aa taa or --upscale "
+                "fsr2");
+  return is_temporal ? args.upscaler : has_history ? args.method : "";
+}
+
+float2 parse_pair(const std::string& text) {
+  const std::size_t comma = text.find(',');
+  if (comma == text.npos) throw Error(ErrorKind::Usage, fmt::format("is '{}', expected two numbers x,y", text));
+  constexpr double most = 1e6;
+  return {static_cast<float>(parse_number(text.substr(0, comma), -most, most)),
+          static_cast<float>(parse_number(text.substr(comma + 1), -most, most))};
+}
+
 Syntax make_syntax(FilterArgs& args) {
   Syntax syntax{
       .verb = "filter",
-      .summary = "Antialias existing images by a post-process filter, and upscale them",
+      .summary = "Antialias existing images and frames of any renderer, and upscale them",
       .operands = "IMAGES",
       .examples =
           "  zoneplate filter shot.png --aa smaa -o smooth.png\n"
           "  zoneplate filter shot.png --aa fxaa:preset=39,mix=light -o smooth.webp\n"
           "  zoneplate filter shots/ --aa cmaa2 -o smooth/\n"
           "  zoneplate filter shot.png --aa smaa --upscale fsr1 --size 1920x1080 -o large.png\n"
-          "  zoneplate filter frames/a.####.png --aa mlaa -o smooth/\n",
+          "  zoneplate filter frames/a.####.png --aa mlaa -o smooth/\n"
+          "  zoneplate filter c.####.exr --depth z.####.exr --motion v.####.exr --aa taa --jitter offsets.txt -o out/\n"
+          "  zoneplate filter c.####.png --depth z.####.exr --motion v.####.exr --motion-scale -960,540 \\\n"
+          "      --upscale fsr2 --size 1920x1080 --jitter offsets.txt -o out/\n",
       .notes =
           "IMAGES is a PNG, JPEG or WebP file, a folder of them, or a sequence (name.####.png, name.%04d.png);\n"
           "upscalers also read scene-linear .hdr, .exr and .pfm files, and write .exr and .pfm for them.\n"
           "Antialiasing filters work on 8-bit sRGB values. Pixels that the filter does not blend keep their exact "
           "value;\n"
-          "images with alpha are filtered premultiplied.\n"};
+          "images with alpha are filtered premultiplied.\n"
+          "\n"
+          "Methods with history (taa, fsr2) filter the frames of a sequence in order, as one shot without a cut. Each "
+          "frame\n"
+          "has one sample per pixel, jittered: --jitter is a text file with one line per frame, the sample's offset "
+          "from\n"
+          "the pixel's centre in pixels, +x right, +y down. Motion is the position now minus the one in the last "
+          "frame, in\n"
+          "pixels of the frame, without jitter, in channels motion.X and motion.Y, X and Y, or R and G; depth is the\n"
+          "distance along the view axis in channel Z, R or Y. Frames of zoneplate render --aov depth,motion,object-id\n"
+          "contain both, and object ids, by which history of another object is dropped. The images are written in\n"
+          "scene-linear light for .exr frames, and as .png for .png frames, whose colours are averaged in linear "
+          "light.\n"};
   syntax.options = {
       {"--output,-o", "FILE",
        "The image to write: .png, .jpg or .webp, or .exr or .pfm for a scene-linear one; for several inputs a folder, "
@@ -182,6 +221,17 @@ Syntax make_syntax(FilterArgs& args) {
        "Options", true, [&](auto& text) { args.upscaler = text; }},
       {"--size", "W,H", "Size of the upscaled image; default: that of the image times the upscaler's scale, 1.5",
        "Options", true, [&](auto& text) { args.size = parse_size(text, 32768); }},
+      {"--motion", "FILES", "EXR sequence with the motion of the frames; default: channels of the frames themselves",
+       "Sequences", true, [&](auto& text) { args.motion = text; }},
+      {"--motion-scale", "X,Y",
+       "Factors from the unit of the motion to pixels; -960,540 for (last - now) in units of 960 x 540 pixels, y up",
+       "Sequences", false, [&](auto& text) { args.motion_scale = parse_pair(text); }},
+      {"--depth", "FILES", "EXR sequence with the depth of the frames; default: channels of the frames themselves",
+       "Sequences", true, [&](auto& text) { args.depth = text; }},
+      {"--jitter", "FILE.txt", "Sample of each frame; default: the sequence of the method", "Sequences", true,
+       [&](auto& text) { args.jitter = text; }},
+      {"--fov", "DEG", "Vertical field of view, for tests of depth in fsr2; default 60", "Sequences", false,
+       [&](auto& text) { args.fov = parse_number(text, 1, 179); }},
       {"--bit-depth", "N", "Bits per channel of .png: 8, the default, or 16", "Options", false,
        [&](auto& text) {
          args.bit_depth = parse_choice(text, {"8", "16"}) == 0 ? 8 : 16;
@@ -202,7 +252,8 @@ void run_filter(std::span<const std::string> arguments) {
   if (syntax.found_operands.size() != 1)
     throw Error(ErrorKind::Usage, "filter takes one input: an image, a folder or a sequence");
   if (args.output.empty()) throw Error(ErrorKind::Usage, "no output: name a file or folder with -o");
-  const Filters filters = make_filters(args);
+  const std::string method = sequence_method(args);
+  const Filters filters = method.empty() ? make_filters(args) : Filters{};
   const std::vector<FilterItem> items = plan(syntax.found_operands.front(), args.output);
   if (items.front().output != args.output) {
     std::error_code error;
@@ -214,6 +265,21 @@ void run_filter(std::span<const std::string> arguments) {
     throw Error(ErrorKind::Usage, "--bit-depth 16 is for .png, not " + items.front().output);
   with_threads(args.threads, [&] {
     Progress progress(args.progress ? *args.progress : parse_progress("auto"));
+    if (!method.empty()) {
+      const double scale =
+          args.upscaler.empty() ? 1 : parse_spec("upscaler", upscale::upscalers(), method).settings.number("scale");
+      return filter_sequence({.method = method,
+                              .items = items,
+                              .motion = args.motion,
+                              .depth = args.depth,
+                              .jitter = args.jitter,
+                              .motion_scale = args.motion_scale,
+                              .fov = static_cast<float>(args.fov),
+                              .size = args.size,
+                              .scale = scale,
+                              .bit_depth = args.bit_depth},
+                             progress);
+    }
     double done = 0;
     for (const FilterItem& item : items) {
       progress.begin(item.input, done++ / static_cast<double>(items.size()));

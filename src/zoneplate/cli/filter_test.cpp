@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tests of the verb that run the built program.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -9,8 +10,13 @@
 #include <filesystem>
 
 #include "zoneplate/base/paths_for_test.h"
+#include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/png.h"
+#include "zoneplate/metrics/picture_file.h"
+#include "zoneplate/metrics/psnr.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/render/renderer.h"
+#include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {
@@ -92,7 +98,7 @@ TEST_F(FilterVerb, WhatCannotBeFilteredIsRefused) {
   EXPECT_EQ(
       output_,
       "zoneplate: error: --anti-aliasing: msaa needs a scene, expected a filter of images: fxaa, smaa, mlaa, cmaa2, "
-      "dlaa, ddaa\n");
+      "dlaa, ddaa, taa\n");
   for (const char* method : {"smaa:edges=depth", "smaa:mode=s2x", "analytic:order=display", "none"})
     EXPECT_EQ(run(std::string("filter a.png -o b.png --aa ") + method), 2) << method;
   EXPECT_EQ(run("filter a.png -o b.png"), 2);
@@ -147,6 +153,114 @@ TEST_F(FilterVerb, UpscalesSceneLinearImages) {
   EXPECT_EQ(run("filter small.exr -o large.png --upscale fsr1"), 2);
   EXPECT_NE(output_.find("write an .exr or a .pfm"), std::string::npos) << output_;
   EXPECT_EQ(run("filter small.exr -o large.exr --aa smaa"), 3);
+}
+
+/// Records the frames of a method as files of another renderer: half floats, depth and motion as floats.
+class Recorder : public Resolver {
+ public:
+  Recorder(std::unique_ptr<Resolver> method, fs::path folder)
+      : method_(std::move(method)), folder_(std::move(folder)) {}
+
+  Request request(const FrameContext& context) override {
+    index_ = context.index;
+    Request request = method_->request(context);
+    const SamplePosition s = request.samples[0];
+    samples_ += fmt::format("{} {}\n", s.x / 256.0 - 0.5, s.y / 256.0 - 0.5);
+    save_bytes((folder_ / "jitter.txt").string(), std::vector<std::uint8_t>(samples_.begin(), samples_.end()));
+    return request;
+  }
+  LinearImage resolve(Frame& frame) override {
+    const int width = frame.color.width(), height = frame.color.height();
+    const auto path = [&](const char* pass) { return (folder_ / fmt::format("{}.{:04}.exr", pass, index_)).string(); };
+    save_bytes(path("color"), encode_exr(width, height, rgba_channels(frame.color)));
+    save_bytes(path("depth"),
+               encode_exr(width, height, {{"R", ExrType::Float, frame.depth.values().data(), nullptr, 1}}));
+    // Another engine's convention: the way back to the last frame, in units of the image, y up.
+    std::vector<float2> back;
+    for (const float2 m : frame.motion.values())
+      back.push_back({-m.x / static_cast<float>(width), m.y / static_cast<float>(height)});
+    save_bytes(path("motion"), encode_exr(width, height,
+                                          {{"R", ExrType::Float, &back[0].x, nullptr, 2},
+                                           {"G", ExrType::Float, &back[0].y, nullptr, 2}}));
+    return method_->resolve(frame);
+  }
+
+ private:
+  std::unique_ptr<Resolver> method_;
+  fs::path folder_;
+  std::string samples_;
+  int index_ = 0;
+};
+
+TEST_F(FilterVerb, FramesOfAnotherRendererAreUpscaledAsOwnOnes) {
+  Scene scene = *make_builtin_scene("teapot");
+  const Box box = scene.bounds();
+  Renderer renderer(PreparedScene(std::move(scene)),
+                    std::make_unique<Recorder>(upscale::make_method("fsr2:scale=2"), folder()));
+  RenderSettings settings{.form = ImageForm::Linear};
+  settings.options.width = 96, settings.options.height = 72;
+  std::vector<LinearImage> direct;
+  for (int i = 0; i < 6; ++i) {
+    const Camera camera = fit_camera(box, 96.0f / 72, {.azimuth = 0.5f + 0.01f * static_cast<float>(i)});
+    direct.push_back(renderer.render(camera, settings).linear);
+  }
+  ASSERT_EQ(run("filter color.####.exr --depth depth.####.exr --motion motion.####.exr --motion-scale -48,36 "
+                "--jitter jitter.txt --fov 30 --upscale fsr2 --size 96x72 -o out"),
+            0)
+      << output_;
+  for (int i = 0; i < 6; ++i) {
+    const LinearImage found = metrics::load_picture((folder() / fmt::format("out/color.{:04}.exr", i)).string()).linear;
+    ASSERT_EQ(found.width(), 96);
+    // Half floats of the input and the output round by 2⁻¹¹ each; tests of locks and depth may decide otherwise.
+    const auto psnr =
+        metrics::peak_signal_to_noise(metrics::make_picture(LinearImage(direct[static_cast<std::size_t>(i)])).display,
+                                      metrics::make_picture(LinearImage(found)).display);
+    EXPECT_GT(psnr, 70) << i;
+  }
+}
+
+TEST_F(FilterVerb, TemporalMethodsFilterTheFramesOfRender) {
+  const std::string raw = "taa:rest=test,blend=fixed,alpha=1,rectify=none,reject=none";  // one jittered sample
+  const std::string film = " --frames 6 --size 96x72 --aa ";
+  ASSERT_EQ(run("teleport -o raw.####.exr --aov depth,motion,object-id" + film + raw), 0) << output_;
+  ASSERT_EQ(run("teleport -o direct.####.exr" + film + "taa"), 0) << output_;
+  ASSERT_EQ(run("filter raw.####.exr --aa taa -o out"), 0) << output_;
+  // Colours are rounded to half floats before the history, not only after it.
+  EXPECT_EQ(run("metrics direct.0000.exr out/raw.0000.exr --metric mae --threshold 0"), 0) << output_;
+  EXPECT_EQ(run("metrics direct.####.exr out/raw.####.exr --metric psnr --threshold 80"), 0) << output_;
+}
+
+TEST_F(FilterVerb, SequencesThatDoNotFitAreRefused) {
+  ASSERT_EQ(run("teleport -o raw.####.exr --frames 2 --size 32x24 --aa none --aov depth,motion"), 0) << output_;
+  ASSERT_EQ(run("teleport -o bare.####.exr --frames 2 --size 32x24 --aa none"), 0) << output_;
+  ASSERT_EQ(run("teleport -o large.####.exr --frames 2 --size 48x36 --aa none --aov depth,motion"), 0) << output_;
+  const auto message = [&](const std::string& arguments, int code) {
+    EXPECT_EQ(run("filter " + arguments), code) << output_;
+    EXPECT_FALSE(exists("out/raw.0000.exr"));
+    return output_;
+  };
+  EXPECT_NE(message("bare.####.exr --aa taa -o out", 3).find("bare.0000.exr: has no channel of depth: give --depth"),
+            std::string::npos);
+  EXPECT_NE(message("raw.####.exr --depth large.####.exr --aa taa -o out", 3)
+                .find("large.0000.exr: has 48x36 pixels, expected 32x24 as ./raw.0000.exr"),
+            std::string::npos)
+      << output_;
+  EXPECT_NE(message("raw.####.exr --depth raw.0000.exr --aa taa -o out", 3).find("has 1 frames, expected 2"),
+            std::string::npos)
+      << output_;
+  save("short.txt", {'0', ' ', '0', '\n'});
+  EXPECT_NE(message("raw.####.exr --jitter short.txt --aa taa -o out", 3).find("short.txt: has 1 samples, expected 2"),
+            std::string::npos)
+      << output_;
+  save("wrong.txt", {'0', ' ', '2', '\n'});
+  EXPECT_NE(message("raw.####.exr --jitter wrong.txt --aa taa -o out", 3).find("wrong.txt:1: is '0 2', expected"),
+            std::string::npos)
+      << output_;
+  EXPECT_NE(message("raw.####.exr --motion raw.####.exr --aa smaa -o out", 2).find("methods with history"),
+            std::string::npos)
+      << output_;
+  EXPECT_NE(message("raw.####.exr --aa taa --upscale fsr2 -o out", 2).find("antialiases itself"), std::string::npos)
+      << output_;
 }
 
 }  // namespace

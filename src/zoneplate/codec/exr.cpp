@@ -56,27 +56,35 @@ std::optional<std::string_view> take_text(std::span<const std::uint8_t>& bytes) 
   return text;
 }
 
-/// Finds the data and display windows by iterating over the attributes of the first header: name, type, size, value.
-std::optional<Windows> find_windows(std::span<const std::uint8_t> bytes) {
-  if (!is_exr(bytes)) return std::nullopt;
-  Windows out;
+/// Calls use(name, type, value) for the attributes of the first header: name, type, size, value. False if it is cut
+/// off.
+template <class Use>
+bool for_attributes(std::span<const std::uint8_t> bytes, const Use& use) {
+  if (!is_exr(bytes)) return false;
   for (bytes = bytes.subspan(8);;) {
     const auto name = take_text(bytes);
-    if (!name) return std::nullopt;
-    if (name->empty()) break;
+    if (!name) return false;
+    if (name->empty()) return true;
     const auto type = take_text(bytes);
     std::uint32_t size = 0;
-    if (!type || bytes.size() < sizeof size) return std::nullopt;
+    if (!type || bytes.size() < sizeof size) return false;
     std::memcpy(&size, bytes.data(), sizeof size);
     bytes = bytes.subspan(sizeof size);
-    if (size > bytes.size()) return std::nullopt;
-    if (*type == "box2i" && size == sizeof(Window)) {
-      if (*name == "dataWindow") std::memcpy(&out.data, bytes.data(), sizeof(Window));
-      if (*name == "displayWindow") std::memcpy(&out.display, bytes.data(), sizeof(Window));
-    }
+    if (size > bytes.size()) return false;
+    use(*name, *type, bytes.first(size));
     bytes = bytes.subspan(size);
   }
-  if (!out.data.is_sound() || !out.display.is_sound()) return std::nullopt;
+}
+
+/// Finds the data and display windows.
+std::optional<Windows> find_windows(std::span<const std::uint8_t> bytes) {
+  Windows out;
+  const auto keep = [&](std::string_view name, std::string_view type, std::span<const std::uint8_t> value) {
+    if (type != "box2i" || value.size() != sizeof(Window)) return;
+    if (name == "dataWindow") std::memcpy(&out.data, value.data(), sizeof(Window));
+    if (name == "displayWindow") std::memcpy(&out.display, value.data(), sizeof(Window));
+  };
+  if (!for_attributes(bytes, keep) || !out.data.is_sound() || !out.display.is_sound()) return std::nullopt;
   return out;
 }
 
@@ -155,11 +163,14 @@ class Channel {
   std::unique_ptr<float, Free> values_;
 };
 
+/// The names of the channels that are decoded, at most four; none: the colour.
+using ChannelNames = std::span<const std::string>;
+
 /// An open file, decoded into the channels of its data window. It exists in the child process only.
 class ExrReader {
  public:
-  ExrReader(const ExrLibrary& library, std::span<const std::uint8_t> bytes, const Window& window)
-      : library_(library), bytes_(bytes), window_(window) {
+  ExrReader(const ExrLibrary& library, std::span<const std::uint8_t> bytes, const Window& window, ChannelNames names)
+      : library_(library), bytes_(bytes), window_(window), names_(names) {
     exr_context_initializer_t set_up{};
     set_up.size = sizeof set_up;
     set_up.error_handler_fn = say_nothing;
@@ -191,7 +202,7 @@ class ExrReader {
     const auto value = [&](std::size_t slot, std::size_t x) {
       if (!channels_[slot]) return slot == 3 ? 1.0f : 0.0f;
       const float v = channels_[slot](x, static_cast<std::size_t>(y));
-      return std::isfinite(v) ? v : std::isnan(v) ? 0.0f : std::copysign(65504.0f, v);
+      return !names_.empty() || std::isfinite(v) ? v : std::isnan(v) ? 0.0f : std::copysign(65504.0f, v);
     };
     for (std::size_t i = 0; i < out.size(); ++i) {
       const std::size_t x = static_cast<std::size_t>(first) + i;
@@ -205,6 +216,11 @@ class ExrReader {
  private:
   /// The slot of `channels_` that holds a channel; nothing if the channel is ignored.
   std::optional<std::size_t> slot_of(std::string_view channel) const {
+    if (!names_.empty()) {
+      const auto found = std::ranges::find(names_, channel);
+      if (found == names_.end()) return std::nullopt;
+      return static_cast<std::size_t>(found - names_.begin());
+    }
     if (is_grey_)
       return channel == "Y"   ? std::optional<std::size_t>{0}
              : channel == "A" ? std::optional<std::size_t>{3}
@@ -221,14 +237,21 @@ class ExrReader {
         if (list->entries[i].name.str == name) return &list->entries[i];
       return nullptr;
     };
-    is_grey_ = !find("R") && !find("G") && !find("B");
+    is_grey_ = names_.empty() && !find("R") && !find("G") && !find("B");
     if (is_grey_ && !find("Y")) throw Refusal{"has no channel R, G, B or Y"};
-    for (const std::string_view name : {"R", "G", "B", "A", "Y"})
-      if (const auto* c = find(name); c && slot_of(name)) {
-        if (c->x_sampling != 1 || c->y_sampling != 1)
-          throw Refusal{"has fewer samples in channel " + std::string(name) + " than pixels, which is not read"};
-        channels_[*slot_of(name)] = Channel(window_);
-      }
+    const auto prepare = [&](std::string_view name) {
+      const exr_attr_chlist_entry_t* const c = find(name);
+      if (!c || !slot_of(name)) return;
+      if (c->x_sampling != 1 || c->y_sampling != 1)
+        throw Refusal{"has fewer samples in channel " + std::string(name) + " than pixels, which is not read"};
+      channels_[*slot_of(name)] = Channel(window_);
+    };
+    for (const std::string& name : names_) {
+      if (!find(name)) throw Refusal{"has no channel " + name};
+      prepare(name);
+    }
+    if (names_.empty())
+      for (const std::string_view name : {"R", "G", "B", "A", "Y"}) prepare(name);
   }
 
   /// Decodes a chunk whose first pixel is (x, y) of the data window.
@@ -283,9 +306,10 @@ class ExrReader {
   const ExrLibrary& library_;
   std::span<const std::uint8_t> bytes_;
   Window window_;
+  ChannelNames names_;
   exr_context_t context_ = nullptr;
   bool is_grey_ = false;
-  std::array<Channel, 4> channels_;  ///< red or grey, green, blue, alpha; channels that the file lacks are empty
+  std::array<Channel, 4> channels_;  ///< red or grey, green, blue, alpha, or as `names_`; those not in the file: empty
 };
 
 /// Calls `send(row)` for each row of the display window; pixels outside the data window are transparent black.
@@ -323,8 +347,10 @@ std::uint64_t exr_working_memory(std::span<const std::uint8_t> bytes) {
   return windows ? sizeof(Linear) * windows->data.pixels() : 0;
 }
 
-void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
-                     const std::function<void(std::span<const Linear>)>& take_row) {
+namespace {
+
+void decode_rows(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
+                 ChannelNames channels, const std::function<void(std::span<const Linear>)>& take_row) {
   const auto fail = [&](const std::string& cause) -> Error { return {ErrorKind::Input, name + ": EXR: " + cause}; };
   const std::optional<Windows> windows = find_windows(bytes);
   if (!windows) throw fail("the header is wrong");
@@ -335,7 +361,7 @@ void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& nam
 
   const auto decode = [&](const ExrLibrary& library, auto send) {
     try {
-      ExrReader reader(library, bytes, windows->data);
+      ExrReader reader(library, bytes, windows->data, channels);
       reader.read();
       send_rows(reader, *windows, send);
     } catch (const Refusal& refused) {
@@ -365,6 +391,42 @@ void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& nam
     child.read(row.data(), row.size() * sizeof(Linear));
     take_row(row);
   }
+}
+
+}  // namespace
+
+void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
+                     const std::function<void(std::span<const Linear>)>& take_row) {
+  decode_rows(bytes, name, max_pixels, {}, take_row);
+}
+
+std::vector<std::string> exr_channel_names(std::span<const std::uint8_t> bytes) {
+  std::vector<std::string> out;
+  for_attributes(bytes, [&](std::string_view name, std::string_view type, std::span<const std::uint8_t> value) {
+    if (name != "channels" || type != "chlist") return;
+    constexpr std::size_t description = 16;  // type, linearity, sampling along x and y
+    while (const auto channel = take_text(value)) {
+      if (channel->empty() || value.size() < description) return;
+      out.emplace_back(*channel);
+      value = value.subspan(description);
+    }
+  });
+  return out;
+}
+
+std::vector<Plane<float>> decode_exr_channels(std::span<const std::uint8_t> bytes, const std::string& name,
+                                              std::span<const std::string> channels, std::uint64_t max_pixels) {
+  std::vector<Plane<float>> planes(channels.size());
+  int y = 0;
+  decode_rows(bytes, name, max_pixels, channels, [&](std::span<const Linear> row) {
+    constexpr float Linear::*slots[] = {&Linear::r, &Linear::g, &Linear::b, &Linear::a};
+    for (std::size_t c = 0; c < planes.size(); ++c) {
+      if (y == 0) planes[c] = Plane<float>(static_cast<int>(row.size()), find_exr_size(bytes)->y);
+      std::ranges::transform(row, planes[c].row(y).begin(), slots[c]);
+    }
+    ++y;
+  });
+  return planes;
 }
 
 LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {

@@ -6,7 +6,9 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "zoneplate/image/plane.h"
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/math/vec.h"
 
@@ -34,6 +36,18 @@ LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& n
 /// Decodes an image as decode_exr does, and passes it on row by row, from the top.
 void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
                      const std::function<void(std::span<const Linear>)>& take_row);
+
+/// The names of the channels of the first part, in the order of the file; none if the header is wrong.
+std::vector<std::string> exr_channel_names(std::span<const std::uint8_t> bytes);
+
+/// Decodes channels of any names and types as floats, at most four, in the order of `channels`.
+///
+/// Shape     the display window; 0 where the data window does not reach.
+/// Units     as stored, with NaN and infinities; integers above 2²⁴ are rounded.
+/// Errors    those of decode_exr; ErrorKind::Input if the file lacks a channel.
+std::vector<Plane<float>> decode_exr_channels(std::span<const std::uint8_t> bytes, const std::string& name,
+                                              std::span<const std::string> channels,
+                                              std::uint64_t max_pixels = std::uint64_t{1} << 28);
 
 /// The memory in bytes that decoding takes in addition to the rows.
 std::uint64_t exr_working_memory(std::span<const std::uint8_t> bytes);

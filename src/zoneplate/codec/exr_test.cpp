@@ -56,6 +56,22 @@ std::string error_of(const Bytes& bytes, std::uint64_t most = 10'000) {
   return "no error";
 }
 
+TEST(Exr, ChannelsOfAnyNameAreReadAsTheyAre) {
+  const float values[] = {0.5f, std::numeric_limits<float>::infinity(), -3, 1e30f, 2, 65519};
+  const std::uint32_t numbers[] = {7, 0, 1, 2, 3, 1 << 20};
+  const Bytes file =
+      encode_exr(3, 2, {{"Z", ExrType::Float, values, nullptr, 1}, {"objectId", ExrType::Number, nullptr, numbers, 1}});
+  EXPECT_EQ(exr_channel_names(file), (std::vector<std::string>{"Z", "objectId"}));
+  const std::string names[] = {"objectId", "Z"};
+  const std::vector<Plane<float>> planes = decode_exr_channels(file, "a.exr", names);
+  for (std::size_t i = 0; i < 6; ++i) {
+    EXPECT_EQ(planes[0].values()[i], static_cast<float>(numbers[i]));
+    EXPECT_EQ(planes[1].values()[i], values[i]);
+  }
+  const std::string missing[] = {"Y"};
+  EXPECT_THROW(decode_exr_channels(file, "a.exr", missing), Error);
+}
+
 TEST(Exr, TheLibraryReadsFloatsAsTheyWereWritten) {
   for (const int height : {1, 16, 17, 40}) {
     const LinearImage image = make_image(33, height);

@@ -58,8 +58,10 @@ void leave_out(Measurement& m, Unfit unfit, const std::string& name, const std::
   m.is_left_out = true;
 }
 
-/// Measures the last frames of the window, the newest of which is called `name`.
-void measure(Measurement& m, Frames reference, Frames test, const std::string& name, Unfit unfit) {
+constexpr const char* nothing_to_measure = "has nothing that it could measure";
+
+/// Measures the last frames of the window, the newest of which is image `index`, called `name`.
+void measure(Measurement& m, Frames reference, Frames test, std::size_t index, const std::string& name, Unfit unfit) {
   const Metric& metric = *m.choice->metric;
   const auto required = static_cast<std::size_t>(metric.frames);
   const std::size_t frames = metric.starts_short ? std::min(required, reference.size()) : required;
@@ -68,10 +70,11 @@ void measure(Measurement& m, Frames reference, Frames test, const std::string& n
   if (!why.empty()) return leave_out(m, unfit, name, why);
 
   auto score = metric.measure(reference.last(frames), test.last(frames), m.choice->settings);
-  if (!score) return leave_out(m, unfit, name, "has nothing that it could measure");
+  if (!score && metric.frames > 1) return;  // a later window may have it
+  if (!score) return leave_out(m, unfit, name, nothing_to_measure);
   Result& result = m.result;
   if (result.values.empty() || is_worse(metric, score->value, result.values[result.worst])) {
-    result.worst = result.values.size();
+    result.worst = result.values.size(), result.worst_image = index;
     result.score = std::move(*score);
     result.values.push_back(result.score.value);
   } else {
@@ -117,10 +120,11 @@ Comparison compare(const Comparands& pictures, std::span<const Choice> choices, 
     check_pair(choices, reference.back(), test.back(), name_of(pictures, i));
     out.are_same = out.are_same && has_same_codes(reference.back(), test.back());
     out.width = test.back().width(), out.height = test.back().height();
-    for (Measurement& m : measurements) measure(m, reference, test, name_of(pictures, i), unfit);
+    for (Measurement& m : measurements) measure(m, reference, test, i, name_of(pictures, i), unfit);
   }
 
   for (Measurement& m : measurements) {
+    if (!m.is_left_out && m.result.values.empty()) leave_out(m, unfit, name_of(pictures, 0), nothing_to_measure);
     if (m.is_left_out) continue;
     m.result.value = m.result.values.size() == 1 ? m.result.values[0] : m.choice->metric->pool(m.result.values);
     out.results.push_back(std::move(m.result));

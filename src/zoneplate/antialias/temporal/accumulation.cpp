@@ -72,10 +72,16 @@ TemporalAccumulation::TemporalAccumulation(const TemporalOptions& options)
 
 bool TemporalAccumulation::tests_surfaces() const { return options_.parts.rejection != TemporalParts::Rejection::None; }
 
+/// The position of the frame's samples in their pixels.
+SamplePosition TemporalAccumulation::sample() const {
+  if (context_.given && context_.given->sample) return *context_.given->sample;
+  return jitter_[static_cast<std::size_t>(context_.index) % jitter_.size()];
+}
+
 Request TemporalAccumulation::request(const FrameContext& context) {
   context_ = context;
   Request request;
-  request.samples = {jitter_[static_cast<std::size_t>(context.index) % jitter_.size()]};
+  request.samples = {sample()};
   set_kernel(options_.current, request.samples[0], options_.parts);
   if (options_.bias < 0) request.rate = Rate::Sample, request.footprint = exp2(options_.bias);
   request.halo = Request::whole_image;
@@ -107,7 +113,7 @@ TemporalAccumulation::Current TemporalAccumulation::current_of(const Frame& fram
   out.nearness = plane([&](int x, int y) { return frame.reversed_depth(x, y); });
   out.surface = plane([&](int x, int y) { return number_of(frame.object_id(x, y)); });
   const CameraMotion camera(context_.camera, context_.last_camera, width, height);
-  const SamplePosition jitter = jitter_[static_cast<std::size_t>(context_.index) % jitter_.size()];
+  const SamplePosition jitter = sample();
   Plane<float2> motion(width, height);
   for_each_row(height, [&](int y) {
     for (int x = 0; x < width; ++x) {

@@ -27,6 +27,7 @@ class TemporalAccumulation : public Resolver {
     Bordered nearness, motion[2], surface, last_depth, last_nearness;
     Plane<float> restless;
   };
+  SamplePosition sample() const;
   bool tests_surfaces() const;
   Current current_of(const Frame& frame) const;
   struct ObjectMotion {

@@ -158,9 +158,11 @@ std::vector<metrics::Choice> metrics_of(const std::string& text, int frames) {
   const char* const usual = frames > 1 ? "psnr,tpsnr,flicker" : "psnr,ssim,flip,edge_error";
   for (const std::string& item : split_specs(text.empty() ? usual : text)) {
     out.push_back(metrics::choose_metric(metrics::metrics(), item));
-    if (out.back().metric->frames > frames)
-      throw Error(ErrorKind::Usage, fmt::format("--metric {}: it measures sequences: give --frames {} or more",
-                                                out.back().metric->name, out.back().metric->frames));
+    const metrics::Metric& metric = *out.back().metric;
+    const int least = metric.starts_short ? std::min(metric.frames, 2) : metric.frames;
+    if (least > frames)
+      throw Error(ErrorKind::Usage,
+                  fmt::format("--metric {}: it measures sequences: give --frames {} or more", metric.name, least));
   }
   if (std::ranges::none_of(out, [](const auto& c) { return c.metric->name == "flip"; }))
     out.push_back(metrics::choose_metric(metrics::metrics(), "flip"));

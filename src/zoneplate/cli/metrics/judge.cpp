@@ -220,11 +220,11 @@ class Judge {
         metrics::compare(frames, sequences_, verdicts_.refuses_unfit ? metrics::Unfit::Refuse : metrics::Unfit::Leave);
     for (Result& result : comparison.results) {
       PooledResult& pooled = *std::ranges::find(out_.pooled, result.metric, &PooledResult::metric);
-      pooled.value = result.value, pooled.values = std::move(result.values), pooled.worst = result.worst;
+      pooled.value = result.value, pooled.values = std::move(result.values);
+      pooled.worst = result.worst, pooled.worst_image = result.worst_image;
       if (!result.score.map.empty() && !out_.worst_map) {
-        const std::size_t last = std::min(result.worst + static_cast<std::size_t>(result.metric->frames), pairs.size());
         out_.worst_map = std::move(result.score.map);
-        out_.worst_reference = reference_.load(*pairs[last - 1].reference).display;
+        out_.worst_reference = reference_.load(*pairs[result.worst_image].reference).display;
       }
       pooled.score = std::move(result.score);
     }

@@ -64,6 +64,7 @@ struct PooledResult {
   std::vector<double> values;      ///< of each measured image, or of each run of frames
   std::vector<std::size_t> items;  ///< the items of `values`; empty for metrics of several frames
   std::size_t worst = 0;           ///< index of the worst of `values`
+  std::size_t worst_image = 0;     ///< of metrics of several frames, the index of the newest of its frames
   metrics::Score score;            ///< of the worst image, without its map
 };
 

@@ -24,7 +24,8 @@ std::string common_size(const Judgement& judgement) {
 }
 
 std::string name_of_worst(const Judgement& judgement, const PooledResult& pooled) {
-  if (pooled.items.empty()) return fmt::format("frames from {}", pooled.worst + 1);
+  const auto window = static_cast<std::size_t>(pooled.metric->frames);
+  if (pooled.items.empty()) return fmt::format("frames from {}", std::max(pooled.worst_image + 1, window) - window + 1);
   return judgement.items[pooled.items[pooled.worst]].name;
 }
 
