@@ -117,6 +117,45 @@ TEST_F(BatchRun, ShardsOfAManifestMakeTheFilesOfOneRunAndGoOnWhereTheyWere) {
   EXPECT_EQ(text_of(place / "whole/4.png"), text_of(place / "parts/4.png"));
 }
 
+// The second item ends long before the first, and its large file waits in memory.
+TEST_F(BatchRun, ItemsAtOnceGiveTheLinesAndFilesOfOneAtATime) {
+  const std::string jobs =
+      R"({"input":"sphere:triangles=300000","output":"DIR/a.png","size":"400x300"}
+{"input":"teapot","output":"DIR/b.pfm","size":"900x700"}
+{"input":"nothing.stl","output":"DIR/c.png"}
+{"input":"checkerboard","output":"DIR/d.png"}
+{"input":"checkerboard","output":"DIR/e.png","camera-azimuth-angle":40}
+{"input":"teapot","output":"DIR/f.##.png","turntable":2}
+{"input":"teapot","output":"DIR/g.png","siz":"8"}
+{"input":"triangles","output":"DIR/h.png","max-seconds":60}
+{"input":"triangles","output":"DIR/i.png","max-memory":"1G"}
+)";
+  std::vector<std::string> reports;
+  for (const std::string folder : {"one", "two"}) {
+    fs::create_directory(place / folder);
+    std::string text = jobs;
+    for (std::size_t at = text.find("DIR"); at != text.npos; at = text.find("DIR")) text.replace(at, 3, folder);
+    write("jobs.jsonl", text);
+    EXPECT_EQ(
+        run("--manifest jobs.jsonl --size 64x48 --max-memory 512M -t " + std::string(folder == "one" ? "1" : "4")), 5)
+        << complaint;
+    std::string report = complaint;
+    for (nlohmann::json& line : lines) {
+      for (const char* name : {"output", "stage_ms", "seconds", "threads", "peak_memory_bytes"}) line.erase(name);
+      report += line.dump() + '\n';
+    }
+    reports.push_back(report);
+    EXPECT_EQ(lines.size(), 9u);
+  }
+  EXPECT_EQ(reports[0], reports[1]);
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(place / "one")) {
+    EXPECT_EQ(text_of(entry.path()), text_of(place / "two" / entry.path().filename())) << entry.path();
+    ++files;
+  }
+  EXPECT_EQ(files, 8);
+}
+
 TEST_F(BatchRun, AManifestsBadLinesAreNamed) {
   write("jobs.jsonl",
         "{\"input\":\"teapot\",\"output\":\"a.png\"}\n{]\n{\"output\":\"b.png\"}\n"

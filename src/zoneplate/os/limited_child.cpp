@@ -7,6 +7,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstring>
@@ -27,6 +29,9 @@ bool is_child = false;
 
 /// The first byte of an answer: this value, or the kind of the error whose message follows.
 constexpr std::uint8_t good = 255;
+
+constexpr int pipe_bytes = 1 << 20;
+constexpr int poll_ms = 50;
 
 void write_whole(int pipe, const void* data, std::size_t size) {
   const auto* at = static_cast<const char*>(data);
@@ -120,34 +125,78 @@ LimitedChild::LimitedChild(std::string place, Limits limits, const std::function
   };
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) no(errno);
-  constexpr int pipe_bytes = 1 << 20;
   ::fcntl(ends[1], F_SETPIPE_SZ, pipe_bytes);
   const pid_t parent = ::getpid();
   const int threads = thread_limit();
   id_ = ::fork();
   if (id_ == 0) {
     ::close(ends[0]);
+    // The answers of its siblings are not accessible to it.
+    if (limits_.siblings)
+      for (const LimitedChild* sibling : limits_.siblings->all_) ::close(sibling->pipe_);
     be_child(ends[1], parent, threads, {place_, limits_, work, open});
   }
   const int error = errno;
   ::close(ends[1]);
   pipe_ = ends[0];
   if (id_ < 0) ::close(pipe_), no(error);
+  if (limits_.siblings) limits_.siblings->all_.push_back(this);
 }
 
 LimitedChild::~LimitedChild() {
+  if (limits_.siblings) std::erase(limits_.siblings->all_, this);
   ::close(pipe_);
   if (id_ < 0) return;
   ::kill(id_, SIGKILL);
   while (::waitpid(id_, nullptr, 0) < 0 && errno == EINTR) continue;
 }
 
+bool LimitedChildren::wait_for(const LimitedChild& child) {
+  constexpr std::size_t most_kept = std::size_t{256} << 20;
+  std::size_t kept = 0;
+  for (const LimitedChild* other : all_) kept += other->kept_.size() - other->taken_;
+  std::vector<LimitedChild*> others;
+  std::vector<pollfd> pipes{{child.pipe_, POLLIN, 0}};
+  for (LimitedChild* other : all_)
+    if (other != &child && !other->has_ended_ && kept < most_kept)
+      others.push_back(other), pipes.push_back({other->pipe_, POLLIN, 0});
+  if (::poll(pipes.data(), pipes.size(), poll_ms) <= 0) return false;
+  bool is_one_at_its_end = false;
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    if (pipes[i + 1].revents == 0) continue;
+    others[i]->keep_some();
+    is_one_at_its_end = is_one_at_its_end || others[i]->has_ended_;
+  }
+  if (is_one_at_its_end) has_ended_();
+  return pipes[0].revents != 0;
+}
+
+void LimitedChild::keep_some() {
+  std::array<std::uint8_t, 65536> part;
+  const ssize_t n = ::read(pipe_, part.data(), part.size());
+  if (n > 0) kept_.insert(kept_.end(), part.begin(), part.begin() + n);
+  has_ended_ = n == 0;
+}
+
+std::size_t LimitedChild::take_kept(void* out, std::size_t size) {
+  const std::size_t n = std::min(size, kept_.size() - taken_);
+  if (n > 0) std::memcpy(out, kept_.data() + taken_, n);
+  taken_ += n;
+  if (taken_ == kept_.size()) kept_.clear(), taken_ = 0;
+  return n;
+}
+
+bool LimitedChild::wait() const {
+  if (limits_.siblings) return limits_.siblings->wait_for(*this);
+  pollfd waiting{pipe_, POLLIN, 0};
+  return ::poll(&waiting, 1, poll_ms) > 0;
+}
+
 std::size_t LimitedChild::read_some(void* out, std::size_t size) {
-  std::size_t done = 0;
+  std::size_t done = take_kept(out, size);
   while (done < size) {
     if (limits_.check_time) limits_.check_time();
-    pollfd waiting{pipe_, POLLIN, 0};
-    if (::poll(&waiting, 1, 50) <= 0) continue;
+    if (!wait()) continue;
     const ssize_t n = ::read(pipe_, static_cast<char*>(out) + done, size - done);
     if (n == 0) break;
     if (n > 0) done += static_cast<std::size_t>(n);

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace zoneplate {
@@ -21,6 +22,29 @@ class ChildAnswer {
  private:
   int pipe_;
   bool is_begun_ = false;
+};
+
+class LimitedChild;
+
+/// Children that work at the same time, while the parent reads their answers one after the other.
+///
+/// As long as the parent waits for one of them, it moves the answers of the others into memory, so that they do not
+/// wait for it.
+class LimitedChildren {
+ public:
+  /// `has_ended` is called when a child whose answer the parent does not read at present has written all of it.
+  /// Requires  it throws nothing; it may start children.
+  explicit LimitedChildren(std::function<void()> has_ended) : has_ended_(std::move(has_ended)) {}
+  LimitedChildren(const LimitedChildren&) = delete;
+  LimitedChildren& operator=(const LimitedChildren&) = delete;
+
+ private:
+  friend class LimitedChild;
+  /// Waits for at most 50 ms until the child's answer can be read; whether it can.
+  bool wait_for(const LimitedChild& child);
+
+  std::function<void()> has_ended_;
+  std::vector<LimitedChild*> all_;
 };
 
 /// True in the process of a LimitedChild, in which work does not need another child.
@@ -45,6 +69,7 @@ class LimitedChild {
     std::optional<std::vector<std::string>> readable = {};  ///< files and folders; nothing: all that the user may read
     /// The subject of error messages about the end of the child.
     std::string worker = "its reader";
+    LimitedChildren* siblings = nullptr;  ///< the child becomes one of them; they outlive it
   };
 
   /// `open` runs in the child before the sandbox is entered, to open libraries.
@@ -56,7 +81,14 @@ class LimitedChild {
 
   void read(void* out, std::size_t size);
 
+  /// Whether the child's whole answer is in the parent's memory.
+  bool has_ended() const { return has_ended_; }
+
  private:
+  friend class LimitedChildren;
+  void keep_some();
+  std::size_t take_kept(void* out, std::size_t size);
+  bool wait() const;
   std::size_t read_some(void* out, std::size_t size);
   void begin();
   [[noreturn]] void fail();
@@ -64,7 +96,9 @@ class LimitedChild {
   std::string place_;
   Limits limits_;
   int id_ = -1, pipe_ = -1;
-  bool is_begun_ = false;
+  bool is_begun_ = false, has_ended_ = false;
+  std::vector<std::uint8_t> kept_;  ///< read ahead
+  std::size_t taken_ = 0;           ///< bytes of `kept_` that `read` has returned
 };
 
 }  // namespace zoneplate

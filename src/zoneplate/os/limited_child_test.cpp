@@ -145,5 +145,42 @@ TEST(LimitedChild, IsEndedByWhatNoReaderNeeds) {
   EXPECT_EQ(complaint_about(read), "");
 }
 
+/// The first child answers after the second has ended, which writes more than a pipe holds.
+TEST(LimitedChildren, WorkWhileTheParentReadsOneOfThem) {
+  constexpr std::size_t size = 5'000'000;
+  int ended = 0, end_of_second[2];
+  LimitedChildren children([&] { ++ended; });
+  ASSERT_EQ(::pipe(end_of_second), 0);
+  const Stopwatch watch;
+  LimitedChild::Limits limits{.check_time =
+                                  [&] {
+                                    if (watch.ms() > 20000) throw Error(ErrorKind::Failed, "they wait for each other");
+                                  },
+                              .is_sandboxed = false,
+                              .siblings = &children};
+  const auto answer_bytes = [](ChildAnswer& answer, std::uint8_t value) {
+    const std::vector<std::uint8_t> bytes(size, value);
+    answer.write(bytes.data(), bytes.size());
+  };
+  LimitedChild first("first", limits, [&](ChildAnswer& answer) {
+    ::close(end_of_second[1]);
+    std::uint8_t byte = 0;
+    if (::read(end_of_second[0], &byte, 1) != 0) std::abort();
+    answer_bytes(answer, 1);
+  });
+  LimitedChild second("second", limits, [&](ChildAnswer& answer) { answer_bytes(answer, 2); });
+  ::close(end_of_second[1]);
+  std::vector<std::uint8_t> bytes(size);
+  first.read(bytes.data(), bytes.size());
+  EXPECT_EQ(bytes, std::vector<std::uint8_t>(size, 1));
+  EXPECT_EQ(ended, 1);
+  EXPECT_TRUE(second.has_ended());
+  second.read(bytes.data(), 100);
+  second.read(bytes.data() + 100, bytes.size() - 100);
+  EXPECT_EQ(bytes, std::vector<std::uint8_t>(size, 2));
+  EXPECT_THROW(second.read(bytes.data(), 1), Error);
+  ::close(end_of_second[0]);
+}
+
 }  // namespace
 }  // namespace zoneplate

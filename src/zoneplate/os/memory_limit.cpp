@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <fstream>
 
 namespace zoneplate {
 namespace {
@@ -38,6 +39,16 @@ void limit_memory(std::uint64_t bytes) {
   const rlim_t requested = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + bytes;
   limit.rlim_cur = std::min(requested, limit.rlim_max);
   ::setrlimit(RLIMIT_DATA, &limit);
+}
+
+std::uint64_t machine_memory() {
+  std::uint64_t bytes =
+      static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
+  // A container's own group is the mounted folder; the file is missing outside of containers, and contains "max"
+  // without a limit.
+  std::ifstream file("/sys/fs/cgroup/memory.max");
+  if (std::uint64_t limit = 0; file >> limit) bytes = std::min(bytes, limit);
+  return bytes;
 }
 
 }  // namespace zoneplate

@@ -11,4 +11,7 @@ namespace zoneplate {
 /// For programs, not libraries: the limit is that of the whole process (RLIMIT_DATA), and child processes inherit it.
 void limit_memory(std::uint64_t bytes);
 
+/// The memory of this machine in bytes, or the limit of the container's control group (version 2) if that is less.
+std::uint64_t machine_memory();
+
 }  // namespace zoneplate

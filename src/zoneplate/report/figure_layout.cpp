@@ -12,7 +12,7 @@ constexpr double title_scale = 1.5;  // documented in figure.h
 
 /// A typeface, and how it was made.
 struct Face {
-  Face(Typeface::Weight weight, int px) : typeface(weight, px), weight(weight), px(px) {}
+  Face(Typeface::Weight of, int height) : typeface(of, height), weight(of), px(height) {}
   Typeface typeface;
   Typeface::Weight weight;
   int px;

@@ -4,13 +4,18 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <deque>
+#include <exception>
 #include <filesystem>
+#include <limits>
 #include <new>
 #include <optional>
 #include <utility>
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/render/frame_name.h"
 #include "zoneplate/cli/render/input_names.h"
 #include "zoneplate/cli/render/items.h"
@@ -19,6 +24,7 @@
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/formats/json/json.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/os/memory_limit.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -97,12 +103,22 @@ class Jobs {
   Syntax syntax_;  ///< its options set args_
 };
 
-// Processes items in order. Consecutive items with one model are processed together, in one process.
+// How many models are processed at once: as many as there are threads, if their memory limits together do not exceed
+// the machine's memory.
+std::size_t most_at_once(std::uint64_t memory_limit) {
+  const std::uint64_t fit = machine_memory() / std::max<std::uint64_t>(memory_limit, 1);
+  return static_cast<std::size_t>(std::clamp<std::uint64_t>(fit, 1, static_cast<std::uint64_t>(thread_limit())));
+}
+
+// Processes items, several at once, and reports them in order. Consecutive items with one model form a group, which is
+// processed in one process.
 class Batch {
  public:
   Batch(const RenderArgs& common, std::uint64_t size)
       : common_(common),
         size_(size),
+        threads_(thread_limit()),
+        most_at_once_(most_at_once(common.load.limits.memory)),
         progress_(common.progress ? *common.progress : parse_progress("auto")),
         prints_text_(::isatty(STDOUT_FILENO) == 1 && !common.prints_json) {}
 
@@ -112,19 +128,16 @@ class Batch {
     try {
       RenderArgs args = make();
       args.progress = ProgressKind::None;
-      const bool is_alike = !items_.empty() && args.input != "-" && model_key(args) == model_key(items_.front().args) &&
-                            args.max_seconds == items_.front().args.max_seconds &&
-                            args.is_sandboxed == items_.front().args.is_sandboxed;
-      if (!is_alike || items_.size() >= most_together) flush();
-      items_.push_back({name, std::move(args)});
-    } catch (const std::exception& error) {
-      flush();
-      report(failure(name, error), Stopwatch());
+      const bool is_alike = !groups_.empty() && groups_.back().is_open(args);
+      if (!is_alike) add_group().is_ahead = can_be_ahead(args);
+      groups_.back().items.push_back({name, std::move(args), nullptr});
+    } catch (const std::exception&) {
+      add_group().items.push_back({name, {}, std::current_exception()});
     }
   }
 
   void finish() {
-    flush();
+    while (!groups_.empty()) report_first();
     if (failed_ > 0) throw PartialFailure(fmt::format("{} of {} items failed", failed_, count_));
   }
 
@@ -132,41 +145,91 @@ class Batch {
   struct Item {
     std::string name;
     RenderArgs args;
+    std::exception_ptr error;  ///< of its arguments
+    bool is_rendered = false;  ///< by the group's process
+  };
+  struct Group {
+    std::vector<Item> items;
+    bool is_ahead = false;    ///< may be processed before all earlier items are complete
+    bool is_started = false;  ///< `process` is complete
+    std::optional<RenderItems> process;
+    int threads = 1;  ///< of the process
+
+    bool is_open(const RenderArgs& next) const {
+      if (items.front().error || next.input == "-" || items.size() >= most_together) return false;
+      const RenderArgs& args = items.front().args;
+      return model_key(next) == model_key(args) && next.max_seconds == args.max_seconds &&
+             next.is_sandboxed == args.is_sandboxed && can_be_ahead(next) == is_ahead;
+    }
+    bool is_working() const { return process && process->is_working(); }
   };
   static constexpr std::size_t most_together = 64;  // limits the delay of results in a long batch
+  static constexpr std::size_t most_waiting = 8;    // groups for each that is processed, while the first one takes long
 
-  void flush() {
-    std::vector<Item> items = std::exchange(items_, {});
+  // Whether an item's result may wait in memory. A sequence may be too large for that; and a process whose results are
+  // not yet read may come to a stop, which a limit of time would count.
+  static bool can_be_ahead(const RenderArgs& args) {
+    return !args.sequence.is_sequence() && args.max_seconds == std::numeric_limits<double>::infinity();
+  }
+
+  Group& add_group() {
+    while (groups_.size() >= most_waiting * most_at_once_) report_first();
+    return groups_.emplace_back();
+  }
+
+  void start(Group& group) {
+    group.is_started = true;
     std::vector<RenderArgs> to_render;
-    std::vector<bool> is_rendered;
-    for (const Item& item : items) {
-      is_rendered.push_back(!common_.is_dry_run && !is_skipped(item.args));
-      if (is_rendered.back()) to_render.push_back(item.args);
+    for (Item& item : group.items) {
+      item.is_rendered = !item.error && !common_.is_dry_run && !is_skipped(item.args);
+      if (item.is_rendered) to_render.push_back(item.args);
     }
-    std::optional<RenderItems> process;
-    if (!to_render.empty()) process.emplace(std::move(to_render));
-    for (std::size_t i = 0; i < items.size(); ++i) {
-      const Stopwatch watch;
-      report(is_rendered[i]       ? render(items[i], *process)
-             : common_.is_dry_run ? planned(items[i])
-                                  : skipped(items[i]),
-             watch);
+    if (to_render.empty()) return;
+    group.threads = threads_ / static_cast<int>(std::min(most_at_once_, groups_.size()));
+    group.process.emplace(std::move(to_render), &processes_);
+    with_threads(group.threads, [&] { group.process->start_ahead(); });
+  }
+
+  // Starts the first group, and as many of the next ones as can be processed at the same time.
+  void start_some() {
+    std::size_t working = 0;
+    for (const Group& group : groups_) working += group.is_working() ? 1 : 0;
+    for (Group& group : groups_) {
+      const bool is_first = &group == &groups_.front();
+      if (group.is_started || (!is_first && (working >= most_at_once_ || !group.is_ahead))) continue;
+      start(group);
+      working += group.is_working() ? 1 : 0;
     }
   }
 
-  Json::Object render(const Item& item, RenderItems& process) {
+  void report_first() {
+    start_some();
+    Group& group = groups_.front();
+    for (const Item& item : group.items) {
+      const Stopwatch watch;
+      report(item.error           ? failure(item.name, item.error)
+             : item.is_rendered   ? render(item, group)
+             : common_.is_dry_run ? planned(item)
+                                  : skipped(item),
+             watch);
+    }
+    groups_.pop_front();
+  }
+
+  Json::Object render(const Item& item, Group& group) {
     progress_.begin(fmt::format("{} of {}: {}", count_ + 1, size_, item.name),
                     static_cast<double>(count_) / static_cast<double>(size_));
     try {
-      const Stopwatch watch;
-      const Summary summary = process.next();
+      Summary summary;
+      with_threads(group.threads, [&] { summary = group.process->next(); });
       print_text(fmt::format("{} -> {}, {} × {}, {:.0f} ms", item.name, item.args.output, summary.width, summary.height,
-                             watch.ms()));
+                             summary.total_ms()));
       Json::Object line = summary_json(item.args, summary);
       line.emplace(line.begin() + 4, "status", "done");
+      line.emplace_back("seconds", summary.total_ms() / 1000);
       return line;
-    } catch (const std::exception& error) {
-      return failure(item.name, error);
+    } catch (const std::exception&) {
+      return failure(item.name, std::current_exception());
     }
   }
 
@@ -183,10 +246,9 @@ class Batch {
     return plan_json(item.args, is_left_out ? "skipped" : "planned");
   }
 
-  Json::Object failure(const std::string& name, const std::exception& error) {
+  Json::Object failure(const std::string& name, const std::exception_ptr& error) {
     ++failed_;
-    const bool is_memory = dynamic_cast<const std::bad_alloc*>(&error) != nullptr;
-    const std::string cause = is_memory ? name + ": out of memory" : error.what();
+    const std::string cause = cause_of(name, error);
     progress_.clear();
     say_error(cause);
     return {{"format", "zoneplate-render"},
@@ -197,8 +259,18 @@ class Batch {
             {"error", cause}};
   }
 
+  static std::string cause_of(const std::string& name, const std::exception_ptr& error) {
+    try {
+      std::rethrow_exception(error);
+    } catch (const std::bad_alloc&) {
+      return name + ": out of memory";
+    } catch (const std::exception& cause) {
+      return cause.what();
+    }
+  }
+
   void report(Json::Object line, const Stopwatch& watch) {
-    line.emplace_back("seconds", watch.ms() / 1000);
+    if (line.back().first != "seconds") line.emplace_back("seconds", watch.ms() / 1000);
     ++count_;
     progress_.clear();
     if (common_.verbosity != Verbosity::Quiet && !prints_text_) print(Json(std::move(line)).text() + '\n');
@@ -212,9 +284,12 @@ class Batch {
 
   const RenderArgs& common_;
   const std::uint64_t size_;
+  const int threads_;
+  const std::size_t most_at_once_;
   Progress progress_;
   const bool prints_text_;
-  std::vector<Item> items_;  ///< pending items, all with one model
+  LimitedChildren processes_{[this] { start_some(); }};
+  std::deque<Group> groups_;  ///< those that are not yet reported
   std::uint64_t count_ = 0, failed_ = 0;
 };
 

@@ -80,11 +80,19 @@ class Body {
 void ItemSender::send(Kind kind, int first, int second, std::span<const std::uint8_t> bytes) {
   const Header header{.kind = kind, .first = first, .second = second, .size = bytes.size()};
   const std::lock_guard lock(mutex_);
-  write_({reinterpret_cast<const std::uint8_t*>(&header), sizeof header});
-  if (!bytes.empty()) write_(bytes);
+  const auto* first_byte = reinterpret_cast<const std::uint8_t*>(&header);
+  constexpr std::size_t small = 4096;  // one write wakes the receiver once
+  if (bytes.size() > small) {
+    write_({first_byte, sizeof header});
+    return write_(bytes);
+  }
+  std::vector<std::uint8_t> whole(first_byte, first_byte + sizeof header);
+  whole.insert(whole.end(), bytes.begin(), bytes.end());
+  write_(whole);
 }
 
 void ItemSender::progress(std::string_view stage, double done) {
+  if (!sends_progress_) return;
   send(Kind::Progress, static_cast<int>(std::clamp(done, 0.0, 1.0) * progress_steps), 0, bytes_of(stage));
 }
 std::function<void(double)> ItemSender::progress_of(std::string stage, double from, double to) {

@@ -26,6 +26,8 @@ class ItemSender {
   using Write = std::function<void(std::span<const std::uint8_t>)>;
   explicit ItemSender(Write write) : write_(std::move(write)) {}
 
+  /// From now on progress is not sent.
+  void mute_progress() { sends_progress_ = false; }
   /// Reports that `stage` begins when the fraction `done` of the whole work, in [0, 1], is complete.
   void progress(std::string_view stage, double done);
   /// Reports that reading is complete, so that its time limit no longer applies.
@@ -58,7 +60,7 @@ class ItemSender {
 
   Write write_;
   std::mutex mutex_;
-  bool is_past_reading_ = false;
+  bool is_past_reading_ = false, sends_progress_ = true;
 };
 
 /// The handlers of the receiver. A member may be null: such messages are then errors of the sender, except progress,

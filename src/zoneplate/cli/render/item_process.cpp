@@ -59,8 +59,16 @@ void ItemProcess::start(std::size_t first) {
   limits.is_sandboxed = limits_.is_sandboxed;
   limits.readable = limits_.readable;
   limits.worker = "its process";
+  limits.siblings = limits_.siblings;
   child_ = std::make_unique<LimitedChild>(limits_.name, limits,
                                           [this, first](ChildAnswer& answer) { work_on(first, answer); });
+}
+
+void ItemProcess::start_ahead() noexcept {
+  try {
+    start(0);
+  } catch (const std::exception&) {
+  }
 }
 
 /// Runs in the child. The first failing job ends the process, so that no job starts in a damaged one.

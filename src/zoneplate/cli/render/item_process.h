@@ -24,6 +24,7 @@ struct ItemLimits {
   double seconds = std::numeric_limits<double>::infinity();  ///< elapsed time limit of the whole item
   bool is_sandboxed = true;                                  ///< if the kernel supports sandboxes
   std::optional<std::vector<std::string>> readable = {};     ///< files and folders; nothing: every file
+  LimitedChildren* siblings = nullptr;                       ///< the processes that work at the same time
 };
 
 /// Runs the work of one item, or of several items with one model, in a separate process: a sandboxed fork of this one
@@ -39,8 +40,13 @@ class ItemProcess {
   ItemProcess(ItemLimits limits, std::size_t jobs, Work work);
   ~ItemProcess();
 
-  /// The result of the next job. The first call starts the process. The handlers has_read and needs_library are added
-  /// here.
+  /// Starts the process of the first job, if possible; otherwise `next` starts it and reports the error.
+  void start_ahead() noexcept;
+  /// Whether a process is at work whose answers are not yet complete in memory.
+  bool is_working() const { return child_ && !child_->has_ended(); }
+
+  /// The result of the next job. The first call starts the process if it does not run yet. The handlers has_read and
+  /// needs_library are added here.
   ///
   /// Errors    exceptions of the job; if its process runs out of memory or time or is ended by a signal,
   ///           ErrorKind::Input while it reads its model and ErrorKind::Failed after that; exceptions of the handlers.

@@ -15,7 +15,7 @@ namespace zoneplate::cli {
 namespace {
 
 /// The limits of several items with one model.
-ItemLimits limits_of(const std::vector<RenderArgs>& items) {
+ItemLimits limits_of(const std::vector<RenderArgs>& items, LimitedChildren* siblings) {
   const RenderArgs& args = items.front();
   std::vector<std::string> readable = readable_paths(args.input, args.load);
   for (const RenderArgs& item : items) {
@@ -27,8 +27,11 @@ ItemLimits limits_of(const std::vector<RenderArgs>& items) {
           .load = args.load.limits,
           .seconds = args.max_seconds,
           .is_sandboxed = uses_sandbox(args.is_sandboxed),
-          .readable = std::move(readable)};
+          .readable = std::move(readable),
+          .siblings = siblings};
 }
+
+ProgressKind progress_of(const RenderArgs& args) { return args.progress ? *args.progress : parse_progress("auto"); }
 
 // Passes `size` bytes on in parts, so that a large file is never in memory as a whole.
 template <class Take>
@@ -45,10 +48,11 @@ void for_parts(std::uint64_t size, const ItemEvents::Read& read, Take take) {
 
 }  // namespace
 
-RenderItems::RenderItems(std::vector<RenderArgs> items)
+RenderItems::RenderItems(std::vector<RenderArgs> items, LimitedChildren* siblings)
     : items_(std::move(items)),
-      process_(limits_of(items_), items_.size(),
+      process_(limits_of(items_, siblings), items_.size(),
                [this, jobs = std::make_shared<RenderJobs>()](std::size_t i, ItemSender& sender) {
+                 if (progress_of(items_[i]) == ProgressKind::None) sender.mute_progress();
                  return pack_summary(jobs->run(items_[i], sender));
                }) {}
 
@@ -56,7 +60,7 @@ Summary RenderItems::next() {
   const RenderArgs& args = items_[next_++];
   const Stopwatch total;
   double write_ms = 0;
-  Progress progress(args.progress ? *args.progress : parse_progress("auto"));
+  Progress progress(progress_of(args));
   std::optional<FfmpegFilm> film;
   ItemEvents events;
   events.progress = [&](std::string_view stage, double done) { progress.begin(stage, done); };
@@ -95,7 +99,7 @@ Summary RenderItems::next() {
   }
   for (auto& [name, ms] : summary.times) {
     if (name == "write") ms = write_ms;
-    if (name == "total") ms = total.ms();
+    if (name == "total") ms = std::max(ms + write_ms, total.ms());  // `total` is short if the process began earlier
   }
   return summary;
 }

@@ -12,8 +12,13 @@ namespace zoneplate::cli {
 /// this class writes their files.
 class RenderItems {
  public:
+  /// `siblings`: the processes of other items that work at the same time; none if null.
   /// Requires  at least one item.
-  explicit RenderItems(std::vector<RenderArgs> items);
+  explicit RenderItems(std::vector<RenderArgs> items, LimitedChildren* siblings = nullptr);
+
+  /// Starts the process, whose results `next` then returns.
+  void start_ahead() noexcept { process_.start_ahead(); }
+  bool is_working() const { return process_.is_working(); }
 
   /// Processes the next item.
   ///

@@ -13,12 +13,6 @@
 namespace zoneplate::cli {
 namespace {
 
-double seconds_of(const Summary& summary) {
-  for (const auto& [name, ms] : summary.times)
-    if (name == "total") return ms / 1000;
-  return 0;
-}
-
 void print_summary(const RenderArgs& args, const Summary& summary) {
   if (args.verbosity == Verbosity::Verbose) {
     std::string times;
@@ -29,7 +23,8 @@ void print_summary(const RenderArgs& args, const Summary& summary) {
   }
   const bool is_silent = args.verbosity != Verbosity::Normal || args.prints_json || args.output == "-";
   if (!is_silent && stderr_is_terminal())
-    say_note(fmt::format("{}: {} × {}, {:.2f} s", args.output, summary.width, summary.height, seconds_of(summary)));
+    say_note(
+        fmt::format("{}: {} × {}, {:.2f} s", args.output, summary.width, summary.height, summary.total_ms() / 1000));
   if (!args.prints_json) return;
   const std::string line = Json(summary_json(args, summary)).text() + '\n';
   if (args.output == "-")

@@ -20,6 +20,9 @@ struct Summary {
   int frames = 1;
   float exposure = 1;             ///< the factor that was applied, DisplayOptions::exposure
   std::uint64_t peak_memory = 0;  ///< peak resident memory of the process that did the work, in bytes
+
+  /// The time from the start of reading to the written file.
+  double total_ms() const;
 };
 
 /// Serializes the summary for the parent process.
