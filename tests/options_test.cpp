@@ -205,7 +205,15 @@ TEST_F(Options, AnExrIsTransparentAndHasItsCamera) {
   EXPECT_NEAR(place_of(1, top)[1], 0, 1e-5);
   EXPECT_NEAR(place_of(1 + 2 * (top - 2), 2)[0], 1, 1e-5);
   EXPECT_EQ((attribute<std::uint32_t, 2>(file, "framesPerSecond", "rational")),
-            (std::array<std::uint32_t, 2>{23976, 1000}));
+            (std::array<std::uint32_t, 2>{24000, 1001}));
+  const auto near = attribute<float, 1>(file, "cameraNearClip", "float"),
+             far = attribute<float, 1>(file, "cameraFarClip", "float");
+  ASSERT_TRUE(near && far);
+  EXPECT_TRUE(0 < (*near)[0] && (*near)[0] < (*far)[0]);
+  EXPECT_EQ((attribute<std::uint32_t, 2>(file, "timeCode", "timecode")), (std::array<std::uint32_t, 2>{0, 0}));
+  ASSERT_EQ(run("triangles -o t.####.exr --size 8x8 -s 88201 -e 88201").code, 0);  // an hour, a minute, 15 s, one frame
+  EXPECT_EQ((attribute<std::uint32_t, 2>(text_of(place / "t.88201.exr"), "timeCode", "timecode")),
+            (std::array<std::uint32_t, 2>{0x01011501, 0}));
   EXPECT_TRUE((attribute<float, 8>(file, "chromaticities", "chromaticities")));
   EXPECT_FALSE((attribute<std::uint32_t, 2>(text_of(place / "b.exr"), "framesPerSecond", "rational")));
 }

@@ -53,6 +53,9 @@ void put_attribute(Bytes& out, std::string_view name, float value) {
 void put_attribute(Bytes& out, std::string_view name, ExrRational value) {
   put_attribute(out, name, "rational", values_of(value.numerator, value.denominator));
 }
+void put_attribute(Bytes& out, std::string_view name, ExrTimeCode value) {
+  put_attribute(out, name, "timecode", values_of(value.packed, std::uint32_t{0}));
+}
 void put_attribute(Bytes& out, std::string_view name, const ExrChromaticities& value) {
   put_attribute(out, name, "chromaticities", values_of(value));
 }

@@ -35,6 +35,12 @@ struct ExrRational {
   std::int32_t numerator = 0;
   std::uint32_t denominator = 1;
 };
+/// A time code of SMPTE 12M in the packing of 60 fields per second: bits 0 to 3 and 4 to 5 are the units and tens of
+/// the frame, 8 to 11 and 12 to 14 those of the second, 16 to 19 and 20 to 22 of the minute, 24 to 27 and 28 to 29 of
+/// the hour. The flags between them are 0.
+struct ExrTimeCode {
+  std::uint32_t packed = 0;
+};
 /// The (x, y) of red, green, blue and white.
 using ExrChromaticities = std::array<float, 8>;
 /// The Rec.709 primaries, and D65: those of scene-linear images.
@@ -42,7 +48,7 @@ inline constexpr ExrChromaticities rec709_chromaticities = {0.64f, 0.33f, 0.3f, 
 /// A 4 × 4 matrix that multiplies row vectors, row by row.
 using ExrMatrix = std::array<float, 16>;
 /// The value of an attribute of a header.
-using ExrValue = std::variant<std::string, float, ExrRational, ExrChromaticities, ExrMatrix>;
+using ExrValue = std::variant<std::string, float, ExrRational, ExrTimeCode, ExrChromaticities, ExrMatrix>;
 using ExrAttributes = std::vector<std::pair<std::string, ExrValue>>;
 
 /// The compression of an OpenEXR image; the values are those of its header.

@@ -33,15 +33,26 @@ float4x4 ndc_from_clip(const RenderOptions& options) {
   return {{{{0.5f * w, 0, 0, 0}, {0, -0.5f * h, 0, 0}, {0, 0, 1, 0}, {0.5f * w - x, 0.5f * h - y, 0, 1}}}};
 }
 
-// The rate as a fraction of integers, in thousandths where it is not whole.
+// The rate as a fraction of integers: 24000/1001 and the like for the rates of NTSC, thousandths for others that are
+// not whole.
 ExrRational rational(double rate) {
-  const std::uint32_t per = rate == std::floor(rate) ? 1 : 1000;
-  return {static_cast<std::int32_t>(std::lround(rate * per)), per};
+  if (rate == std::floor(rate)) return {static_cast<std::int32_t>(rate), 1};
+  const double nominal = std::round(rate * 1.001);
+  if (std::abs(rate - nominal / 1.001) < 0.001) return {static_cast<std::int32_t>(nominal) * 1000, 1001};
+  return {static_cast<std::int32_t>(std::lround(rate * 1000)), 1000};
+}
+
+// Source: SMPTE ST 12-1; OpenEXR, ImfTimeCode.h.
+ExrTimeCode time_code(int frame, int per_second) {
+  const auto two_digits = [](int value) { return static_cast<std::uint32_t>(value / 10 * 16 + value % 10); };
+  const int seconds = frame / per_second;
+  return {two_digits(frame % per_second) | two_digits(seconds % 60) << 8 | two_digits(seconds / 60 % 60) << 16 |
+          two_digits(seconds / 3600 % 24) << 24};
 }
 
 }  // namespace
 
-ExrAttributes exr_header(const RenderArgs& args, const Camera& camera) {
+ExrAttributes exr_header(const RenderArgs& args, const Camera& camera, std::optional<int> frame) {
   const float4x4 camera_from_world = inverse(camera.world_from_camera);
   const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
   ExrAttributes out;
@@ -50,7 +61,13 @@ ExrAttributes exr_header(const RenderArgs& args, const Camera& camera) {
   out.emplace_back("worldToCamera", exr_matrix(mirrored_z * camera_from_world));
   out.emplace_back("worldToNDC",
                    exr_matrix(ndc_from_clip(args.options) * camera.clip_from_camera(aspect) * camera_from_world));
-  if (args.sequence.is_sequence()) out.emplace_back("framesPerSecond", rational(args.sequence.rate));
+  out.emplace_back("cameraNearClip", camera.near);
+  out.emplace_back("cameraFarClip", camera.far);
+  if (!args.sequence.is_sequence()) return out;
+  out.emplace_back("framesPerSecond", rational(args.sequence.rate));
+  const double nominal = std::round(args.sequence.rate);
+  if (frame && *frame >= 0 && nominal >= 1 && nominal <= 30)
+    out.emplace_back("timeCode", time_code(*frame, static_cast<int>(nominal)));
   return out;
 }
 

@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "zoneplate/cli/render/args.h"
 #include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/scene/camera.h"
 
 namespace zoneplate::cli {
 
-/// The standard attributes of an image in OpenEXR: software, chromaticities, worldToCamera, worldToNDC and, of a
-/// sequence, framesPerSecond.
+/// The standard attributes of an image in OpenEXR: software, chromaticities, worldToCamera, worldToNDC, the distances
+/// of the clip planes (cameraNearClip, cameraFarClip, as V-Ray writes them) and, of a frame of a sequence,
+/// framesPerSecond and, up to 30 frames per second, timeCode: without dropped frames, frame 0 at 00:00:00:00, from 0
+/// again after a day.
 ///
 /// Space     those of OpenEXR: row vectors; camera space is left-handed and looks along +z; NDC is (0, 0) at the
 ///           top-left and (1, 1) at the bottom-right corner of the image, or of the crop.
 /// Source    OpenEXR, Standard Attributes, openexr.com.
-ExrAttributes exr_header(const RenderArgs& args, const Camera& camera);
+ExrAttributes exr_header(const RenderArgs& args, const Camera& camera, std::optional<int> frame);
 
 }  // namespace zoneplate::cli

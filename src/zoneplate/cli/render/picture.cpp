@@ -173,14 +173,14 @@ float metered_exposure(const PreparedScene& scene, const Camera& camera, const R
 }
 
 Rendered finish_picture(const RenderArgs& args, RenderedImage image, const Scene& scene, const Camera& camera,
-                        const std::string& output, Summary& summary) {
+                        const std::string& output, Summary& summary, std::optional<int> frame) {
   const Stopwatch watch;
   const DisplayOptions display = display_of(args);
   Rendered out;
   out.image = std::move(image.display);
   out.image16 = std::move(image.display16);
   if (is_linear(output)) out.linear = over_background(std::move(image.linear), display);
-  if (is_exr(output)) out.attributes = exr_header(args, camera);
+  if (is_exr(output)) out.attributes = exr_header(args, camera, frame);
   out.has_alpha = display.is_transparent || display.background.w < 1;
   if (!args.aovs.empty()) add_passes(args, scene, image.data, output, out);
   const std::optional<Crop>& crop = args.options.crop;

@@ -65,9 +65,9 @@ RenderSettings settings_of(const RenderArgs& args, const std::string& output);
 float metered_exposure(const PreparedScene& scene, const Camera& camera, const RenderArgs& args);
 
 /// Converts a rendered image of `scene` by `camera` to the formats of the output's extension, with its data passes. Its
-/// counts, times and size are stored in `summary`.
+/// counts, times and size are stored in `summary`. `frame` is its number in a sequence.
 Rendered finish_picture(const RenderArgs& args, RenderedImage image, const Scene& scene, const Camera& camera,
-                        const std::string& output, Summary& summary);
+                        const std::string& output, Summary& summary, std::optional<int> frame = {});
 
 /// Encodes the image in the format of its name: PNG, JPEG, WebP, PFM, EXR or raw RGBA.
 std::vector<std::uint8_t> encode_picture(const Rendered& picture, const std::string& output,

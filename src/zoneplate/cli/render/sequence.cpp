@@ -137,7 +137,7 @@ Rendered render_frame(const RenderArgs& args, Sequence& sequence, int frame, con
     camera = view.camera;
     image = renderer.render(camera, settings);
   }
-  return finish_picture(args, std::move(image), renderer.scene().scene(), camera, output, summary);
+  return finish_picture(args, std::move(image), renderer.scene().scene(), camera, output, summary, frame);
 }
 
 void check_film(const RenderArgs& args, std::size_t frames) {
