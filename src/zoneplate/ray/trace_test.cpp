@@ -37,7 +37,7 @@ double exact_t(const TestMesh& mesh, std::size_t triangle, const Ray& ray) {
     const float3 p = mesh.position[mesh.index[3 * triangle + k]];
     return static_cast<double>(axis == 0 ? p.x : axis == 1 ? p.y : p.z);
   };
-  double a[3], b[3], o[3], d[3];
+  double a[3] = {}, b[3] = {}, o[3] = {}, d[3] = {};
   for (std::size_t c = 0; c < 3; ++c)
     a[c] = at(1, c) - at(0, c), b[c] = at(2, c) - at(0, c), o[c] = ray.origin[c] - at(0, c), d[c] = ray.direction[c];
   const auto det = [](const double(&x)[3], const double(&y)[3], const double(&z)[3]) {
