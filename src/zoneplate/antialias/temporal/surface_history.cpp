@@ -31,6 +31,9 @@ std::array<float, 4> catmull_rom(float t) {
           (0.5f * t - 0.5f) * t * t};
 }
 
+/// As many samples of a frame's pixel as give so many to each pixel of the image.
+int per_frame_pixel(int samples, double scale) { return static_cast<int>(std::ceil(samples * scale * scale)); }
+
 }  // namespace
 
 SurfaceHistory::Presence* SurfaceHistory::Presences::find(std::uint32_t object) {
@@ -43,17 +46,24 @@ SurfaceHistory::Presence* SurfaceHistory::Presences::find(std::uint32_t object) 
 
 SurfaceHistory::SurfaceHistory(const Options& options)
     : options_(options),
-      jitter_(jitter_pattern(JitterSequence::Halton, options.length)),
-      coverage_(jitter_pattern(JitterSequence::R2, options.coverage)) {}
+      jitter_(jitter_pattern(JitterSequence::Halton, per_frame_pixel(options.length, options.scale))),
+      coverage_(jitter_pattern(JitterSequence::R2, per_frame_pixel(options.coverage, options.scale))),
+      reach_(static_cast<int>(std::ceil(options.scale))) {}
 
 Request SurfaceHistory::request(const FrameContext& context) {
   context_ = context;
   pass_ = 0;
+  width_ = context.image.width, height_ = context.image.height;
   Request request;
   request.samples = {jitter_[static_cast<std::size_t>(context.index) % jitter_.size()]};
-  request.rate = Rate::Sample;  // textures are sampled there too, not at the centre
-  request.footprint = 0.25f;    // the mean of many samples filters the rest
-  request.halo = Request::whole_image;
+  request.rate = Rate::Sample;                                     // textures are sampled there too, not at the centre
+  request.footprint = 0.25f / static_cast<float>(options_.scale);  // the mean of many samples filters the rest
+  if (options_.scale > 1) {
+    const auto side = [&](int n) { return std::max(1, static_cast<int>(n / options_.scale)); };
+    request.frame = ImageExtent{side(width_), side(height_), std::nullopt};
+  } else {
+    request.halo = Request::whole_image;
+  }
   request.settling_frames = options_.most;
   request.planes.object_id = request.planes.motion = request.planes.was_visible = true;
   return request;
@@ -61,10 +71,11 @@ Request SurfaceHistory::request(const FrameContext& context) {
 
 std::optional<Request> SurfaceHistory::refine(Frame& frame) {
   if (pass_ == 0) {
-    color_ = std::move(frame.color);
-    object_ = frame.object_id;
-    presences_ = Plane<Presences>(object_.width(), object_.height());
-    add(frame, jitter_[static_cast<std::size_t>(context_.index) % jitter_.size()], 0);
+    const SamplePosition position = jitter_[static_cast<std::size_t>(context_.index) % jitter_.size()];
+    frame_width_ = frame.color.width(), frame_height_ = frame.color.height();
+    take_shaded(frame, position);
+    presences_ = Plane<Presences>(width_, height_);
+    add(frame, position, 0);
   } else {
     add(frame, coverage_[pass_ - 1], 1);
   }
@@ -76,14 +87,43 @@ std::optional<Request> SurfaceHistory::refine(Frame& frame) {
   return request;
 }
 
-/// Adds the surfaces of one sample of every pixel. The background moves with the camera.
+/// The pixel of the image that contains a sample of a frame's pixel.
+SurfaceHistory::Cell SurfaceHistory::cell_of(int x, int y, SamplePosition position) const {
+  const auto place = [](int pixel, std::uint8_t offset, int to, int from) {
+    return static_cast<int>((256 * std::int64_t{pixel} + offset) * to / (256 * std::int64_t{from}));
+  };
+  return {place(x, position.x, width_, frame_width_), place(y, position.y, height_, frame_height_)};
+}
+
+/// Puts the shaded samples of the frame into the pixels of the image.
+void SurfaceHistory::take_shaded(Frame& frame, SamplePosition position) {
+  if (options_.scale == 1) {
+    color_ = std::move(frame.color), object_ = frame.object_id;
+    width_ = color_.width(), height_ = color_.height();
+    is_shaded_ = Plane<std::uint8_t>(width_, height_, std::uint8_t{1});
+    return;
+  }
+  color_ = LinearImage(width_, height_, Linear{0, 0, 0, 0});
+  object_ = Plane<std::uint32_t>(width_, height_);
+  is_shaded_ = Plane<std::uint8_t>(width_, height_);
+  for (int y = 0; y < frame_height_; ++y)
+    for (int x = 0; x < frame_width_; ++x) {
+      const Cell cell = cell_of(x, y, position);
+      color_(cell.x, cell.y) = frame.color(x, y), object_(cell.x, cell.y) = frame.object_id(x, y);
+      is_shaded_(cell.x, cell.y) = 1;
+    }
+}
+
+/// Adds the surfaces of one sample of every pixel of a frame. The background moves with the camera.
 void SurfaceHistory::add(const Frame& frame, SamplePosition position, int weight) {
-  const int width = object_.width(), height = object_.height();
-  const CameraMotion camera(context_.camera, context_.last_camera, width, height);
-  for_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
+  const CameraMotion camera(context_.camera, context_.last_camera, frame_width_, frame_height_);
+  const float scale_x = static_cast<float>(width_) / static_cast<float>(frame_width_);
+  const float scale_y = static_cast<float>(height_) / static_cast<float>(frame_height_);
+  for_rows(frame_height_, [&](int y) {
+    for (int x = 0; x < frame_width_; ++x) {
       const std::uint32_t object = frame.object_id(x, y);
-      Presence* const presence = presences_(x, y).find(object);
+      const Cell cell = cell_of(x, y, position);
+      Presence* const presence = presences_(cell.x, cell.y).find(object);
       if (presence == nullptr) continue;
       presence->samples += weight;
       const bool is_background = object == Frame::no_id;
@@ -92,7 +132,7 @@ void SurfaceHistory::add(const Frame& frame, SamplePosition position, int weight
                                                       std::numeric_limits<double>::infinity())
                                           : frame.motion(x, y);
       ++presence->seen;
-      presence->motion = {presence->motion.x + motion.x, presence->motion.y + motion.y};
+      presence->motion = {presence->motion.x + motion.x * scale_x, presence->motion.y + motion.y * scale_y};
     }
   });
 }
@@ -155,26 +195,36 @@ SurfaceHistory::Layer SurfaceHistory::past_of(const Presence& presence, int x, i
                static_cast<float>(y) - presence.motion.y / seen);
 }
 
-/// The range of the lumas of an object's samples of 3 × 3 pixels.
+bool SurfaceHistory::has_sample(std::uint32_t object, int x, int y) const {
+  return is_shaded_(x, y) != 0 && object_(x, y) == object;
+}
+
+/// Calls use(i, j) for the shaded samples of an object within a distance in pixels, by row.
+template <class Use>
+void SurfaceHistory::for_samples_around(std::uint32_t object, int x, int y, int reach, const Use& use) const {
+  for (int j = std::max(y - reach, 0); j <= std::min(y + reach, height_ - 1); ++j)
+    for (int i = std::max(x - reach, 0); i <= std::min(x + reach, width_ - 1); ++i)
+      if (has_sample(object, i, j)) use(i, j);
+}
+
+/// The range of the lumas of the samples of a shaded pixel's object around it.
 float SurfaceHistory::range_around(int x, int y) const {
   float low = luma_of(color_(x, y)), high = low;
-  for (int j = std::max(y - 1, 0); j <= std::min(y + 1, object_.height() - 1); ++j)
-    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, object_.width() - 1); ++i)
-      if (object_(i, j) == object_(x, y)) {
-        const float luma = luma_of(color_(i, j));
-        low = std::min(low, luma), high = std::max(high, luma);
-      }
+  for_samples_around(object_(x, y), x, y, reach_, [&](int i, int j) {
+    const float luma = luma_of(color_(i, j));
+    low = std::min(low, luma), high = std::max(high, luma);
+  });
   return high - low;
 }
 
 /// The change of every shaded sample against the history of its object. Its variance is that of earlier samples, and
 /// that which the range of its neighbours suggests.
 void SurfaceHistory::find_changes() {
-  const int width = object_.width(), height = object_.height();
-  changes_ = Plane<Change>(width, height);
+  changes_ = Plane<Change>(width_, height_);
   if (context_.is_first) return;
-  for_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
+  for_rows(height_, [&](int y) {
+    for (int x = 0; x < width_; ++x) {
+      if (is_shaded_(x, y) == 0) continue;
       const Presence* const presence = presences_(x, y).find(object_(x, y));
       if (presence == nullptr) continue;
       const Layer past = past_of(*presence, x, y);
@@ -189,27 +239,25 @@ void SurfaceHistory::find_changes() {
   });
 }
 
-/// True if the light on an object has changed around a pixel: by the sum over its samples of 3 × 3 pixels.
+/// True if the light on an object has changed around a pixel: by the sum over its samples there.
 bool SurfaceHistory::has_changed(std::uint32_t object, int x, int y) const {
   constexpr float deviations = 2.5f;
   Change sum;
-  for (int j = std::max(y - 1, 0); j <= std::min(y + 1, object_.height() - 1); ++j)
-    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, object_.width() - 1); ++i) {
-      if (object_(i, j) != object) continue;
-      const Change& c = changes_(i, j);
-      sum.luma += c.luma, sum.variance += c.variance, sum.tolerance += c.tolerance;
-    }
+  for_samples_around(object, x, y, reach_, [&](int i, int j) {
+    const Change& c = changes_(i, j);
+    sum.luma += c.luma, sum.variance += c.variance, sum.tolerance += c.tolerance;
+  });
   return std::abs(sum.luma) > deviations * std::sqrt(sum.variance) + sum.tolerance;
 }
 
-/// The mean of the object's samples of 3 × 3 pixels, or of 5 × 5.
+/// The mean of the object's samples around a pixel, or within twice that distance.
 SurfaceHistory::Layer SurfaceHistory::borrowed(std::uint32_t object, int x, int y) const {
-  for (int reach = 1; reach <= 2; ++reach) {
+  for (const int reach : {reach_, 2 * reach_}) {
     Layer out{.object = object};
     float count = 0;
-    for (int j = std::max(y - reach, 0); j <= std::min(y + reach, object_.height() - 1); ++j)
-      for (int i = std::max(x - reach, 0); i <= std::min(x + reach, object_.width() - 1); ++i)
-        if (object_(i, j) == object && is_finite(color_(i, j))) out.color = sum_of(out.color, color_(i, j)), ++count;
+    for_samples_around(object, x, y, reach, [&](int i, int j) {
+      if (is_finite(color_(i, j))) out.color = sum_of(out.color, color_(i, j)), ++count;
+    });
     if (count == 0) continue;
     out.color = scaled(out.color, 1 / count);
     out.luma = luma_of(out.color), out.square = out.luma * out.luma;
@@ -221,7 +269,7 @@ SurfaceHistory::Layer SurfaceHistory::borrowed(std::uint32_t object, int x, int 
 
 /// The colour of an object of this frame; its `frames` are 0 if nothing shows it.
 SurfaceHistory::Layer SurfaceHistory::updated(const Presence& presence, int x, int y) const {
-  const bool is_shaded = object_(x, y) == presence.object && is_finite(color_(x, y));
+  const bool is_shaded = has_sample(presence.object, x, y) && is_finite(color_(x, y));
   Layer past;
   if (!context_.is_first && !has_changed(presence.object, x, y))
     past = is_shaded ? changes_(x, y).past : past_of(presence, x, y);
@@ -239,13 +287,23 @@ SurfaceHistory::Layer SurfaceHistory::updated(const Presence& presence, int x, i
           .object = presence.object};
 }
 
+/// The pixel's own sample, or the mean of all samples around it.
+Linear SurfaceHistory::color_around(int x, int y) const {
+  if (is_shaded_(x, y) != 0) return color_(x, y);
+  Linear sum{0, 0, 0, 0};
+  float count = 0;
+  for (int j = std::max(y - reach_, 0); j <= std::min(y + reach_, height_ - 1); ++j)
+    for (int i = std::max(x - reach_, 0); i <= std::min(x + reach_, width_ - 1); ++i)
+      if (is_shaded_(i, j) != 0) sum = sum_of(sum, color_(i, j)), ++count;
+  return count > 0 ? scaled(sum, 1 / count) : sum;
+}
+
 LinearImage SurfaceHistory::resolve(Frame&) {
-  const int width = object_.width(), height = object_.height();
   find_changes();
-  LinearImage out(width, height);
-  Plane<Layers> history(width, height);
-  for_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
+  LinearImage out(width_, height_);
+  Plane<Layers> history(width_, height_);
+  for_rows(height_, [&](int y) {
+    for (int x = 0; x < width_; ++x) {
       const Presences& here = presences_(x, y);
       Linear color{0, 0, 0, 0};
       float covered = 0;
@@ -256,7 +314,7 @@ LinearImage SurfaceHistory::resolve(Frame&) {
         color = sum_of(color, scaled(layer.color, samples));
         covered += samples;
       }
-      out(x, y) = covered > 0 ? scaled(color, 1 / covered) : color_(x, y);
+      out(x, y) = covered > 0 ? scaled(color, 1 / covered) : color_around(x, y);
     }
   });
   history_ = std::move(history);

@@ -14,18 +14,23 @@ namespace zoneplate::antialias {
 /// what fraction of it they cover, how they move, and whether the last frame's camera saw them there. The colour of an
 /// object in a pixel is the mean of its shaded samples in earlier frames, which is moved along with the object; the
 /// pixel is the mean of these colours by coverage. So no colour of one object enters another.
+///
+/// With a scale above 1 the frames have fewer pixels than the image: a pixel of the image has a shaded sample in some
+/// frames only, and its objects are found by more passes of fewer samples.
 class SurfaceHistory : public Resolver {
  public:
   struct Options {
     int most = 64;      ///< frames of which a colour is a mean, at most
     int length = 16;    ///< of the jitter's period
     int coverage = 16;  ///< samples of a pixel for visibility
+    double scale = 1;   ///< pixels of the image per pixel of a frame, per axis
   };
   explicit SurfaceHistory(const Options& options);
 
   Request request(const FrameContext& context) override;
   /// The passes for visibility, one sample each.
   std::optional<Request> refine(Frame& frame) override;
+  /// The whole image, also if a crop is requested.
   LinearImage resolve(Frame& frame) override;
 
  private:
@@ -60,6 +65,15 @@ class SurfaceHistory : public Resolver {
     float tolerance = 0;  ///< below this, changes of light do not matter
   };
 
+  struct Cell {
+    int x, y;
+  };
+  Cell cell_of(int x, int y, SamplePosition position) const;
+  bool has_sample(std::uint32_t object, int x, int y) const;
+  template <class Use>
+  void for_samples_around(std::uint32_t object, int x, int y, int reach, const Use& use) const;
+  Linear color_around(int x, int y) const;
+  void take_shaded(Frame& frame, SamplePosition position);
   void add(const Frame& frame, SamplePosition position, int weight);
   Layer moved(std::uint32_t object, float x, float y) const;
   Layer past_of(const Presence& presence, int x, int y) const;
@@ -74,8 +88,13 @@ class SurfaceHistory : public Resolver {
   FrameContext context_;
   std::size_t pass_ = 0;
 
+  int width_ = 0, height_ = 0;              ///< of the image
+  int frame_width_ = 0, frame_height_ = 0;  ///< of the frames
+  int reach_ = 1;                           ///< pixels around one that contain its neighbours' samples
+
   LinearImage color_;  ///< of this frame's shaded samples
   Plane<std::uint32_t> object_;
+  Plane<std::uint8_t> is_shaded_;
   Plane<Presences> presences_;
   Plane<Change> changes_;
   Plane<Layers> history_;

@@ -6,8 +6,9 @@
 // Made for mobile GPUs, in the variant of two compute passes, which computes with compressed colours. (In the fragment
 // shaders, which are the faster variant, the four lookups of depth name their corners from the bottom in a space whose
 // rows begin at the top.) Weaknesses: motion is dilated at points at rest only, so that the outlines of moving objects
-// do not take their history along; one colour does not stay: codes of 11 bits are rounded down, and light is restored
-// with a factor of 1 / (1.009 - greatest channel), which darkens it by 1 % and more.
+// do not take their history along; while the camera rests, 30 % of clamped history stays as it was, also where an
+// object has left; one colour does not stay: codes of 11 bits are rounded down, and light is restored with a factor of
+// 1 / (1.009 - greatest channel), which darkens it by 1 % and more.
 //
 // A crop renders the whole image, since motion may bring any pixel into it.
 //

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/upscale/taau/taau_core.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "zoneplate/antialias/temporal/resolve.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/upscale/taau/taau_row.h"
+
+namespace zoneplate::upscale {
+namespace {
+
+/// The samples around output pixels along one axis.
+struct TaauAxis {
+  std::vector<std::int32_t> around[3];  ///< pixels of the frame
+  std::vector<float> offset;            ///< of the output pixel's centre from the middle sample
+
+  TaauAxis(int to, int from, float jitter) {
+    for (int o = 0; o < to; ++o) {
+      const float place = (static_cast<float>(o) + 0.5f) * static_cast<float>(from) / static_cast<float>(to) + jitter;
+      const float floored = std::floor(place);
+      for (int k = 0; k < 3; ++k) around[k].push_back(std::clamp(static_cast<int>(floored) + k - 1, 0, from - 1));
+      offset.push_back(place - floored - 0.5f);
+    }
+  }
+};
+
+}  // namespace
+
+LinearImage Taau::accumulate(const TaauInput& frame) {
+  const int frame_width = frame.color.width(), frame_height = frame.color.height();
+  const TaauAxis columns(width_, frame_width, frame.jitter.x), rows(height_, frame_height, frame.jitter.y);
+  LinearImage color(frame_width, frame_height);
+  for (int y = 0; y < frame_height; ++y)
+    antialias::TemporalKernels::of().encode(&frame.color.row(y).data()->r, false, &color.row(y).data()->r,
+                                            static_cast<std::size_t>(frame_width));
+  const float scale_x = static_cast<float>(width_) / static_cast<float>(frame_width);
+  const float scale_y = static_cast<float>(height_) / static_cast<float>(frame_height);
+  const bool is_first = frame.is_first || history_.empty();
+  const TaauFrame common{.width = width_,
+                         .height = height_,
+                         .is_first = is_first,
+                         .scale = {scale_x, scale_y},
+                         .reach = 1.51f + (1.3f - 1.51f) * std::clamp(scale_x - 1, 0.0f, 1.0f),
+                         .history = is_first ? nullptr : &history_.values().data()->r};
+  std::vector<float> column(static_cast<std::size_t>(width_));
+  for (std::size_t x = 0; x < column.size(); ++x) column[x] = static_cast<float>(x);
+  LinearImage out(width_, height_);
+  parallel_ranges(static_cast<std::size_t>(height_), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const int y = static_cast<int>(i);
+      TaauRow row{.dx = columns.offset.data(),
+                  .dy = rows.offset[i],
+                  .column = column.data(),
+                  .y = y,
+                  .resolved = &out.row(y).data()->r};
+      for (int k = 0; k < 3; ++k) {
+        const int r = rows.around[k][i];
+        row.columns[k] = columns.around[k].data();
+        row.color[k] = &color.row(r).data()->r, row.nearness[k] = frame.nearness.row(r).data();
+        row.motion_x[k] = frame.motion_x.row(r).data(), row.motion_y[k] = frame.motion_y.row(r).data();
+      }
+      TaauKernels::of().resolve_row(common, row, column.size());
+    }
+  });
+  history_ = out;
+  return out;
+}
+
+}  // namespace zoneplate::upscale
