@@ -55,6 +55,7 @@ void run_info(std::span<const std::string> arguments);
 void run_metrics(std::span<const std::string> arguments);
 void run_filter(std::span<const std::string> arguments);
 void run_compare(std::span<const std::string> arguments);
+void run_dataset(std::span<const std::string> arguments);
 void run_fidelity(std::span<const std::string> arguments);
 void run_bench(std::span<const std::string> arguments);
 void run_demo(std::span<const std::string> arguments);

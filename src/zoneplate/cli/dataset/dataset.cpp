@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// zoneplate dataset: sequences with ground truth, for training and measuring upscalers.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/args.h"
+#include "zoneplate/cli/dataset/nss.h"
+#include "zoneplate/cli/log.h"
+#include "zoneplate/cli/progress.h"
+#include "zoneplate/cli/render/shard.h"
+#include "zoneplate/cli/values.h"
+#include "zoneplate/cli/verbs.h"
+#include "zoneplate/scene/builtin/builtin.h"
+#include "zoneplate/upscale/upscaler.h"
+
+namespace zoneplate::cli {
+namespace {
+
+struct DatasetArgs {
+  NssSequence sequence{.reference = "converged:samples=256", .ratios = {2}};
+  std::vector<std::string> scenes;
+  int sequences = 24, threads = 0;
+  bool has_layout = false;
+  Shard shard;
+  std::optional<ProgressKind> progress;
+};
+
+/// Static and moving, thin, bright, textured and hidden surfaces: what users complain of.
+constexpr const char* usual_scenes[] = {"panning-wires", "passing-fence", "teleport", "disocclusion",
+                                        "light-switch",  "foliage",       "stars",    "near-axis",
+                                        "metal",         "tiles",         "sun-roof", "teapot"};
+
+std::vector<double> parse_ratios(const std::string& text) {
+  std::vector<double> out;
+  for (const std::string& item : split_specs(text)) {
+    const double ratio = parse_number(item, 1, 4);
+    if (std::abs(ratio * 10 - std::round(ratio * 10)) > 1e-9)
+      throw Error(ErrorKind::Usage, fmt::format("is '{}', expected a number with one decimal, such as 1.5", item));
+    if (std::ranges::find(out, ratio) == out.end()) out.push_back(ratio);
+  }
+  return out;
+}
+
+Syntax make_syntax(DatasetArgs& args) {
+  NssSequence& s = args.sequence;
+  Syntax syntax{
+      .verb = "dataset",
+      .summary = "Render sequences with ground truth, to train and measure upscalers",
+      .operands = "[SCENE...] --layout nss -o DIR",
+      .examples =
+          "  zoneplate dataset --layout nss -o data --sequences 2 --frames 16 --size 640x360\n"
+          "  zoneplate dataset city.glb --layout nss -o data --ratio 2,1.5 --sequences 100 --frames 100\n"
+          "  zoneplate dataset --layout nss -o data --shard 3/8      one of eight machines, same folder\n",
+      .notes =
+          "The layout nss is that of Arm's neural-graphics-model-gym: ground_truth/, motion_gt/ and, for each ratio\n"
+          "(x2, x1_5), color/, depth/ and motion/, with one EXR image per frame and one JSON file per sequence:\n"
+          "scene-linear colours, depth from 0 (near) to 1, motion as part of the image from the last frame to this\n"
+          "one, camera and jitter. Frames of the ratios have one jittered sample per pixel. The ground truth is the\n"
+          "mean of linear light, so that its --linear-truth is to be given to the gym's converter.\n"
+          "\n"
+          "Sequence k shows scene k modulo their number, from another moment, with a camera that moves on a path of\n"
+          "its own; every fourth camera rests. All follows from --seed: shards and repetitions make the same bytes.\n"
+          "The JSON file of a sequence is written last. A run skips complete sequences, and thus continues one that\n"
+          "was interrupted.\n"};
+  const std::string group = "Options";
+  syntax.options = {
+      {"--output,-o", "DIR", "Folder of the data set, which other shards may write to as well", group, true,
+       [&](auto& text) { s.folder = text; }},
+      {"--layout", "NAME", "Names and formats of the files: nss", group, true,
+       [&](auto& text) {
+         parse_choice(text, {"nss"});
+         args.has_layout = true;
+       }},
+      {"--ratio", "LIST", "Width of the ground truth over that of the frames, 1 to 4, such as 2,1.5; default 2", group,
+       false, [&](auto& text) { s.ratios = parse_ratios(text); }},
+      {"--size", "W,H", "Size of the ground truth; default 1920x1080", group, false,
+       [&](auto& text) { s.size = parse_size(text, 16384); }},
+      {"--sequences", "N", "Number of sequences of all shards; default 24", group, false,
+       [&](auto& text) { args.sequences = parse_whole(text, 1, 9999); }},
+      {"--frames", "N", "Frames of a sequence; default 60", group, false,
+       [&](auto& text) { s.frames = parse_whole(text, 2, 9999); }},
+      {"--rate", "N", "Frames per second; default 30", group, false,
+       [&](auto& text) { s.rate = parse_whole(text, 1, 1000); }},
+      {"--jitter-length", "N", "Positions of the jitter, a Halton sequence; default 32", group, false,
+       [&](auto& text) { s.positions = parse_whole(text, 1, 1024); }},
+      {"--reference", "METHOD", "Method of the ground truth; default converged:samples=256", group, false,
+       [&](auto& text) { s.reference = text; }},
+      {"--seed", "N", "Chooses moments and camera paths; default 1", group, false,
+       [&](auto& text) { s.seed = static_cast<std::uint32_t>(parse_whole(text, 0, 1 << 30)); }},
+      {"--shard", "I/N", "Make every Nth sequence, beginning with number I; auto: as Slurm or Kubernetes say", group,
+       false, [&](auto& text) { args.shard = parse_shard(text); }},
+      {"--threads,-t", "N", "Maximum number of threads; 0, the default: the CPUs allowed by affinity and quota", group,
+       false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }},
+      {"--progress", "KIND", "Progress on stderr: auto (a bar on a terminal), bar, json (one line per frame) or none",
+       group, false, [&](auto& text) { args.progress = parse_progress(text); }}};
+  return syntax;
+}
+
+}  // namespace
+
+void run_dataset(std::span<const std::string> arguments) {
+  DatasetArgs args;
+  Syntax syntax = make_syntax(args);
+  if (!parse(syntax, arguments)) return;
+  args.scenes = syntax.found_operands;
+  if (args.scenes.empty()) args.scenes.assign(std::begin(usual_scenes), std::end(usual_scenes));
+  if (args.sequence.folder.empty()) throw Error(ErrorKind::Usage, "no output: name a folder with -o");
+  if (!args.has_layout) throw Error(ErrorKind::Usage, "--layout is missing: nss");
+  upscale::make_method(args.sequence.reference);  // throws if it is invalid
+  std::error_code ignored;
+  for (const std::string& scene : args.scenes)
+    if (!check_builtin_scene(scene) && !std::filesystem::exists(scene, ignored))
+      throw Error(ErrorKind::Input, scene + ": is neither a file nor a built-in scene (zoneplate list scenes)");
+  with_threads(args.threads, [&] {
+    Progress progress(args.progress ? *args.progress : parse_progress("auto"));
+    double done = 0;
+    const double count =
+        static_cast<double>(args.shard.size_of(static_cast<std::uint64_t>(args.sequences))) * args.sequence.frames;
+    for (int number = 0; number < args.sequences; ++number) {
+      if (!args.shard.has(static_cast<std::uint64_t>(number))) continue;
+      NssSequence sequence = args.sequence;
+      sequence.number = number;
+      sequence.scene = args.scenes[static_cast<std::size_t>(number) % args.scenes.size()];
+      make_nss_sequence(sequence, [&](int frame) {
+        progress.begin(fmt::format("{:04} {}", number, sequence.scene), (done + frame) / count);
+      });
+      done += sequence.frames;
+    }
+  });
+}
+
+}  // namespace zoneplate::cli

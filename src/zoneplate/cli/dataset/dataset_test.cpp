@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tests that read data sets back as Arm's neural-graphics-model-gym does.
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "zoneplate/cli/dataset/nss.h"
+#include "zoneplate/cli/program_for_test.h"
+#include "zoneplate/codec/exr.h"
+#include "zoneplate/os/file.h"
+#include "zoneplate/report/json_for_test.h"
+
+namespace zoneplate::cli {
+namespace {
+
+using Rows = std::array<std::array<double, 4>, 4>;
+using Vector = std::array<double, 4>;
+
+Vector product(const Rows& m, const Vector& v) {
+  Vector out{};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j) out[i] += m[i][j] * v[j];
+  return out;
+}
+
+/// The solution x of m x = v, by elimination with pivots.
+Vector solved(Rows m, Vector v) {
+  for (std::size_t k = 0; k < 4; ++k) {
+    std::size_t pivot = k;
+    for (std::size_t i = k + 1; i < 4; ++i)
+      if (std::abs(m[i][k]) > std::abs(m[pivot][k])) pivot = i;
+    std::swap(m[k], m[pivot]), std::swap(v[k], v[pivot]);
+    for (std::size_t i = 0; i < 4; ++i) {
+      if (i == k) continue;
+      const double factor = m[i][k] / m[k][k];
+      for (std::size_t j = 0; j < 4; ++j) m[i][j] -= factor * m[k][j];
+      v[i] -= factor * v[k];
+    }
+  }
+  for (std::size_t k = 0; k < 4; ++k) v[k] /= m[k][k];
+  return v;
+}
+
+Rows rows_of(const nlohmann::json& list) {
+  Rows out{};
+  for (std::size_t i = 0; i < 16; ++i) out[i / 4][i % 4] = list[i].get<double>();
+  return out;
+}
+
+class DatasetVerb : public ProgramTest {
+ protected:
+  std::vector<Plane<float>> exr(const std::string& name, const std::vector<std::string>& channels) const {
+    const FileBytes file((place / name).string());
+    EXPECT_EQ(exr_channel_names(file.bytes()).size(), channels[0] == "R" && channels.size() == 3 ? 4 : channels.size());
+    return decode_exr_channels(file.bytes(), name, channels);
+  }
+  std::vector<Plane<float>> pass(const std::string& name, int frame, const std::vector<std::string>& channels,
+                                 const char* sequence = "0000") const {
+    return exr(fmt::format("data/{}/{}/{:04}.exr", name, sequence, frame), channels);
+  }
+  nlohmann::json json(const std::string& name) const { return parsed_json(text_of(place / name)); }
+};
+
+double bilinear(const Plane<float>& p, double x, double y) {
+  const double cx = std::clamp(x, 0.0, p.width() - 1.0), cy = std::clamp(y, 0.0, p.height() - 1.0);
+  const int i = std::min(static_cast<int>(cx), p.width() - 2), j = std::min(static_cast<int>(cy), p.height() - 2);
+  const double u = cx - i, v = cy - j;
+  const auto at = [&](int a, int b) { return static_cast<double>(p(i + a, j + b)); };
+  return (at(0, 0) * (1 - u) + at(1, 0) * u) * (1 - v) + (at(0, 1) * (1 - u) + at(1, 1) * u) * v;
+}
+
+TEST_F(DatasetVerb, DepthMotionJitterAndCamerasAgree) {
+  const ProgramAnswer answer =
+      run("dataset teapot --layout nss -o data --sequences 1 --frames 3 --size 96x54 --ratio 2,1.5 --reference "
+          "converged:samples=64");
+  ASSERT_EQ(answer.code, 0) << answer.out;
+  const nlohmann::json all = json("data/0000.json");
+  EXPECT_EQ(all["Version"], "1.0.1");
+  EXPECT_EQ(all["UpscalingRatiosIndices"]["x1_5_index"], 1);
+  EXPECT_EQ(all["TargetResolution"]["X"], 96);
+  ASSERT_EQ(all["Frames"].size(), 3u);
+  EXPECT_EQ(all["Frames"][0]["CameraCut"], true);
+  for (int frame = 1; frame < 3; ++frame) {
+    const nlohmann::json &now = all["Frames"][static_cast<std::size_t>(frame)],
+                         &last = all["Frames"][static_cast<std::size_t>(frame - 1)];
+    EXPECT_EQ(now["CameraCut"], false);
+    const Rows clip_now = rows_of(now["ViewProjection"]), clip_last = rows_of(last["ViewProjection"]);
+    for (const auto& [folder, index, width, height] : {std::tuple("x2", 0, 48, 27), std::tuple("x1_5", 1, 64, 36)}) {
+      const Plane<float> depth = pass(std::string(folder) + "/depth", frame, {"R"})[0];
+      const std::vector<Plane<float>> motion = pass(std::string(folder) + "/motion", frame, {"R", "G"});
+      EXPECT_EQ(pass(std::string(folder) + "/color", frame, {"R", "G", "B"})[0].width(), width);
+      ASSERT_EQ(depth.width(), width);
+      ASSERT_EQ(depth.height(), height);
+      const nlohmann::json& jitter = now["NormalizedPerRatioJitter"][static_cast<std::size_t>(index)];
+      EXPECT_NEAR(jitter["X"].get<double>() * width, now["Jitter"]["X"].get<double>(), 1e-9);
+      int surfaces = 0;
+      for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+          const double u = (x + 0.5) / width + jitter["X"].get<double>();
+          const double v = (y + 0.5) / height + jitter["Y"].get<double>();
+          const double nearness = 1 - static_cast<double>(depth(x, y));
+          if (nearness <= 0) continue;  // background
+          ++surfaces;
+          const Vector point = solved(clip_now, {2 * u - 1, 1 - 2 * v, nearness, 1});
+          const Vector before = product(clip_last, point);
+          const double moved_x = u - (before[0] / before[3] + 1) / 2, moved_y = v - (1 - before[1] / before[3]) / 2;
+          // Vertices snap to 1/256 pixel in both frames, and motion is a half float.
+          EXPECT_NEAR(static_cast<double>(motion[0](x, y)), moved_x, 2.0 / 256 / width + std::abs(moved_x) / 1024);
+          EXPECT_NEAR(static_cast<double>(motion[1](x, y)), moved_y, 2.0 / 256 / height + std::abs(moved_y) / 1024);
+        }
+      EXPECT_GT(surfaces, width * height / 10);
+    }
+  }
+}
+
+TEST_F(DatasetVerb, PassesTheHealthChecksOfTheGym) {
+  ASSERT_EQ(
+      run("dataset tiles sphere:triangles=3000 --layout nss -o data --sequences 2 --frames 6 --size 128x72 --reference "
+          "converged:samples=64")
+          .code,
+      0);
+  const nlohmann::json all = json("data/0001.json");
+  for (int frame = 1; frame < 6; ++frame) {
+    // Its DenseWarp reads at the pixel's position minus the motion, or minus the jitter, in pixels.
+    const Plane<float> truth = pass("ground_truth", frame, {"R", "G", "B"})[1];
+    const Plane<float> before = pass("ground_truth", frame - 1, {"R", "G", "B"})[1];
+    const std::vector<Plane<float>> motion = pass("motion_gt", frame, {"R", "G"});
+    double still = 0, warped = 0, backwards = 0;
+    for (int y = 0; y < 72; ++y)
+      for (int x = 0; x < 128; ++x) {
+        const double expected = static_cast<double>(truth(x, y));
+        const double mx = static_cast<double>(motion[0](x, y)) * 128, my = static_cast<double>(motion[1](x, y)) * 72;
+        const double moved = bilinear(before, x - mx, y - my), opposite = bilinear(before, x + mx, y + my);
+        backwards += std::pow(opposite - expected, 2);
+        still += std::pow(static_cast<double>(before(x, y)) - expected, 2), warped += std::pow(moved - expected, 2);
+      }
+    EXPECT_LT(warped, still) << frame;
+    EXPECT_LT(warped, 0.7 * backwards) << frame;
+
+    const Plane<float> low = pass("x2/color", frame, {"R", "G", "B"}, "0001")[1];
+    const Plane<float> sharp = pass("ground_truth", frame, {"R", "G", "B"}, "0001")[1];
+    const nlohmann::json& jitter = all["Frames"][static_cast<std::size_t>(frame)]["Jitter"];
+    const double jx = jitter["X"].get<double>(), jy = jitter["Y"].get<double>();
+    double with = 0, without = 0, opposite = 0;
+    for (int y = 1; y < 35; ++y)
+      for (int x = 1; x < 63; ++x) {
+        const auto t = [&](int i, int j) { return static_cast<double>(sharp(2 * x + i, 2 * y + j)); };
+        const double expected = (t(0, 0) + t(1, 0) + t(0, 1) + t(1, 1)) / 4;
+        without += std::pow(bilinear(low, x, y) - expected, 2);
+        with += std::pow(bilinear(low, x - jx, y - jy) - expected, 2);
+        opposite += std::pow(bilinear(low, x + jx, y + jy) - expected, 2);
+      }
+    EXPECT_LE(with, without) << frame;
+    EXPECT_LE(with, opposite) << frame;
+  }
+}
+
+TEST_F(DatasetVerb, ShardsAndRepetitionsMakeTheSameBytes) {
+  const std::string usual =
+      "dataset panning-wires stars --layout nss --sequences 3 --frames 2 --size 32x18 --reference ssaa:n=2";
+  ASSERT_EQ(run(usual + " -o data").code, 0);
+  ASSERT_EQ(run(usual + " -o parts --shard 1/2 --threads 1").code, 0);
+  EXPECT_FALSE(std::filesystem::exists(place / "parts/0000.json"));
+  ASSERT_EQ(run(usual + " -o parts --shard 0/2").code, 0);
+  int files = 0;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(place / "data")) {
+    if (!entry.is_regular_file()) continue;
+    ++files;
+    EXPECT_EQ(text_of(entry), text_of(place / "parts" / std::filesystem::relative(entry, place / "data"))) << entry;
+  }
+  EXPECT_EQ(files, 3 * (2 * 5 + 1));
+  EXPECT_NE(json("data/0000.json")["Frames"][0]["ViewProjection"],
+            json("data/0002.json")["Frames"][0]["ViewProjection"]);
+  // A complete sequence is left as it is, an incomplete one is made again, another one is not overwritten.
+  std::filesystem::remove(place / "data/0001.json");
+  std::filesystem::remove(place / "data/x2/color/0000/0000.exr");
+  ASSERT_EQ(run(usual + " -o data").code, 0);
+  EXPECT_TRUE(std::filesystem::exists(place / "data/0001.json"));
+  EXPECT_FALSE(std::filesystem::exists(place / "data/x2/color/0000/0000.exr"));
+  const ProgramAnswer other = run(usual + " -o data --seed 2");
+  EXPECT_EQ(other.code, 4);
+  EXPECT_TRUE(contains(other.out, "data/0000.json: is of a sequence with other settings")) << other.out;
+}
+
+TEST_F(DatasetVerb, RefusesBeforeItRenders) {
+  EXPECT_EQ(run("dataset -o data").code, 2);
+  EXPECT_TRUE(contains(run("dataset --layout nss -o data --ratio 1.77").out, "with one decimal"));
+  EXPECT_EQ(run("dataset no-such.glb --layout nss -o data").code, 3);
+  EXPECT_EQ(run("dataset --layout nss -o data --reference convergd").code, 2);
+  EXPECT_FALSE(std::filesystem::exists(place / "data"));
+}
+
+TEST(Dataset, FoldersOfRatios) {
+  EXPECT_EQ(nss_folder_of(2), "x2");
+  EXPECT_EQ(nss_folder_of(1.7), "x1_7");
+}
+
+}  // namespace
+}  // namespace zoneplate::cli
