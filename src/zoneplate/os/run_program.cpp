@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <spawn.h>
 #include <sys/mman.h>
+#include <sys/socket.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,6 +15,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 #include <string_view>
 #include <thread>
@@ -45,7 +47,10 @@ class File {
   ~File() { close(); }
   File(File&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
   File(const File&) = delete;
-  File& operator=(const File&) = delete;
+  File& operator=(File&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
 
   int number() const { return number_; }
   void close() {
@@ -60,17 +65,10 @@ class File {
   throw Error(ErrorKind::Failed, program + ": " + what);
 }
 
-/// An in-memory file that contains `text`, positioned at its start: unlike a pipe it accepts everything at once, and no
-/// SIGPIPE is raised if a child ends early.
-File file_of(const std::string& program, const std::string& text) {
+/// An empty file in memory.
+File new_file(const std::string& program) {
   File file(::memfd_create("zoneplate", MFD_CLOEXEC));
-  for (std::size_t at = 0; at < text.size();) {
-    const ssize_t n = ::write(file.number(), text.data() + at, text.size() - at);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) fail(program, std::strerror(errno));
-    at += static_cast<std::size_t>(n);
-  }
-  if (file.number() < 0 || ::lseek(file.number(), 0, SEEK_SET) != 0) fail(program, std::strerror(errno));
+  if (file.number() < 0) fail(program, std::strerror(errno));
   return file;
 }
 
@@ -134,70 +132,93 @@ class Child {
   pid_t id_ = 0;
 };
 
-ProgramResult run(const std::string& program, const std::vector<std::string>& arguments, int input,
-                  const ProgramLimits& limits) {
-  const Stopwatch watch;
-  const auto check_time = [&] {
-    if (watch.ms() > limits.milliseconds) fail(program, "did not answer in time");
-  };
-  const File complaints = file_of(program, "");
-  int ends[2];
-  if (::pipe2(ends, O_CLOEXEC) != 0) fail(program, std::strerror(errno));
-  const File out(ends[0]);
-  File out_of_child(ends[1]);
-  Child child(program, arguments, input, out_of_child.number(), complaints.number());
-  out_of_child.close();
-
-  ProgramResult answer;
-  for (std::array<std::uint8_t, 65536> part;;) {
-    check_time();
-    pollfd waiting{out.number(), POLLIN, 0};
-    if (::poll(&waiting, 1, 50) <= 0) continue;
-    const ssize_t n = ::read(out.number(), part.data(), part.size());
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) break;
-    answer.out.insert(answer.out.end(), part.begin(), part.begin() + n);
-    if (answer.out.size() > limits.bytes) fail(program, "answers without end");
-  }
-  while (!child.has_ended(answer.code)) {
-    check_time();
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  answer.complaint = first_line_of(complaints);
-  return answer;
-}
-
 }  // namespace
 
-ScratchFile::ScratchFile(std::string owner) : owner_(std::move(owner)) {
-  std::string name = (std::filesystem::temp_directory_path() / "zoneplate_XXXXXX").string();
-  number_ = ::mkostemp(name.data(), O_CLOEXEC);
-  if (number_ < 0) fail(owner_, "no temporary file: " + std::string(std::strerror(errno)));
-  ::unlink(name.c_str());
-}
-
-ScratchFile::~ScratchFile() { ::close(number_); }
-
-void ScratchFile::append(std::span<const std::uint8_t> bytes) {
-  for (std::size_t at = 0; at < bytes.size();) {
-    const ssize_t n = ::write(number_, bytes.data() + at, bytes.size() - at);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) fail(owner_, "its temporary file cannot be written: " + std::string(std::strerror(errno)));
-    at += static_cast<std::size_t>(n);
+class RunningProgram::Process {
+ public:
+  Process(const std::string& program, const std::vector<std::string>& arguments, const ProgramLimits& limits)
+      : program_(program), limits_(limits), complaints_(new_file(program)) {
+    int out[2], in[2] = {-1, -1};
+    if (::pipe2(out, O_CLOEXEC) != 0) fail(program, std::strerror(errno));
+    out_ = File(out[0]);
+    const File out_of_child(out[1]);
+    // A socket, unlike a pipe, can be written without SIGPIPE if the program has ended.
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, in) != 0) fail(program, std::strerror(errno));
+    in_ = File(in[0]);
+    const File in_of_child(in[1]);
+    child_.emplace(program, arguments, in_of_child.number(), out_of_child.number(), complaints_.number());
   }
-  size_ += bytes.size();
-}
+
+  void write(std::span<const std::uint8_t> bytes) {
+    const Stopwatch watch;
+    while (!bytes.empty() && in_.number() >= 0) {
+      check_time(watch);
+      if (const short events = wait(); (events & (POLLOUT | POLLERR)) == 0) continue;
+      const ssize_t n = ::send(in_.number(), bytes.data(), bytes.size(), MSG_DONTWAIT | MSG_NOSIGNAL);
+      if (n >= 0)
+        bytes = bytes.subspan(static_cast<std::size_t>(n));
+      else if (errno != EINTR && errno != EAGAIN)
+        in_.close();
+    }
+  }
+
+  ProgramResult finish() {
+    const Stopwatch watch;
+    in_.close();
+    while (out_.number() >= 0) check_time(watch), wait();
+    while (!child_->has_ended(result_.code)) {
+      check_time(watch);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    result_.complaint = first_line_of(complaints_);
+    return std::move(result_);
+  }
+
+ private:
+  void check_time(const Stopwatch& watch) const {
+    if (watch.ms() > limits_.milliseconds) fail(program_, "did not answer in time");
+  }
+
+  /// Waits for at most 50 ms and reads what there is to read; the events of the program's stdin.
+  short wait() {
+    pollfd files[] = {{in_.number(), POLLOUT, 0}, {out_.number(), POLLIN, 0}};  // poll ignores negative numbers
+    if (::poll(files, 2, 50) <= 0) return 0;
+    if (files[1].revents != 0) read_some();
+    return files[0].revents;
+  }
+
+  void read_some() {
+    std::array<std::uint8_t, 65536> part;
+    const ssize_t n = ::read(out_.number(), part.data(), part.size());
+    if (n < 0 && errno == EINTR) return;
+    if (n <= 0) return out_.close();
+    result_.out.insert(result_.out.end(), part.begin(), part.begin() + n);
+    if (result_.out.size() > limits_.bytes) fail(program_, "answers without end");
+  }
+
+  const std::string program_;
+  const ProgramLimits limits_;
+  const File complaints_;
+  File in_, out_;
+  std::optional<Child> child_;
+  ProgramResult result_;
+};
+
+RunningProgram::RunningProgram(const std::string& program, const std::vector<std::string>& arguments,
+                               const ProgramLimits& limits)
+    : process_(std::make_unique<Process>(program, arguments, limits)) {}
+
+RunningProgram::~RunningProgram() = default;
+
+void RunningProgram::write(std::span<const std::uint8_t> bytes) { process_->write(bytes); }
+
+ProgramResult RunningProgram::finish() { return process_->finish(); }
 
 ProgramResult run_child(const std::string& program, const std::vector<std::string>& arguments, const std::string& input,
                         const ProgramLimits& limits) {
-  const File in = file_of(program, input);
-  return run(program, arguments, in.number(), limits);
-}
-
-ProgramResult run_child(const std::string& program, const std::vector<std::string>& arguments, const ScratchFile& input,
-                        const ProgramLimits& limits) {
-  if (::lseek(input.number(), 0, SEEK_SET) != 0) fail(program, std::strerror(errno));
-  return run(program, arguments, input.number(), limits);
+  RunningProgram running(program, arguments, limits);
+  running.write({reinterpret_cast<const std::uint8_t*>(input.data()), input.size()});
+  return running.finish();
 }
 
 }  // namespace zoneplate

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,26 +21,6 @@ struct ProgramLimits {
   std::size_t bytes = std::size_t{1} << 28;  ///< maximum size of stdout; the program is killed when it exceeds it
 };
 
-/// An unnamed temporary file, which exists as long as this object.
-///
-/// Errors    ErrorKind::Failed naming `owner` if it cannot be created or written.
-class ScratchFile {
- public:
-  explicit ScratchFile(std::string owner);
-  ~ScratchFile();
-  ScratchFile(const ScratchFile&) = delete;
-  ScratchFile& operator=(const ScratchFile&) = delete;
-
-  void append(std::span<const std::uint8_t> bytes);
-  std::uint64_t size() const { return size_; }
-  int number() const { return number_; }
-
- private:
-  std::string owner_;
-  int number_;
-  std::uint64_t size_ = 0;
-};
-
 /// Runs an installed program without a shell, with `input` as its stdin.
 ///
 /// The program is searched in the absolute folders of PATH, then in /usr/local/bin, /usr/bin and /bin. Its environment
@@ -47,8 +28,28 @@ class ScratchFile {
 /// Errors    ErrorKind::Failed naming the program if it cannot be started or exceeds a limit.
 ProgramResult run_child(const std::string& program, const std::vector<std::string>& arguments, const std::string& input,
                         const ProgramLimits& limits = {});
-/// Runs a program with a file as its stdin, read from the beginning.
-ProgramResult run_child(const std::string& program, const std::vector<std::string>& arguments, const ScratchFile& input,
-                        const ProgramLimits& limits = {});
+/// An installed program that works while its input is written, in parts of any size. The rest is as for run_child.
+class RunningProgram {
+ public:
+  /// `limits.milliseconds`: how long the program may keep this process waiting in one call.
+  RunningProgram(const std::string& program, const std::vector<std::string>& arguments,
+                 const ProgramLimits& limits = {});
+  ~RunningProgram();
+  RunningProgram(const RunningProgram&) = delete;
+  RunningProgram& operator=(const RunningProgram&) = delete;
+
+  /// Returns when the program has taken all bytes or has closed its stdin.
+  ///
+  /// Errors    ErrorKind::Failed naming the program if it exceeds a limit.
+  void write(std::span<const std::uint8_t> bytes);
+  /// Ends its input and waits for its end. Called once, last.
+  ///
+  /// Errors    those of `write`.
+  ProgramResult finish();
+
+ private:
+  class Process;
+  std::unique_ptr<Process> process_;
+};
 
 }  // namespace zoneplate

@@ -31,6 +31,28 @@ TEST(Child, GivesInputAnswersAndCode) {
   EXPECT_FALSE(contains(std::string(variables.out.begin(), variables.out.end()), "ZONEPLATE_CHILD_TEST"));
 }
 
+TEST(RunningProgram, AnswersWhileItsInputIsWritten) {
+  RunningProgram cat("cat", {});
+  std::string text;
+  for (int part = 0; part < 40; ++part) {
+    const std::string bytes(200'000, static_cast<char>('a' + part % 26));
+    cat.write({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()});
+    text += bytes;
+  }
+  const ProgramResult answer = cat.finish();
+  EXPECT_EQ(answer.code, 0);
+  EXPECT_EQ(std::string(answer.out.begin(), answer.out.end()), text);
+}
+
+TEST(RunningProgram, MayEndBeforeItsInput) {
+  const std::vector<std::uint8_t> bytes(5'000'000);
+  RunningProgram ended("ls", {"/no/such/file"});
+  ended.write(bytes);
+  EXPECT_NE(ended.finish().code, 0);
+  RunningProgram waiting("sleep", {"60"}, {.milliseconds = 100});
+  EXPECT_THROW(waiting.write(bytes), Error);
+}
+
 /// A fixture with a folder that contains a program which prints its own name; it restores PATH.
 class ChildInPath : public testing::Test {
  protected:

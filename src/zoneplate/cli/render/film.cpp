@@ -59,6 +59,34 @@ const Codec* find_codec(const std::string& output) {
   return found == codecs().end() ? nullptr : &*found;
 }
 
+constexpr int longest_wait_ms = 3'600'000;  // GIF: all frames are encoded after the last one
+
+Words arguments_for(const std::string& output, int width, int height, const Animation& timing) {
+  Words words = {"-v",
+                 "error",
+                 "-f",
+                 "rawvideo",
+                 "-pix_fmt",
+                 "rgba",
+                 "-s",
+                 fmt::format("{}x{}", width, height),
+                 "-r",
+                 fmt::format("{}/{}", timing.per, timing.seconds),
+                 "-i",
+                 "-",
+                 "-map_metadata",
+                 "-1",
+                 "-fflags",
+                 "+bitexact",
+                 "-flags:v",
+                 "+bitexact",
+                 "-threads",
+                 "1"};
+  for (const std::string& word : find_codec(output)->words) words.push_back(word);
+  words.push_back("-");
+  return words;
+}
+
 }  // namespace
 
 Animation film_of(double rate) {
@@ -78,39 +106,13 @@ std::vector<std::uint8_t> encode_film(const Animation& film, const std::string& 
   return std::filesystem::path(output).extension() == ".webp" ? encode_webp(film) : encode_apng(film);
 }
 
-FfmpegFilm::FfmpegFilm(std::string output, int width, int height, const Animation& timing)
-    : output_(std::move(output)),
-      width_(width),
-      height_(height),
-      per_(timing.per),
-      seconds_(timing.seconds),
-      frames_("ffmpeg") {}
+FfmpegFilm::FfmpegFilm(const std::string& output, int width, int height, const Animation& timing)
+    : ffmpeg_("ffmpeg", arguments_for(output, width, height, timing), {.milliseconds = longest_wait_ms}) {}
 
-std::vector<std::uint8_t> FfmpegFilm::encode() const {
-  std::vector<std::string> arguments = {"-v",
-                                        "error",
-                                        "-f",
-                                        "rawvideo",
-                                        "-pix_fmt",
-                                        "rgba",
-                                        "-s",
-                                        fmt::format("{}x{}", width_, height_),
-                                        "-r",
-                                        fmt::format("{}/{}", per_, seconds_),
-                                        "-i",
-                                        "-",
-                                        "-map_metadata",
-                                        "-1",
-                                        "-fflags",
-                                        "+bitexact",
-                                        "-flags:v",
-                                        "+bitexact",
-                                        "-threads",
-                                        "1"};
-  for (const std::string& word : find_codec(output_)->words) arguments.push_back(word);
-  arguments.push_back("-");
-  const int milliseconds = 60'000 + static_cast<int>(std::min<std::uint64_t>(frames_.size() / 1000, 1'000'000'000));
-  ProgramResult answer = run_child("ffmpeg", arguments, frames_, {.milliseconds = milliseconds});
+void FfmpegFilm::add(std::span<const std::uint8_t> pixels) { ffmpeg_.write(pixels); }
+
+std::vector<std::uint8_t> FfmpegFilm::encode() {
+  ProgramResult answer = ffmpeg_.finish();
   if (answer.code != 0 || answer.out.empty())
     throw Error(ErrorKind::Failed,
                 fmt::format("ffmpeg: {}", answer.complaint.empty() ? "wrote nothing" : answer.complaint));

@@ -22,26 +22,26 @@ bool is_encoded_by_ffmpeg(const std::string& output);
 /// The bytes of an APNG or WebP film.
 std::vector<std::uint8_t> encode_film(const Animation& film, const std::string& output);
 
-/// A film that ffmpeg encodes. Its frames are stored in an unnamed temporary file, not in memory.
+/// A film that ffmpeg encodes while further frames are drawn.
 class FfmpegFilm {
  public:
   /// `timing` is the timing of the frames; its own frames are ignored.
-  FfmpegFilm(std::string output, int width, int height, const Animation& timing);
+  ///
+  /// Errors    ErrorKind::Failed if ffmpeg is not installed.
+  FfmpegFilm(const std::string& output, int width, int height, const Animation& timing);
 
   /// Appends pixels in the order of the frames, RGBA, 8 bits per channel, rows from the top; in parts of any size.
   ///
-  /// Errors    ErrorKind::Failed if the folder for temporary files is full.
-  void add(std::span<const std::uint8_t> pixels) { frames_.append(pixels); }
+  /// Errors    ErrorKind::Failed if ffmpeg takes none of them for an hour.
+  void add(std::span<const std::uint8_t> pixels);
 
-  /// The bytes of the animation.
+  /// The bytes of the animation. Called once, last.
   ///
-  /// Errors    ErrorKind::Failed with the first line of ffmpeg's errors, or if it is not installed.
-  std::vector<std::uint8_t> encode() const;
+  /// Errors    ErrorKind::Failed with the first line of ffmpeg's errors.
+  std::vector<std::uint8_t> encode();
 
  private:
-  std::string output_;
-  int width_, height_, per_, seconds_;
-  ScratchFile frames_;
+  RunningProgram ffmpeg_;
 };
 
 }  // namespace zoneplate::cli
