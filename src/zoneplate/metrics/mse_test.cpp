@@ -90,9 +90,10 @@ TEST(EveryMetric, APictureIsPerfectlyLikeItself) {
   const Picture picture = make_picture(noise(1, 180, 177));
   const std::vector<Picture> twice = {picture, picture};
   for (const Metric& metric : metrics()) {
-    const auto frames = std::span(twice).first(std::min<std::size_t>(2, static_cast<std::size_t>(metric.frames)));
+    const auto needed = static_cast<std::size_t>(metric.frames);
+    if (!metric.perfect || needed > twice.size()) continue;  // longer windows measure sudden changes
+    const auto frames = std::span(twice).first(needed);
     const auto score = metric.measure(frames, frames, Settings(metric.params));
-    if (!metric.perfect) continue;
     ASSERT_TRUE(score) << metric.name;
     EXPECT_EQ(score->value, *metric.perfect) << metric.name;
     for (const float error : score->map.values()) ASSERT_EQ(error, 0) << metric.name;
