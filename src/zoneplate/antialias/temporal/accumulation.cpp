@@ -43,6 +43,13 @@ const float* begin_of(const Plane<float>& plane, int y) {
   return plane.empty() ? nullptr : plane.row(y + border).data() + border;
 }
 
+/// 0, 1, 2, ...
+std::vector<float> columns(int width) {
+  std::vector<float> out(static_cast<std::size_t>(width));
+  for (std::size_t x = 0; x < out.size(); ++x) out[x] = static_cast<float>(x);
+  return out;
+}
+
 /// The number of a pixel's object; -1 without a surface.
 float number_of(std::uint32_t id) { return id == Frame::no_id ? -1.0f : static_cast<float>(id); }
 
@@ -119,7 +126,7 @@ TemporalAccumulation::Current TemporalAccumulation::current_of(const Frame& fram
   });
   out.motion[0] = plane([&](int x, int y) { return motion(x, y).x; });
   out.motion[1] = plane([&](int x, int y) { return motion(x, y).y; });
-  if (options_.parts.trusts_rest && !context_.is_first) out.restless = restless(frame, motion);
+  if (options_.parts.trusts_rest && !context_.is_first) out.restless = restless(out, object_motions(frame, motion));
   if (!tests_surfaces()) return out;
   const LastDepths last(context_.last_camera, static_cast<float>(width) / static_cast<float>(height));
   const auto distance = [&](int x, int y) {
@@ -127,64 +134,53 @@ TemporalAccumulation::Current TemporalAccumulation::current_of(const Frame& fram
                                                  : last.distance(frame.last_position(x, y));
   };
   out.last_depth = plane(distance);
-  out.last_nearness = plane([&](int x, int y) { return last.nearness(distance(x, y)); });
+  if (options_.parts.rejection == TemporalParts::Rejection::Edge)
+    out.last_nearness = plane([&](int x, int y) { return last.nearness(distance(x, y)); });
   return out;
 }
 
-/// 1 where a surface moves, or the 3 × 3 surfaces do not move as one, 2 where a surface of the last frame moves
-/// otherwise: history there may contain colours that have moved elsewhere. An object of the last frame is taken to have
-/// moved by its mean motion.
-Plane<float> TemporalAccumulation::restless(const Frame& frame, const Plane<float2>& motion) const {
-  constexpr float likeness = 1 / 128.0f;  // pixels; over twenty frames a sixth of a pixel
-  const int width = motion.width(), height = motion.height();
-  const std::vector<ObjectMotion> objects = object_motions(frame, motion);
-  const auto differs = [](float2 a, float2 b, float limit) {
-    return std::abs(a.x - b.x) > limit || std::abs(a.y - b.y) > limit;
-  };
+/// Where history may contain colours that have moved elsewhere: TemporalKernels::find_unrest.
+Plane<float> TemporalAccumulation::restless(const Current& current, const ObjectMotions& objects) const {
+  const int width = past_surface_.width(), height = past_surface_.height();
+  const std::vector<float> column = columns(width);
   Plane<float> out(width, height);
   for_each_row(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const float2 own = motion(x, y);
-      const float own_object = number_of(frame.object_id(x, y));
-      const auto source_x =
-          std::clamp(std::floor(static_cast<float>(x) - own.x + 0.5f), -2.0f, static_cast<float>(width + 1));
-      const auto source_y =
-          std::clamp(std::floor(static_cast<float>(y) - own.y + 0.5f), -2.0f, static_cast<float>(height + 1));
-      float unrest = differs(own, {0, 0}, 1 / 2048.0f) ? 1.0f : 0.0f;
-      for (int j = -1; j <= 1; ++j)
-        for (int i = -1; i <= 1; ++i) {
-          const float2 other = motion(std::clamp(x + i, 0, width - 1), std::clamp(y + j, 0, height - 1));
-          const float past = past_surface_(std::clamp(static_cast<int>(source_x) + i, 0, width - 1),
-                                           std::clamp(static_cast<int>(source_y) + j, 0, height - 1));
-          const ObjectMotion& object = objects[static_cast<std::size_t>(past + 1)];
-          if (past != own_object && (object.pixels == 0 || differs(object.mean, own, likeness))) unrest = 2;
-          if (differs(other, own, likeness)) unrest = std::max(unrest, 1.0f);
-        }
-      out(x, y) = unrest;
-    }
+    const UnrestRow row{.motion = {begin_of(current.motion[0], y), begin_of(current.motion[1], y)},
+                        .surface = begin_of(current.surface, y),
+                        .stride = current.surface.width(),
+                        .column = column.data(),
+                        .y = y,
+                        .width = width,
+                        .height = height,
+                        .past_surface = past_surface_.values().data(),
+                        .object_motion = {objects.x.data(), objects.y.data()}};
+    TemporalKernels::of().find_unrest(row, &out(0, y), static_cast<std::size_t>(width));
   });
   return out;
 }
 
-/// The mean motions of the objects of this frame and of the last one, by their number plus one.
-std::vector<TemporalAccumulation::ObjectMotion> TemporalAccumulation::object_motions(
-    const Frame& frame, const Plane<float2>& motion) const {
+/// The mean motions of the objects of this frame and of the last one.
+TemporalAccumulation::ObjectMotions TemporalAccumulation::object_motions(const Frame& frame,
+                                                                         const Plane<float2>& motion) const {
   const auto past = past_surface_.values();
   float most = *std::max_element(past.begin(), past.end());
   for (const std::uint32_t id : frame.object_id.values()) most = std::max(most, number_of(id));
   struct Sum {
     double x = 0, y = 0;
+    int pixels = 0;
   };
   std::vector<Sum> sums(static_cast<std::size_t>(most) + 2);
-  std::vector<ObjectMotion> out(sums.size());
   for (std::size_t i = 0; i < motion.values().size(); ++i) {
-    const auto object = static_cast<std::size_t>(number_of(frame.object_id.values()[i]) + 1);
+    Sum& sum = sums[static_cast<std::size_t>(number_of(frame.object_id.values()[i]) + 1)];
     const float2 m = motion.values()[i];
-    sums[object].x += static_cast<double>(m.x), sums[object].y += static_cast<double>(m.y), ++out[object].pixels;
+    sum.x += static_cast<double>(m.x), sum.y += static_cast<double>(m.y), ++sum.pixels;
   }
-  for (std::size_t k = 0; k < out.size(); ++k)
-    if (out[k].pixels > 0)
-      out[k].mean = {static_cast<float>(sums[k].x / out[k].pixels), static_cast<float>(sums[k].y / out[k].pixels)};
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  ObjectMotions out;
+  for (const Sum& sum : sums) {
+    out.x.push_back(sum.pixels > 0 ? static_cast<float>(sum.x / sum.pixels) : infinity);
+    out.y.push_back(sum.pixels > 0 ? static_cast<float>(sum.y / sum.pixels) : infinity);
+  }
   return out;
 }
 
@@ -198,7 +194,8 @@ void TemporalAccumulation::begin_history(const Frame& frame) {
 }
 
 void TemporalAccumulation::keep_surfaces(const Frame& frame) {
-  past_depth_ = frame.depth, past_nearness_ = frame.reversed_depth;
+  past_depth_ = frame.depth;
+  if (options_.parts.rejection == TemporalParts::Rejection::Edge) past_nearness_ = frame.reversed_depth;
   past_surface_ = Plane<float>(frame.object_id.width(), frame.object_id.height());
   std::ranges::transform(frame.object_id.values(), past_surface_.values().begin(), number_of);
 }
@@ -215,8 +212,7 @@ LinearImage TemporalAccumulation::blended(const Frame& frame) {
     parts.weighting = TemporalParts::Weighting::None;
     parts.trusts_rest = false;
   }
-  std::vector<float> column(static_cast<std::size_t>(width));
-  for (std::size_t x = 0; x < column.size(); ++x) column[x] = static_cast<float>(x);
+  const std::vector<float> column = columns(width);
   LinearImage resolved(width, height), out(width, height);
   Plane<float> frames(width, height), squares(squares_.width(), squares_.height());
   const auto stride = static_cast<std::ptrdiff_t>(width + 2 * border);

@@ -29,12 +29,12 @@ class TemporalAccumulation : public Resolver {
   };
   bool tests_surfaces() const;
   Current current_of(const Frame& frame) const;
-  struct ObjectMotion {
-    float2 mean;
-    int pixels = 0;  ///< none: the object was visible in the last frame only
+  /// By the object's number plus one; infinite for an object that was visible in the last frame only.
+  struct ObjectMotions {
+    std::vector<float> x, y;
   };
-  std::vector<ObjectMotion> object_motions(const Frame& frame, const Plane<float2>& motion) const;
-  Plane<float> restless(const Frame& frame, const Plane<float2>& motion) const;
+  ObjectMotions object_motions(const Frame& frame, const Plane<float2>& motion) const;
+  Plane<float> restless(const Current& current, const ObjectMotions& objects) const;
   void begin_history(const Frame& frame);
   void keep_surfaces(const Frame& frame);
   LinearImage blended(const Frame& frame);

@@ -4,6 +4,7 @@
 #include "zoneplate/antialias/temporal/history_lanes.h"
 #include "zoneplate/antialias/temporal/range_lanes.h"
 #include "zoneplate/antialias/temporal/rectification_lanes.h"
+#include "zoneplate/antialias/temporal/unrest_lanes.h"
 #include "zoneplate/antialias/temporal/weight_lanes.h"
 
 /// The kernels of antialias/temporal/resolve.h over the lane types of math/lanes.h.
@@ -100,6 +101,7 @@ template <class Full, class One>
 constexpr TemporalKernels temporal() {
   return {.encode = &encode_temporal<Full, One>,
           .decode = &decode_temporal<Full, One>,
+          .find_unrest = &find_unrest<Full, One>,
           .resolve = &resolve_temporal<Full, One>,
           .sharpen = &sharpen_temporal<Full, One>};
 }
