@@ -21,10 +21,16 @@ void for_each_row(int height, const std::function<void(int)>& body) {
   parallel_for(static_cast<std::size_t>(height), [&](std::size_t row) { body(static_cast<int>(row)); });
 }
 
-/// A plane of value(x, y), which continues beyond its sides.
+/// Gives a plane a size; its elements are those of earlier frames. New memory costs more than what is done with it.
+template <class T>
+void resize(Plane<T>& plane, int width, int height) {
+  if (plane.width() != width || plane.height() != height) plane = Plane<T>(width, height);
+}
+
+/// Makes a plane of value(x, y), which continues beyond its sides.
 template <class T, class Value>
-Plane<T> bordered(int width, int height, const Value& value) {
-  Plane<T> out(width + 2 * border, height + 2 * border);
+void fill_bordered(Plane<T>& out, int width, int height, const Value& value) {
+  resize(out, width + 2 * border, height + 2 * border);
   for_each_row(height, [&](int y) {
     const std::span<T> row = out.row(y + border);
     for (int x = 0; x < width; ++x) row[static_cast<std::size_t>(x + border)] = value(x, y);
@@ -35,12 +41,18 @@ Plane<T> bordered(int width, int height, const Value& value) {
     std::ranges::copy(out.row(border), out.row(k).begin());
     std::ranges::copy(out.row(height + border - 1), out.row(height + border + k).begin());
   }
-  return out;
 }
 
 /// Pixel 0 of a row of a bordered plane.
 const float* begin_of(const Plane<float>& plane, int y) {
   return plane.empty() ? nullptr : plane.row(y + border).data() + border;
+}
+
+/// 0, 1, 2, ...
+std::vector<float> columns(int width) {
+  std::vector<float> out(static_cast<std::size_t>(width));
+  for (std::size_t x = 0; x < out.size(); ++x) out[x] = static_cast<float>(x);
+  return out;
 }
 
 /// The number of a pixel's object; -1 without a surface.
@@ -93,10 +105,10 @@ Request TemporalAccumulation::request(const FrameContext& context) {
   return request;
 }
 
-TemporalAccumulation::Current TemporalAccumulation::current_of(const Frame& frame) const {
+void TemporalAccumulation::take_current(const Frame& frame) {
   const int width = frame.color.width(), height = frame.color.height();
-  Current out;
-  out.color = {width + 2 * border, height + 2 * border, Linear{0, 0, 0, 0}};
+  Current& out = current_;
+  resize(out.color, width + 2 * border, height + 2 * border);
   for_each_row(height, [&](int y) {
     const std::span<Linear> row = out.color.row(y + border);
     TemporalKernels::of().encode(&frame.color(0, y).r, options_.parts.is_compressed, &row[border].r,
@@ -109,12 +121,13 @@ TemporalAccumulation::Current TemporalAccumulation::current_of(const Frame& fram
     std::ranges::copy(out.color.row(height + border - 1), out.color.row(height + border + k).begin());
   }
 
-  const auto plane = [&](const auto& value) { return bordered<float>(width, height, value); };
-  out.nearness = plane([&](int x, int y) { return frame.reversed_depth(x, y); });
-  out.surface = plane([&](int x, int y) { return number_of(frame.object_id(x, y)); });
+  const auto fill = [&](Plane<float>& plane, const auto& value) { fill_bordered(plane, width, height, value); };
+  fill(out.nearness, [&](int x, int y) { return frame.reversed_depth(x, y); });
+  fill(out.surface, [&](int x, int y) { return number_of(frame.object_id(x, y)); });
   const CameraMotion camera(context_.camera, context_.last_camera, width, height);
   const SamplePosition jitter = sample();
-  Plane<float2> motion(width, height);
+  Plane<float2>& motion = out.point_motion;
+  resize(motion, width, height);
   for_each_row(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       const bool is_surface = frame.object_id(x, y) != Frame::no_id;
@@ -123,74 +136,67 @@ TemporalAccumulation::Current TemporalAccumulation::current_of(const Frame& fram
                          : camera.at(x + jitter.x / 256.0, y + jitter.y / 256.0, frame.depth(x, y));
     }
   });
-  out.motion[0] = plane([&](int x, int y) { return motion(x, y).x; });
-  out.motion[1] = plane([&](int x, int y) { return motion(x, y).y; });
-  if (options_.parts.trusts_rest && !context_.is_first) out.restless = restless(frame, motion);
-  if (!tests_surfaces()) return out;
+  fill(out.motion[0], [&](int x, int y) { return motion(x, y).x; });
+  fill(out.motion[1], [&](int x, int y) { return motion(x, y).y; });
+  if (options_.parts.trusts_rest && !context_.is_first) find_restless(object_motions(frame));
+  if (!tests_surfaces()) return;
   const LastDepths last(context_.last_camera, static_cast<float>(width) / static_cast<float>(height));
   const auto distance = [&](int x, int y) {
     return frame.object_id(x, y) == Frame::no_id ? std::numeric_limits<float>::infinity()
                                                  : last.distance(frame.last_position(x, y));
   };
-  out.last_depth = plane(distance);
-  out.last_nearness = plane([&](int x, int y) { return last.nearness(distance(x, y)); });
-  return out;
+  fill(out.last_depth, distance);
+  if (options_.parts.rejection == TemporalParts::Rejection::Edge)
+    fill(out.last_nearness, [&](int x, int y) { return last.nearness(distance(x, y)); });
 }
 
-/// 1 where a surface moves, or the 3 × 3 surfaces do not move as one, 2 where a surface of the last frame moves
-/// otherwise: history there may contain colours that have moved elsewhere. An object of the last frame is taken to have
-/// moved by its mean motion.
-Plane<float> TemporalAccumulation::restless(const Frame& frame, const Plane<float2>& motion) const {
-  constexpr float likeness = 1 / 128.0f;  // pixels; over twenty frames a sixth of a pixel
-  const int width = motion.width(), height = motion.height();
-  const std::vector<ObjectMotion> objects = object_motions(frame, motion);
-  const auto differs = [](float2 a, float2 b, float limit) {
-    return std::abs(a.x - b.x) > limit || std::abs(a.y - b.y) > limit;
-  };
-  Plane<float> out(width, height);
+/// Where history may contain colours that have moved elsewhere: TemporalKernels::find_unrest.
+void TemporalAccumulation::find_restless(const ObjectMotions& objects) {
+  const int width = past_surface_.width(), height = past_surface_.height();
+  const std::vector<float> column = columns(width);
+  resize(current_.restless, width, height);
   for_each_row(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const float2 own = motion(x, y);
-      const float own_object = number_of(frame.object_id(x, y));
-      const auto source_x =
-          std::clamp(std::floor(static_cast<float>(x) - own.x + 0.5f), -2.0f, static_cast<float>(width + 1));
-      const auto source_y =
-          std::clamp(std::floor(static_cast<float>(y) - own.y + 0.5f), -2.0f, static_cast<float>(height + 1));
-      float unrest = differs(own, {0, 0}, 1 / 2048.0f) ? 1.0f : 0.0f;
-      for (int j = -1; j <= 1; ++j)
-        for (int i = -1; i <= 1; ++i) {
-          const float2 other = motion(std::clamp(x + i, 0, width - 1), std::clamp(y + j, 0, height - 1));
-          const float past = past_surface_(std::clamp(static_cast<int>(source_x) + i, 0, width - 1),
-                                           std::clamp(static_cast<int>(source_y) + j, 0, height - 1));
-          const ObjectMotion& object = objects[static_cast<std::size_t>(past + 1)];
-          if (past != own_object && (object.pixels == 0 || differs(object.mean, own, likeness))) unrest = 2;
-          if (differs(other, own, likeness)) unrest = std::max(unrest, 1.0f);
-        }
-      out(x, y) = unrest;
-    }
+    const UnrestRow row{.motion = {begin_of(current_.motion[0], y), begin_of(current_.motion[1], y)},
+                        .surface = begin_of(current_.surface, y),
+                        .stride = current_.surface.width(),
+                        .column = column.data(),
+                        .y = y,
+                        .width = width,
+                        .height = height,
+                        .past_surface = past_surface_.values().data(),
+                        .object_motion = {objects.x.data(), objects.y.data()}};
+    TemporalKernels::of().find_unrest(row, &current_.restless(0, y), static_cast<std::size_t>(width));
   });
-  return out;
 }
 
-/// The mean motions of the objects of this frame and of the last one, by their number plus one.
-std::vector<TemporalAccumulation::ObjectMotion> TemporalAccumulation::object_motions(
-    const Frame& frame, const Plane<float2>& motion) const {
+/// The mean motions of the objects of this frame and of the last one.
+TemporalAccumulation::ObjectMotions TemporalAccumulation::object_motions(const Frame& frame) const {
   const auto past = past_surface_.values();
   float most = *std::max_element(past.begin(), past.end());
   for (const std::uint32_t id : frame.object_id.values()) most = std::max(most, number_of(id));
   struct Sum {
     double x = 0, y = 0;
+    int pixels = 0;
   };
   std::vector<Sum> sums(static_cast<std::size_t>(most) + 2);
-  std::vector<ObjectMotion> out(sums.size());
-  for (std::size_t i = 0; i < motion.values().size(); ++i) {
-    const auto object = static_cast<std::size_t>(number_of(frame.object_id.values()[i]) + 1);
-    const float2 m = motion.values()[i];
-    sums[object].x += static_cast<double>(m.x), sums[object].y += static_cast<double>(m.y), ++out[object].pixels;
+  const std::span<const std::uint32_t> ids = frame.object_id.values();
+  for (std::size_t i = 0; i < ids.size();) {
+    // The sum stays in registers along the pixels of one object.
+    const std::uint32_t id = ids[i];
+    Sum& object = sums[static_cast<std::size_t>(number_of(id) + 1)];
+    Sum sum = object;
+    for (; i < ids.size() && ids[i] == id; ++i) {
+      const float2 m = current_.point_motion.values()[i];
+      sum.x += static_cast<double>(m.x), sum.y += static_cast<double>(m.y), ++sum.pixels;
+    }
+    object = sum;
   }
-  for (std::size_t k = 0; k < out.size(); ++k)
-    if (out[k].pixels > 0)
-      out[k].mean = {static_cast<float>(sums[k].x / out[k].pixels), static_cast<float>(sums[k].y / out[k].pixels)};
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  ObjectMotions out;
+  for (const Sum& sum : sums) {
+    out.x.push_back(sum.pixels > 0 ? static_cast<float>(sum.x / sum.pixels) : infinity);
+    out.y.push_back(sum.pixels > 0 ? static_cast<float>(sum.y / sum.pixels) : infinity);
+  }
   return out;
 }
 
@@ -204,14 +210,17 @@ void TemporalAccumulation::begin_history(const Frame& frame) {
 }
 
 void TemporalAccumulation::keep_surfaces(const Frame& frame) {
-  past_depth_ = frame.depth, past_nearness_ = frame.reversed_depth;
-  past_surface_ = Plane<float>(frame.object_id.width(), frame.object_id.height());
+  past_depth_ = frame.depth;
+  if (options_.parts.rejection == TemporalParts::Rejection::Edge) past_nearness_ = frame.reversed_depth;
+  resize(past_surface_, frame.object_id.width(), frame.object_id.height());
   std::ranges::transform(frame.object_id.values(), past_surface_.values().begin(), number_of);
 }
 
-LinearImage TemporalAccumulation::blended(const Frame& frame) {
+/// The blend takes the place of the frame's colour.
+LinearImage TemporalAccumulation::blended(Frame& frame) {
   const int width = frame.color.width(), height = frame.color.height();
-  const Current current = current_of(frame);
+  take_current(frame);
+  const Current& current = current_;
   TemporalParts parts = options_.parts;
   if (context_.is_first) {
     begin_history(frame);
@@ -221,10 +230,10 @@ LinearImage TemporalAccumulation::blended(const Frame& frame) {
     parts.weighting = TemporalParts::Weighting::None;
     parts.trusts_rest = false;
   }
-  std::vector<float> column(static_cast<std::size_t>(width));
-  for (std::size_t x = 0; x < column.size(); ++x) column[x] = static_cast<float>(x);
-  LinearImage resolved(width, height), out(width, height);
-  Plane<float> frames(width, height), squares(squares_.width(), squares_.height());
+  const std::vector<float> column = columns(width);
+  const bool keeps_squares = options_.parts.trusts_rest && !context_.is_first;
+  resize(next_history_, width, height), resize(next_frames_, width, height);
+  if (keeps_squares) resize(next_squares_, width, height);
   const auto stride = static_cast<std::ptrdiff_t>(width + 2 * border);
   for_each_row(height, [&](int y) {
     const float* const nearness = begin_of(current.nearness, y);
@@ -236,7 +245,7 @@ LinearImage TemporalAccumulation::blended(const Frame& frame) {
                           .surface = begin_of(current.surface, y),
                           .last_depth = or_nearness(current.last_depth),
                           .last_nearness = or_nearness(current.last_nearness),
-                          .restless = current.restless.empty() ? nullptr : &current.restless(0, y),
+                          .restless = keeps_squares ? &current.restless(0, y) : nullptr,
                           .stride = stride,
                           .column = column.data(),
                           .y = y,
@@ -248,27 +257,29 @@ LinearImage TemporalAccumulation::blended(const Frame& frame) {
                           .past_nearness = past_nearness_.values().data(),
                           .width = width,
                           .height = height,
-                          .resolved = &resolved(0, y).r,
-                          .frames_out = &frames(0, y),
-                          .squares_out = squares.empty() ? nullptr : &squares(0, y)};
+                          .resolved = &next_history_(0, y).r,
+                          .frames_out = &next_frames_(0, y),
+                          .squares_out = keeps_squares ? &next_squares_(0, y) : nullptr};
     const TemporalKernels& kernels = TemporalKernels::of();
     kernels.resolve(row, parts, static_cast<std::size_t>(width));
-    kernels.decode(row.resolved, row.color, &frame.color(0, y).r, parts.is_compressed, &out(0, y).r,
+    kernels.decode(row.resolved, row.color, &frame.color(0, y).r, parts.is_compressed, &frame.color(0, y).r,
                    static_cast<std::size_t>(width));
   });
-  history_ = std::move(resolved);
-  if (!context_.is_first) frames_ = std::move(frames), squares_ = std::move(squares);
+  std::swap(history_, next_history_);
+  if (!context_.is_first) std::swap(frames_, next_frames_);
+  if (keeps_squares) std::swap(squares_, next_squares_);
   if (context_.is_first && options_.parts.trusts_rest)
     std::ranges::transform(history_.values(), squares_.values().begin(), [](const Linear& c) {
       const float luma = (c.r + c.b) * 0.25f + c.g * 0.5f;
       return luma * luma;
     });
-  return out;
+  return std::move(frame.color);
 }
 
 LinearImage TemporalAccumulation::sharpened(LinearImage image) const {
   const int width = image.width(), height = image.height();
-  const LinearImage wide = bordered<Linear>(width, height, [&](int x, int y) { return image(x, y); });
+  LinearImage wide;
+  fill_bordered(wide, width, height, [&](int x, int y) { return image(x, y); });
   for_each_row(height, [&](int y) {
     TemporalKernels::of().sharpen(&wide(border, y + border).r, 4 * static_cast<std::ptrdiff_t>(wide.width()),
                                   options_.sharpening, &image(0, y).r, static_cast<std::size_t>(width));

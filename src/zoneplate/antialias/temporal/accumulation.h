@@ -21,32 +21,35 @@ class TemporalAccumulation : public Resolver {
  private:
   /// A plane that continues beyond the image by TemporalRow::border pixels, with its outermost values.
   using Bordered = Plane<float>;
-  /// The planes of this frame; those that no part reads are empty.
+  /// The planes of this frame; those that no part reads are empty, or of earlier frames.
   struct Current {
     LinearImage color;
+    Plane<float2> point_motion;
     Bordered nearness, motion[2], surface, last_depth, last_nearness;
     Plane<float> restless;
   };
   SamplePosition sample() const;
   bool tests_surfaces() const;
-  Current current_of(const Frame& frame) const;
-  struct ObjectMotion {
-    float2 mean;
-    int pixels = 0;  ///< none: the object was visible in the last frame only
+  void take_current(const Frame& frame);
+  /// By the object's number plus one; infinite for an object that was visible in the last frame only.
+  struct ObjectMotions {
+    std::vector<float> x, y;
   };
-  std::vector<ObjectMotion> object_motions(const Frame& frame, const Plane<float2>& motion) const;
-  Plane<float> restless(const Frame& frame, const Plane<float2>& motion) const;
+  ObjectMotions object_motions(const Frame& frame) const;
+  void find_restless(const ObjectMotions& objects);
   void begin_history(const Frame& frame);
   void keep_surfaces(const Frame& frame);
-  LinearImage blended(const Frame& frame);
+  LinearImage blended(Frame& frame);
   LinearImage sharpened(LinearImage image) const;
 
   TemporalOptions options_;
   SamplePattern jitter_;
   FrameContext context_;
 
-  LinearImage history_;  ///< encoded
-  Plane<float> frames_, squares_, past_surface_, past_depth_, past_nearness_;
+  Current current_;
+  LinearImage history_, next_history_;  ///< encoded
+  Plane<float> frames_, next_frames_, squares_, next_squares_;
+  Plane<float> past_surface_, past_depth_, past_nearness_;
 };
 
 }  // namespace zoneplate::antialias

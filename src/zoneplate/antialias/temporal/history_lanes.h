@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 #include "zoneplate/antialias/temporal/reprojection_lanes.h"
 
@@ -11,27 +10,14 @@
 /// Sums are of differences from the texel at the source's own pixel: a history of one colour gives that colour exactly.
 namespace zoneplate::stages {
 
-/// The pixel of each lane, at an offset from the source.
 template <class F>
-[[gnu::always_inline]] inline Rgba<F> history_at(const TemporalRow& row, const Source<F>& source, int dx, int dy) {
-  alignas(32) std::int32_t index[F::lanes];
-  index_at(row, source.first[0] + F(static_cast<float>(dx)), source.first[1] + F(static_cast<float>(dy))).store(index);
-  Rgba<F> out;
-  const auto texel = [&](int lane) { return row.history + std::ptrdiff_t{4} * index[lane]; };
-  if constexpr (F::lanes == 1)
-    for (int c = 0; c < 4; ++c) out.c[c] = F(texel(0)[c]);
-  else
-    F::load_quads(texel, out.c);
-  return out;
-}
-
-template <class F>
-[[gnu::always_inline]] inline Rgba<F> bilinear_history(const TemporalRow& row, const Source<F>& source) {
+[[gnu::always_inline]] inline Rgba<F> bilinear_history(const TemporalRow& row, const Source<F>& source,
+                                                       const PastPixels<F>& past) {
   const F one(1.0f);
   const F x = source.fraction[0], y = source.fraction[1];
-  const Rgba<F> base = history_at(row, source, 0, 0);
-  const Rgba<F> right = history_at(row, source, 1, 0) - base, below = history_at(row, source, 0, 1) - base;
-  const Rgba<F> across = history_at(row, source, 1, 1) - base;
+  const Rgba<F> base = past.color(row.history, 0, 0);
+  const Rgba<F> right = past.color(row.history, 1, 0) - base, below = past.color(row.history, 0, 1) - base;
+  const Rgba<F> across = past.color(row.history, 1, 1) - base;
   return base + ((right * (x * (one - y)) + below * ((one - x) * y)) + across * (x * y));
 }
 
@@ -49,16 +35,17 @@ template <class F>
 
 template <class F>
 [[gnu::always_inline]] inline Rgba<F> catmull_rom_history(const TemporalRow& row, const Source<F>& source,
-                                                          bool has_corners, bool is_normalized) {
+                                                          const PastPixels<F>& past, bool has_corners,
+                                                          bool is_normalized) {
   F wx[4], wy[4];
   catmull_rom(source.fraction[0], wx), catmull_rom(source.fraction[1], wy);
-  const Rgba<F> base = history_at(row, source, 0, 0);
+  const Rgba<F> base = past.color(row.history, 0, 0);
   Rgba<F> sum = Rgba<F>::all(F(0.0f));
   for (int j = 0; j < 4; ++j)
     for (int i = 0; i < 4; ++i) {
       const bool is_corner = (i == 0 || i == 3) && (j == 0 || j == 3);
       if ((i == 1 && j == 1) || (is_corner && !has_corners)) continue;
-      sum = sum + (history_at(row, source, i - 1, j - 1) - base) * (wx[i] * wy[j]);
+      sum = sum + (past.color(row.history, i - 1, j - 1) - base) * (wx[i] * wy[j]);
     }
   if (has_corners) return base + sum;
   const F total = F(1.0f) - (wx[0] + wx[3]) * (wy[0] + wy[3]);
@@ -71,8 +58,10 @@ template <class F>
                                                  const Source<F>& source, std::ptrdiff_t i) {
   using Filter = TemporalParts::Filter;
   if (source.is_at_rest()) return Rgba<F>::load(row.history + 4 * (std::ptrdiff_t{row.y} * row.width + i));
-  if (parts.filter == Filter::Bilinear) return bilinear_history(row, source);
-  const Rgba<F> sharp = catmull_rom_history(row, source, parts.filter == Filter::CatmullRom9, parts.is_normalized);
+  const PastPixels<F> past = pixels_around(row, source, i);
+  if (parts.filter == Filter::Bilinear) return bilinear_history(row, source, past);
+  const Rgba<F> sharp =
+      catmull_rom_history(row, source, past, parts.filter == Filter::CatmullRom9, parts.is_normalized);
   const F most(parts.is_compressed ? 1.0f : 65504.0f);
   return min(max(sharp, Rgba<F>::all(F(0.0f))), Rgba<F>::all(most));
 }

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "zoneplate/antialias/temporal/color_lanes.h"
+#include "zoneplate/antialias/temporal/past_pixels_lanes.h"
 #include "zoneplate/antialias/temporal/resolve.h"
 
 /// Where a pixel's history is, and whether the last frame had the same surface there, over a lane type of math/lanes.h.
@@ -91,33 +91,41 @@ struct Source {
   }
 };
 
-/// The index of a pixel of the last frame, moved into the image.
+/// The pixels of the last frame around the source, and around the pixel nearest to it.
 template <class F>
-[[gnu::always_inline]] inline typename F::Int index_at(const TemporalRow& row, F x, F y) {
-  const F last_x(static_cast<float>(row.width - 1)), last_y(static_cast<float>(row.height - 1)), zero(0.0f);
-  using Int = typename F::Int;
-  return truncate(min(max(y, zero), last_y)) * Int(row.width) + truncate(min(max(x, zero), last_x));
+[[gnu::always_inline]] inline PastPixels<F> pixels_around(const TemporalRow& row, const Source<F>& source,
+                                                          std::ptrdiff_t i) {
+  return {source.first[0], source.first[1], row.width, row.height, F::load(row.column + i), i, 2};
+}
+template <class F>
+[[gnu::always_inline]] inline PastPixels<F> nearest_pixels(const TemporalRow& row, const Source<F>& source,
+                                                           std::ptrdiff_t i) {
+  const F half(0.5f);
+  return {source.first[0] + floor(source.fraction[0] + half),
+          source.first[1] + floor(source.fraction[1] + half),
+          row.width,
+          row.height,
+          F::load(row.column + i),
+          i,
+          1};
 }
 
 /// True where one of the 3 × 3 surfaces around the source allows history, by Rejection::Depth, Id or Both.
 template <class F>
 [[gnu::always_inline]] inline typename F::Bool has_surface(const TemporalRow& row, const TemporalParts& parts,
-                                                           const Followed<F>& s, const Source<F>& source) {
+                                                           const Followed<F>& s, const PastPixels<F>& past) {
   using Rejection = TemporalParts::Rejection;
-  const F half(0.5f), zero(0.0f), one(1.0f);
-  const F x = source.first[0] + floor(source.fraction[0] + half),
-          y = source.first[1] + floor(source.fraction[1] + half);
+  const F zero(0.0f), one(1.0f);
   const F nearest = s.last_depth * (one - F(parts.tolerance)), farthest = s.last_depth * (one + F(parts.tolerance));
   auto found = zero > zero;
   for (int dy = -1; dy <= 1; ++dy)
     for (int dx = -1; dx <= 1; ++dx) {
-      const auto index = index_at(row, x + F(static_cast<float>(dx)), y + F(static_cast<float>(dy)));
-      const auto is_same = F::gather(row.past_surface, index) == s.surface;
+      const auto is_same = past.value(row.past_surface, dx, dy) == s.surface;
       if (parts.rejection == Rejection::Id) {
         found = found | is_same;
         continue;
       }
-      const F depth = F::gather(row.past_depth, index);
+      const F depth = past.value(row.past_depth, dx, dy);
       const auto is_behind = depth >= nearest;
       found = found |
               (parts.rejection == Rejection::Depth ? is_behind

@@ -42,6 +42,16 @@ struct TemporalRow {
   float* squares_out;
 };
 
+/// One row of a frame with the objects of the last frame, for TemporalKernels::find_unrest.
+struct UnrestRow {
+  const float *motion[2], *surface;  ///< as in TemporalRow
+  std::ptrdiff_t stride;
+  const float* column;  ///< 0, 1, 2, ...
+  int y, width, height;
+  const float* past_surface;      ///< without a border
+  const float* object_motion[2];  ///< means by the object's number plus one; infinite without a pixel in this frame
+};
+
 struct TemporalKernels : PerIsa<TemporalKernels> {
   /// Colours without NaN, negative and unbounded values; and compressed: the straight colour c becomes
   /// c / (1 + max(r, g, b)), premultiplied again.
@@ -51,6 +61,9 @@ struct TemporalKernels : PerIsa<TemporalKernels> {
   /// The colours that `encode` compressed. A pixel with resolved = encoded becomes its own `linear`, bit by bit.
   void (*decode)(const float* resolved, const float* encoded, const float* linear, bool is_compressed, float* out,
                  std::size_t n);
+  /// 1 where a surface moves, or the 3 × 3 surfaces do not move as one, 2 where a surface of the last frame moves
+  /// otherwise, 0 elsewhere. An object of the last frame is taken to have moved by its mean motion.
+  void (*find_unrest)(const UnrestRow& row, float* unrest, std::size_t n);
   /// Resolves n pixels of a row: filters the current colours, reprojects, validates and rectifies the history, and
   /// blends both.
   ///

@@ -4,6 +4,7 @@
 #include "zoneplate/antialias/temporal/history_lanes.h"
 #include "zoneplate/antialias/temporal/range_lanes.h"
 #include "zoneplate/antialias/temporal/rectification_lanes.h"
+#include "zoneplate/antialias/temporal/unrest_lanes.h"
 #include "zoneplate/antialias/temporal/weight_lanes.h"
 
 /// The kernels of antialias/temporal/resolve.h over the lane types of math/lanes.h.
@@ -15,31 +16,19 @@ using antialias::TemporalKernels;
 template <class F>
 [[gnu::always_inline]] inline typename F::Bool is_valid(const TemporalRow& row, const TemporalParts& parts,
                                                         const Followed<F>& surface, const Source<F>& source,
-                                                        std::ptrdiff_t i) {
+                                                        const PastPixels<F>& nearest_past, std::ptrdiff_t i) {
   using Rejection = TemporalParts::Rejection;
   if (parts.rejection == Rejection::None) return source.is_inside;
-  if (parts.rejection != Rejection::Edge) return source.is_inside & has_surface(row, parts, surface, source);
+  if (parts.rejection != Rejection::Edge) return source.is_inside & has_surface(row, parts, surface, nearest_past);
   // three.js: depthThreshold and edgeDepthDiff of depths in [0, 1].
-  const F threshold(0.0005f), edge(0.001f), half(0.5f);
+  const F threshold(0.0005f), edge(0.001f);
   F nearest = F::load(row.nearness + i), farthest = nearest;
   for (const PixelOffset o : around_square) {
     const F other = F::load(row.nearness + i + o.x + o.y * row.stride);
     nearest = max(nearest, other), farthest = min(farthest, other);
   }
-  const F x = source.first[0] + floor(source.fraction[0] + half),
-          y = source.first[1] + floor(source.fraction[1] + half);
-  const F before = F::gather(row.past_nearness, index_at(row, x, y));
+  const F before = nearest_past.value(row.past_nearness, 0, 0);
   return source.is_inside & ((nearest - farthest > edge) | (threshold >= before - surface.last_nearness));
-}
-
-/// A value of the last frame at the pixel nearest to the source.
-template <class F>
-[[gnu::always_inline]] inline F past_value(const float* plane, const TemporalRow& row, const Source<F>& source,
-                                           std::ptrdiff_t i) {
-  if (source.is_at_rest()) return F::load(plane + (std::ptrdiff_t{row.y} * row.width + i));
-  const F half(0.5f);
-  return F::gather(plane, index_at(row, source.first[0] + floor(source.fraction[0] + half),
-                                   source.first[1] + floor(source.fraction[1] + half)));
 }
 
 /// True where all surfaces around move as one and the current luma is a plausible sample of those in the history.
@@ -49,13 +38,12 @@ template <class F>
 template <class F>
 [[gnu::always_inline]] inline typename F::Bool is_steady(const TemporalRow& row, const Source<F>& source,
                                                          const Rgba<F>& current, const Rgba<F>& past, F square,
-                                                         std::ptrdiff_t i) {
+                                                         F frames, std::ptrdiff_t i) {
   const F zero(0.0f), most(4.0f), noise(0.02f), least_noise(0.002f), young(8.0f);
   const F mean = luma_of(past), difference = abs(luma_of(current) - mean);
   const F deviation = sqrt(max(square - mean * mean, zero));
   return source.is_inside & (F::load(row.restless + i) == zero) &
-         ((young > past_value(row.frames, row, source, i)) |
-          (most * deviation + noise * mean + least_noise > difference));
+         ((young > frames) | (most * deviation + noise * mean + least_noise > difference));
 }
 
 template <class Full, class One>
@@ -72,15 +60,17 @@ template <class Full, class One>
     const F gamma = F(parts.moving_gamma) + F(parts.gamma - parts.moving_gamma) * (rest * rest);
     const Rgba<F> past = history_of(row, parts, source, i);
     Rgba<F> history = rectified(past, around, parts, gamma);
-    auto valid = is_valid(row, parts, surface, source, i);
+    const PastPixels<F> nearest_past = nearest_pixels(row, source, i);
+    auto valid = is_valid(row, parts, surface, source, nearest_past, i);
     F square(0.0f);
     if (parts.trusts_rest) {
-      square = past_value(row.squares, row, source, i);
-      const auto is_trusted = is_steady(row, source, current, past, square, i);
+      square = nearest_past.value(row.squares, 0, 0);
+      const F frames = nearest_past.value(row.frames, 0, 0);
+      const auto is_trusted = is_steady(row, source, current, past, square, frames, i);
       history = select(is_trusted, past, history);
       valid = valid | is_trusted;
     }
-    const Share<F> share = valid_share(row, parts, source, current, history, i);
+    const Share<F> share = valid_share(row, parts, source, nearest_past, current, history, i);
     const F weight = weighted(share.weight, current, history, parts.weighting);
     Rgba<F> result = select(valid, history + (current - history) * weight, current);
     if (parts.trusts_rest) {
@@ -100,6 +90,7 @@ template <class Full, class One>
 constexpr TemporalKernels temporal() {
   return {.encode = &encode_temporal<Full, One>,
           .decode = &decode_temporal<Full, One>,
+          .find_unrest = &find_unrest<Full, One>,
           .resolve = &resolve_temporal<Full, One>,
           .sharpen = &sharpen_temporal<Full, One>};
 }

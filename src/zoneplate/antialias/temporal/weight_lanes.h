@@ -31,17 +31,15 @@ template <class F>
 /// The weight of the current frame where the history is valid.
 template <class F>
 [[gnu::always_inline]] inline Share<F> valid_share(const TemporalRow& row, const TemporalParts& parts,
-                                                   const Source<F>& source, const Rgba<F>& current,
-                                                   const Rgba<F>& history, std::ptrdiff_t i) {
+                                                   const Source<F>& source, const PastPixels<F>& nearest_past,
+                                                   const Rgba<F>& current, const Rgba<F>& history, std::ptrdiff_t i) {
   using Blend = TemporalParts::Blend;
-  const F zero(0.0f), one(1.0f), half(0.5f), least(parts.least_weight);
+  const F zero(0.0f), one(1.0f), least(parts.least_weight);
   switch (parts.blend) {
     case Blend::Fixed:
       return {least, one};
     case Blend::Count: {
-      const F x = source.first[0] + floor(source.fraction[0] + half);
-      const F y = source.first[1] + floor(source.fraction[1] + half);
-      const F frames = min(F::gather(row.frames, index_at(row, x, y)) + one, F(65536.0f));
+      const F frames = min(nearest_past.value(row.frames, 0, 0) + one, F(65536.0f));
       return {max(one / frames, least), frames};
     }
     case Blend::Contrast: {
