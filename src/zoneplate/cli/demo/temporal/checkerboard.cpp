@@ -150,8 +150,7 @@ Lesson make(const DemoSize& size) {
   }
   figure.rows.push_back({{table_picture(table, size.style(), 4 * size.panel + 3 * size.style().gap_px), ""}});
   figure.text =
-      "Above a wheel that turns, below a board that moves to the right before a wall at rest, whose squares are about "
-      "as "
+      "Above a wheel that turns, below a board that moves to the right before a wall at rest, whose squares are a few "
       "pixels wide; enlarged. The pixels of one colour of a checkerboard are shaded in even frames, the others in "
       "odd ones. A pixel that is not shaded takes the colour that its surface had in the last frame, if that pixel "
       "showed the same object; otherwise the mean of the left and right or of the upper and lower neighbours, "
