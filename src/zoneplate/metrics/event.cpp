@@ -76,15 +76,15 @@ std::optional<EventResponse> event_response(Frames reference, Frames test) {
 }
 
 double frames_until(const std::vector<double>& remains, double share) {
-  // The exponential through two shares has no zero: shares below 10⁻⁶ count as that.
-  const auto level = [](double kept) { return binary_log(std::max(kept, 1e-6)); };
   const double target = binary_log(share);
   for (std::size_t k = 1; k < remains.size(); ++k) {
     if (remains[k] > share) continue;
-    const double before = level(remains[k - 1]), after = level(remains[k]);
-    return static_cast<double>(k - 1) + (before - target) / (before - after);
+    const auto last = static_cast<double>(k - 1);
+    if (remains[k] <= 0) return last;  // the limit of ever faster exponentials
+    const double before = binary_log(remains[k - 1]), after = binary_log(remains[k]);
+    return last + (before - target) / (before - after);
   }
-  const double rate = level(remains.back()) / static_cast<double>(remains.size() - 1);
+  const double rate = binary_log(remains.back()) / static_cast<double>(remains.size() - 1);
   return rate < 0 ? target / rate : std::numeric_limits<double>::infinity();
 }
 

@@ -78,7 +78,8 @@ TEST_F(DemoFolder, AllLessonsAreWrittenAndSaid) {
                                           "gamma.png",
                                           "sdf.png",
                                           "temporal.png",
-                                          "ghosting.png"}));
+                                          "ghosting.png",
+                                          "checkerboard.png"}));
   for (const std::string& name : names) {
     const FileBytes file(folder + "/" + name);
     if (name.ends_with(".png")) {

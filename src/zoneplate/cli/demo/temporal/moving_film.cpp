@@ -14,6 +14,11 @@ namespace zoneplate::cli {
 
 std::vector<LinearImage> film_of_scene(const std::string& scene, const std::string& method, int frames, int width,
                                        int height) {
+  return film_of_scene(scene, make_resolver(antialias::methods(), method), frames, width, height);
+}
+
+std::vector<LinearImage> film_of_scene(const std::string& scene, std::unique_ptr<Resolver> method, int frames,
+                                       int width, int height) {
   constexpr double rate = 24;
   const RenderSettings settings{.options = {.width = width, .height = height}, .form = ImageForm::Linear};
   std::optional<Renderer> renderer;
@@ -25,7 +30,7 @@ std::vector<LinearImage> film_of_scene(const std::string& scene, const std::stri
     if (renderer)
       renderer->set_scene(PreparedScene(std::move(now), renderer->scene()));
     else
-      renderer.emplace(PreparedScene(std::move(now)), make_resolver(antialias::methods(), method));
+      renderer.emplace(PreparedScene(std::move(now)), std::move(method));
     film.push_back(renderer->render(camera, settings).linear);
   }
   return film;
