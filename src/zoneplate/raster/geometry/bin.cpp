@@ -207,7 +207,7 @@ void add_to_bins(const ProjectedDraws& projected, std::size_t first, std::size_t
     std::size_t draw;
     std::int32_t begin, end;
   };
-  constexpr std::int32_t part_size = 4096;
+  constexpr std::int32_t part_size = 1024;
   std::vector<Part> parts;
   for (std::size_t d = first; d < last; ++d) {
     const std::int32_t end = projected.first_triangle[d + 1];
