@@ -9,10 +9,13 @@
 #include <mutex>
 #include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include "zoneplate/base/clock.h"
 #include "zoneplate/base/deadline.h"
 #include "zoneplate/base/isa.h"
+#include "zoneplate/base/loop_times.h"
 #include "zoneplate/base/processors.h"
 
 namespace zoneplate {
@@ -75,6 +78,24 @@ struct Place {
   int index = 0;
 };
 thread_local Place place;
+
+/// The measurement of `time_loops` on the calling thread, outside of loops.
+thread_local WorkTimes* measured = nullptr;
+
+/// Runs a loop on one thread and measures its items; nested loops are part of them.
+void measure_loop(std::size_t count, const std::function<void(std::size_t)>& body) {
+  struct Return {
+    WorkTimes* times;
+    ~Return() { measured = times; }
+  } const back{std::exchange(measured, nullptr)};
+  LoopTimes& items = back.times->loops.emplace_back(count);
+  Stopwatch watch;
+  for (std::size_t i = 0; i < count; ++i) {
+    check_deadline();
+    body(i);
+    items[i] = watch.lap_ms();
+  }
+}
 
 Team::~Team() {
   {
@@ -175,6 +196,7 @@ void Team::run(std::size_t count, const std::function<void(std::size_t)>& body) 
 }  // namespace
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
+  if (measured) return measure_loop(count, body);
   if (count > 1 && !place.team) return with_threads(0, [&] { parallel_for(count, body); });
   if (count > 1 && place.team->limit() > 1) return place.team->run(count, body);
   for (std::size_t i = 0; i < count; ++i) {
@@ -196,6 +218,20 @@ void with_threads(int threads, const std::function<void()>& body) {
   } const back{place};
   place = {&team, 0};
   body();
+}
+
+WorkTimes time_loops(const std::function<void()>& body) {
+  WorkTimes times;
+  with_threads(1, [&] {
+    struct Return {
+      WorkTimes* outer;
+      ~Return() { measured = outer; }
+    } const back{std::exchange(measured, &times)};
+    const Stopwatch watch;
+    body();
+    times.total = watch.ms();
+  });
+  return times;
 }
 
 int thread_index() { return place.index; }

@@ -2,8 +2,11 @@
 // zoneplate bench: times the frames of the benchmark scenes, stage by stage.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
+#include <numeric>
 
+#include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/args.h"
 #include "zoneplate/cli/bench/frames.h"
@@ -25,7 +28,7 @@ struct BenchArgs {
   int threads = 0;
   Isa isa = current_isa();
   std::string peer = "zoneplate";
-  bool prints_json = false;
+  bool prints_json = false, simulates = false;
 };
 
 constexpr std::string_view bench_scenes[] = {"tri1m", "fill", "fillblend", "city", "city-trilinear", "micro"};
@@ -97,6 +100,30 @@ std::string timing_text(const BenchWork& work, const BenchTiming& t, const Machi
   return text + stage_text("(encode)", t.encode_ms, pixels, "pixel", 0, limits);
 }
 
+// The efficiency of each loop and of the frame on more threads, simulated from the items' times on one.
+std::string schedule_text(const BenchWork& work, const WorkTimes& times) {
+  constexpr int most_threads = 64;
+  std::string text = fmt::format("{} {}x: {:.2f} ms a frame on one thread\n  {:<22}{:>8}{:>12}", work.scene,
+                                 work.samples, times.total, "", "ms", "longest ms");
+  for (int threads = 2; threads <= most_threads; threads *= 2) text += fmt::format("{:>5} x", threads);
+  const auto add = [&](const std::string& name, double ms, double longest, const auto& ms_on) {
+    text += fmt::format("\n  {:<22}{:8.3f}{:12.3f}", name, ms, longest);
+    for (int threads = 2; threads <= most_threads; threads *= 2)
+      text += fmt::format("{:5.0f} %", 100 * ms / (threads * ms_on(threads)));
+  };
+  for (const LoopTimes& items : times.loops)
+    add(fmt::format("loop over {} items", items.size()), std::accumulate(items.begin(), items.end(), 0.0),
+        items.empty() ? 0 : *std::max_element(items.begin(), items.end()),
+        [&](int threads) { return scheduled_ms(items, threads); });
+  add("outside of loops", times.serial(), times.serial(), [&](int) { return times.serial(); });
+  add("frame", times.total, times.total, [&](int threads) {
+    double ms = times.serial();
+    for (const LoopTimes& items : times.loops) ms += scheduled_ms(items, threads);
+    return ms;
+  });
+  return text + '\n';
+}
+
 std::string limits_text(const MachineLimits& l) {
   return fmt::format(
       "{} threads, {}. Memory bandwidth: {:.1f} GB/s read, {:.1f} GB/s write. Clearing 1920x1080 of colour and depth:\n"
@@ -144,6 +171,9 @@ Syntax syntax_of(BenchArgs& args) {
        false, [&](const std::string& text) { args.work.budget_ms = parse_number(text, 1, 1e7); }},
       {"--peer", "NAME", "Name of this program in the result; default zoneplate", "Result", false,
        [&](const std::string& text) { args.peer = text; }},
+      {"--simulate-threads", "",
+       "Print the efficiency on 2 to 64 threads, simulated from the times of tiles and parts on one thread", "Result",
+       true, [&](auto&) { args.simulates = true; }},
       {"--json", "", "Print one line of JSON per scene", "Result", true, [&](auto&) { args.prints_json = true; }}};
   return syntax;
 }
@@ -158,14 +188,19 @@ void run_bench(std::span<const std::string> arguments) {
   args.scenes.insert(args.scenes.end(), syntax.found_operands.begin(), syntax.found_operands.end());
   if (args.scenes.empty()) args.scenes.assign(std::begin(bench_scenes), std::end(bench_scenes));
   const std::vector<int> counts = args.samples ? std::vector{args.samples} : std::vector{1, 4};
+  if (args.simulates && args.prints_json) throw Error(ErrorKind::Usage, "--simulate-threads prints no JSON");
   const bool prints_json = args.prints_json || names_one;
   const auto time_all = [&] {
     MachineLimits limits;
-    if (!prints_json) print(limits_text(limits = measure_limits()));
+    if (!prints_json && !args.simulates) print(limits_text(limits = measure_limits()));
     for (const std::string& scene : args.scenes)
       for (const int samples : counts) {
         BenchWork work = args.work;
         work.scene = scene, work.samples = samples;
+        if (args.simulates) {
+          print(schedule_text(work, time_frame_loops(work)));
+          continue;
+        }
         const BenchTiming timing = time_frames(work);
         print(prints_json ? timing_json(args, work, timing).text() + '\n' : timing_text(work, timing, limits));
       }

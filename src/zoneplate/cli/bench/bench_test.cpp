@@ -69,6 +69,16 @@ TEST(Bench, TellsTheStagesBesideTheMachinesLimits) {
   EXPECT_EQ(text.find("blending"), std::string::npos);
 }
 
+TEST(Bench, SimulatesMoreThreads) {
+  testing::internal::CaptureStdout();
+  run_bench(
+      std::vector<std::string>{"tri10k", "--simulate-threads", "--size", "128x64", "--frames", "1", "--samples", "1"});
+  const std::string text = testing::internal::GetCapturedStdout();
+  for (const char* part : {"on one thread", "loop over 2 items", "outside of loops", "64 x"})  // two tiles
+    EXPECT_NE(text.find(part), std::string::npos) << part << " in\n" << text;
+  EXPECT_THROW(run_bench(std::vector<std::string>{"tri10k", "--simulate-threads", "--json"}), Error);
+}
+
 TEST(LimitKernels, AllInstructionSetsSumTheSame) {
   std::vector<std::uint32_t> words(320);
   std::vector<std::int32_t> index(320);

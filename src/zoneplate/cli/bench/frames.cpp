@@ -35,39 +35,70 @@ float4 background_of(const std::string& scene) {
   return scene.starts_with("city") ? float4{0.45f, 0.60f, 0.80f, 1} : float4{0.10f, 0.12f, 0.15f, 1};
 }
 
+// The frames of a scene, one after the other.
+class Frames {
+ public:
+  explicit Frames(const BenchWork& work) : Frames(work, scene_of(work)) {}
+
+  int anisotropy() const { return anisotropy_; }
+  const Rgba8Image& picture() const { return picture_; }
+
+  // Renders one frame; its time and the counts of its work.
+  std::pair<double, RenderCounts> render() {
+    renderer_.recycle(std::move(picture_));
+    const Stopwatch watch;
+    RenderedImage image = renderer_.render(camera_, settings_);
+    const double ms = watch.ms();
+    picture_ = std::move(image.display);
+    return {ms, image.counts};
+  }
+
+ private:
+  static Scene scene_of(const BenchWork& work) {
+    std::optional<Scene> scene = make_builtin_scene(work.scene);
+    if (!scene) throw Error(ErrorKind::Input, work.scene + ": no such built-in scene (zoneplate list scenes)");
+    if (scene->cameras.empty()) throw Error(ErrorKind::Input, work.scene + ": has no camera of its own");
+    for (Material& material : scene->materials)
+      if (work.anisotropy > 0) material.base_color_texture.sampler.anisotropy = work.anisotropy;
+    return std::move(*scene);
+  }
+
+  Frames(const BenchWork& work, Scene scene)
+      : camera_(scene.cameras.front()),
+        settings_{.options = {.width = work.size.x,
+                              .height = work.size.y,
+                              .display = {.background = background_of(work.scene), .raw = true}}},
+        anisotropy_(anisotropy_of(scene)),
+        renderer_(
+            PreparedScene(std::move(scene), {.raw_colors = true}),
+            make_resolver(antialias::methods(), work.samples == 1 ? "none" : fmt::format("msaa:n={}", work.samples))) {}
+
+  static int anisotropy_of(const Scene& scene) {
+    int most = 1;
+    for (const Material& material : scene.materials)
+      most = std::max(most, material.base_color_texture.sampler.anisotropy);
+    return most;
+  }
+
+  Camera camera_;
+  RenderSettings settings_;
+  int anisotropy_;
+  Renderer renderer_;
+  Rgba8Image picture_;
+};
+
 }  // namespace
 
 BenchTiming time_frames(const BenchWork& work) {
-  std::optional<Scene> found = make_builtin_scene(work.scene);
-  if (!found) throw Error(ErrorKind::Input, work.scene + ": no such built-in scene (zoneplate list scenes)");
-  if (found->cameras.empty()) throw Error(ErrorKind::Input, work.scene + ": has no camera of its own");
+  Frames frames(work);
   BenchTiming timing;
-  for (Material& material : found->materials) {
-    int& anisotropy = material.base_color_texture.sampler.anisotropy;
-    if (work.anisotropy > 0) anisotropy = work.anisotropy;
-    timing.anisotropy = std::max(timing.anisotropy, anisotropy);
-  }
-  const Camera camera = found->cameras.front();
-  const RenderSettings settings{.options = {.width = work.size.x,
-                                            .height = work.size.y,
-                                            .display = {.background = background_of(work.scene), .raw = true}}};
-  constexpr MipOptions mips{.raw_colors = true};
-  Renderer renderer(
-      PreparedScene(std::move(*found), mips),
-      make_resolver(antialias::methods(), work.samples == 1 ? "none" : fmt::format("msaa:n={}", work.samples)));
-  Rgba8Image picture;
-
+  timing.anisotropy = frames.anisotropy();
   const auto frame = [&] {
-    renderer.recycle(std::move(picture));
-    const Stopwatch whole;
-    RenderedImage image = renderer.render(camera, settings);
-    const double ms = whole.ms();
-    const RenderCounts& counts = image.counts;
+    const auto [ms, counts] = frames.render();
     if (timing.frame_ms.empty() || ms < least(timing.frame_ms)) timing.best = counts;
     timing.frame_ms.push_back(ms);
     timing.geometry_ms = std::min(timing.geometry_ms, counts.geometry_ms);
     timing.tiles_ms = std::min(timing.tiles_ms, counts.tiles_ms);
-    picture = std::move(image.display);
   };
   frame();
   timing.first_ms = timing.frame_ms.front();
@@ -85,11 +116,22 @@ BenchTiming time_frames(const BenchWork& work) {
   std::vector<double> encode;
   for (int i = 0; i < 3; ++i) {
     const Stopwatch watch;
-    encode_png(picture, {.has_alpha = false});
+    encode_png(frames.picture(), {.has_alpha = false});
     encode.push_back(watch.ms());
   }
   timing.encode_ms = least(encode);
   return timing;
+}
+
+WorkTimes time_frame_loops(const BenchWork& work) {
+  Frames frames(work);
+  std::optional<WorkTimes> best;
+  const Stopwatch wall;
+  for (int i = 0; i < work.warm_up + work.frames && (i < work.warm_up + 3 || wall.ms() < work.budget_ms); ++i) {
+    WorkTimes times = time_loops([&] { frames.render(); });
+    if (i >= work.warm_up && (!best || times.total < best->total)) best = std::move(times);
+  }
+  return std::move(*best);
 }
 
 double least(const std::vector<double>& v) { return *std::min_element(v.begin(), v.end()); }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "zoneplate/base/loop_times.h"
 #include "zoneplate/render/render.h"
 
 namespace zoneplate::cli {
@@ -35,6 +36,11 @@ struct BenchTiming {
 ///
 /// Errors    ErrorKind::Input for an unknown built-in scene.
 BenchTiming time_frames(const BenchWork& work);
+
+/// The loops of the fastest of several frames on one thread, for simulated schedules.
+///
+/// Errors    as time_frames.
+WorkTimes time_frame_loops(const BenchWork& work);
 
 double least(const std::vector<double>& v);
 double median(std::vector<double> v);

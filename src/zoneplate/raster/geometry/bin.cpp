@@ -207,7 +207,9 @@ void add_to_bins(const ProjectedDraws& projected, std::size_t first, std::size_t
     std::size_t draw;
     std::int32_t begin, end;
   };
-  constexpr std::int32_t part_size = 4096;
+  // Some 64 parts, whole vectors: a few large triangles are in many tiles each.
+  const std::int32_t triangles = projected.first_triangle[last] - projected.first_triangle[first];
+  const std::int32_t part_size = std::clamp(triangles / 64 & ~15, 16, 1024);
   std::vector<Part> parts;
   for (std::size_t d = first; d < last; ++d) {
     const std::int32_t end = projected.first_triangle[d + 1];

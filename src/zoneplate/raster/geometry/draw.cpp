@@ -47,7 +47,7 @@ void project_batch(const ProjectedDraws& projected, std::size_t first, std::size
   struct Part {
     std::size_t draw, begin, end;
   };
-  constexpr std::size_t part_size = 4096;
+  constexpr std::size_t part_size = 1024;
   std::vector<Part> parts;
   for (std::size_t d = first; d < last; ++d)
     for (std::size_t v = 0; v < projected.screen[d].size(); v += part_size)
