@@ -165,7 +165,7 @@ std::string sequence_method(const FilterArgs& args) {
   if (has_data && !is_temporal && !has_history)
     throw Error(ErrorKind::Usage,
                 "--motion, --depth and --jitter are for methods with history: --aa taa or --upscale "
-                "fsr2");
+                "fsr2, taau or sgsr2");
   return is_temporal ? args.upscaler : has_history ? args.method : "";
 }
 
@@ -198,7 +198,8 @@ Syntax make_syntax(FilterArgs& args) {
           "value;\n"
           "images with alpha are filtered premultiplied.\n"
           "\n"
-          "Methods with history (taa, fsr2) filter the frames of a sequence in order, as one shot without a cut. Each "
+          "Methods with history (taa, fsr2, taau, sgsr2) filter the frames of a sequence in order, as one shot without "
+          "a cut. Each "
           "frame\n"
           "has one sample per pixel, jittered: --jitter is a text file with one line per frame, the sample's offset "
           "from\n"
@@ -230,7 +231,7 @@ Syntax make_syntax(FilterArgs& args) {
        "Sequences", true, [&](auto& text) { args.depth = text; }},
       {"--jitter", "FILE.txt", "Sample of each frame; default: the sequence of the method", "Sequences", true,
        [&](auto& text) { args.jitter = text; }},
-      {"--fov", "DEG", "Vertical field of view, for tests of depth in fsr2; default 60", "Sequences", false,
+      {"--fov", "DEG", "Vertical field of view, for tests of depth in fsr2 and sgsr2; default 60", "Sequences", false,
        [&](auto& text) { args.fov = parse_number(text, 1, 179); }},
       {"--bit-depth", "N", "Bits per channel of .png: 8, the default, or 16", "Options", false,
        [&](auto& text) {

@@ -7,8 +7,18 @@
 #include "zoneplate/antialias/temporal/camera_motion.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::upscale {
+
+ImageExtent frame_size(const FrameContext& context, double scale) {
+  if (const auto& given = context.given) return {given->width, given->height, std::nullopt};
+  return frame_size(context.image, scale);
+}
+
+SamplePosition sample_of(const FrameContext& context, SamplePosition planned) {
+  return context.given && context.given->sample ? *context.given->sample : planned;
+}
 
 LinearImage over_background(LinearImage image, const DisplayOptions& display, std::string_view name) {
   if (display.is_transparent)

@@ -9,6 +9,12 @@ namespace zoneplate::upscale {
 
 /// What upscalers of sequences do with the frames that they get and with the images that they make.
 
+/// The size of the frame from which the image is made: that of the context's own frame, or the image's over `scale`.
+ImageExtent frame_size(const FrameContext& context, double scale);
+
+/// Where the frame is sampled in its pixels: as the context's own frame is, or at `planned`.
+SamplePosition sample_of(const FrameContext& context, SamplePosition planned);
+
 /// The colours over the background, which the display transform would composite later.
 ///
 /// Errors    ErrorKind::Usage if the display options request a transparent background; `name` is the upscaler's.

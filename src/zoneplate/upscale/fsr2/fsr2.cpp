@@ -37,14 +37,13 @@ class Fsr2Method : public Resolver {
 
   Request request(const FrameContext& context) override {
     context_ = context;
-    const std::optional<GivenFrame>& given = context.given;
-    frame_ = given ? ImageExtent{given->width, given->height, std::nullopt} : frame_size(context.image, scale_);
+    frame_ = frame_size(context, scale_);
     const int phases = Fsr2::phases(frame_.width, context.image.width);
     const float2 jitter = Fsr2::jitter(context.index, phases);
     const auto position = [](float shift) {
       return static_cast<std::uint8_t>(std::min(128 - static_cast<int>(shift * 256), 255));
     };
-    sample_ = given && given->sample ? *given->sample : SamplePosition{position(jitter.x), position(jitter.y)};
+    sample_ = sample_of(context, {position(jitter.x), position(jitter.y)});
     Request request;
     request.samples = {sample_};
     request.planes.depth = request.planes.motion = true;

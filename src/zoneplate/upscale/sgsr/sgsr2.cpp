@@ -59,11 +59,11 @@ class Sgsr2Method : public Resolver {
     static const SamplePattern halton = antialias::jitter_pattern(antialias::JitterSequence::Halton, Sgsr2::phases);
     const SamplePosition place = halton[static_cast<std::size_t>(context.index % Sgsr2::phases)];
     const auto mirrored = [](std::uint8_t v) { return static_cast<std::uint8_t>(std::min(256 - v, 255)); };
-    sample_ = {mirrored(place.x), mirrored(place.y)};
+    sample_ = sample_of(context, {mirrored(place.x), mirrored(place.y)});
     Request request;
     request.samples = {sample_};
     request.planes.depth = request.planes.motion = true;
-    request.frame = frame_ = frame_size(context.image, scale_);
+    request.frame = frame_ = frame_size(context, scale_);
     request.footprint = 1 / static_cast<float>(scale_);
     request.settling_frames = Sgsr2::phases;
     return request;
@@ -76,7 +76,10 @@ class Sgsr2Method : public Resolver {
     const float aspect = static_cast<float>(image.width) / static_cast<float>(image.height);
     const float4x4 clip_from_world = sgsr2_projection(camera, aspect) * inverse(camera.world_from_camera);
     const float4x4 last_clip_from_world = sgsr2_projection(last, aspect) * inverse(last.world_from_camera);
-    const bool rests = clip_from_world == last_clip_from_world;
+    // The camera of given frames is not known: all of their motion counts as that of objects.
+    const bool rests = context_.given
+                           ? std::ranges::all_of(frame.motion.values(), [](float2 m) { return m == float2{}; })
+                           : clip_from_world == last_clip_from_world;
     Sgsr2Frame input{.color = over_background(std::move(frame.color), frame.display, "sgsr2"),
                      .depth = std::move(frame.depth),
                      .motion_x = Plane<float>(frame_.width, frame_.height),

@@ -33,11 +33,11 @@ class TaauMethod : public Resolver {
 
   Request request(const FrameContext& context) override {
     context_ = context;
-    sample_ = jitter_[static_cast<std::size_t>(context.index) % jitter_.size()];
+    sample_ = sample_of(context, jitter_[static_cast<std::size_t>(context.index) % jitter_.size()]);
     Request request;
     request.samples = {sample_};
     request.planes.depth = request.planes.motion = true;
-    request.frame = frame_size(context.image, scale_);
+    request.frame = frame_size(context, scale_);
     request.footprint = 1 / static_cast<float>(scale_);
     request.settling_frames = 8 * static_cast<int>(jitter_.size());  // the first frame's share is then 6 %
     return request;
