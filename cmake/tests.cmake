@@ -57,6 +57,7 @@ endforeach()
 # The 20-line program of README.md, built against an installed package as a user would.
 add_test(NAME consumer COMMAND ${CMAKE_COMMAND} -D build=${CMAKE_CURRENT_BINARY_DIR} -D source=${CMAKE_CURRENT_SOURCE_DIR}
          -D compiler=${CMAKE_CXX_COMPILER} -D flags=${CMAKE_CXX_FLAGS} -P ${CMAKE_CURRENT_SOURCE_DIR}/tests/consumer/run.cmake)
+set_tests_properties(consumer PROPERTIES COST 1000) # the longest begins first
 
 if(TARGET zoneplate_shared AND NOT ZONEPLATE_SANITIZED)
   add_test(NAME shared_library COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/shared_library.sh $<TARGET_FILE:zoneplate_shared>)

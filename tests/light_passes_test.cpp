@@ -16,6 +16,7 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/render/renderer.h"
 #include "zoneplate/scene/builtin/builtin.h"
+#include "zoneplate/scene/default_lights.h"
 #include "zoneplate/scene/fit.h"
 #include "zoneplate/scene/material_layers.h"
 
@@ -33,10 +34,19 @@ RenderedImage rendered(Scene scene, const std::string& method = "ssaa:n=4", cons
       camera, {.options = {.width = 80, .height = 60, .crop = crop}, .planes = light, .form = ImageForm::Linear});
 }
 
-/// A teapot of this material.
-Scene scene_of(const Material& material) {
-  Scene scene = *make_builtin_scene("teapot:divisions=8");
+/// A teapot of this material, which gets the default light: of metallic-roughness materials the studio, an environment
+/// map.
+Scene unlit_scene_of(const Material& material) {
+  Scene scene = *make_builtin_scene("teapot:divisions=6");
   for (Material& m : scene.materials) m = material;
+  return scene;
+}
+
+/// The same with lights and an environment of one colour.
+Scene scene_of(const Material& material) {
+  Scene scene = unlit_scene_of(material);
+  scene.lights = default_lights();
+  scene.environment.color = {0.5f, 0.6f, 0.7f};
   return scene;
 }
 
@@ -95,9 +105,12 @@ TEST(LightPasses, AddUpToTheColor) {
     for (const char* const method : {"ssaa:n=4", "msaa:n=4", "none"}) expect_sum(rendered(scene_of(material), method));
 }
 
+TEST(LightPasses, AddUpToTheColorInAnEnvironmentMap) {
+  for (const Material& material : {metallic, layered(all_layers())}) expect_sum(rendered(unlit_scene_of(material)));
+}
+
 TEST(LightPasses, TheColorStaysTheSame) {
-  Scene scene = scene_of(layered(all_layers()));
-  light_unlit(scene);
+  const Scene scene = scene_of(layered(all_layers()));
   const Camera camera = fit_camera(scene, 4.0f / 3, {});
   Renderer renderer(PreparedScene(scene), make_resolver(antialias::methods(), "ssaa:n=4"));
   const RenderedImage alone =
@@ -107,11 +120,11 @@ TEST(LightPasses, TheColorStaysTheSame) {
 
 // A dielectric's specular light does not depend on its base colour, and black ones have no other.
 TEST(LightPasses, TheSpecularLightOfADielectricIsThatOfABlackOne) {
-  const auto expect_specular = [](Material material) {
+  const auto expect_specular = [](Material material, Scene make(const Material&)) {
     material.metallic = 0, material.emissive = {0, 0, 0};
-    const RenderedImage colored = rendered(scene_of(material));
+    const RenderedImage colored = rendered(make(material));
     material.base_color = {0, 0, 0, 1};
-    const RenderedImage black = rendered(scene_of(material));
+    const RenderedImage black = rendered(make(material));
     EXPECT_GT(greatest(colored.data.light[Diffuse]), 0.1f);
     float most = 0;
     for (std::size_t i = 0; i < black.linear.values().size(); ++i) {
@@ -121,10 +134,11 @@ TEST(LightPasses, TheSpecularLightOfADielectricIsThatOfABlackOne) {
     }
     EXPECT_LT(most, 2e-6f * std::max(1.0f, greatest(black.data.light[Specular])));
   };
-  expect_specular(metallic);
+  expect_specular(metallic, scene_of);
+  expect_specular(metallic, unlit_scene_of);
   MaterialLayers layers = all_layers();
   layers.diffuse_transmission = 0;  // has a colour of its own
-  expect_specular(layered(layers));
+  expect_specular(layered(layers), scene_of);
 }
 
 TEST(LightPasses, MaterialsOfOneComponentHaveNoOther) {
@@ -162,11 +176,11 @@ TEST(LightPasses, ACropHasTheBitsOfTheWholeImage) {
 
 TEST(LightPasses, BitsAreThoseOfEveryInstructionSetAndNumberOfThreads) {
   for (const Material& material : {phong, metallic, layered(all_layers())}) {
-    const RenderedImage first = rendered(scene_of(material), "none");
+    const RenderedImage first = rendered(unlit_scene_of(material), "none");
     for (const Isa isa : supported_isas())
       with_isa(isa, [&] {
         with_threads(3, [&] {
-          const RenderedImage image = rendered(scene_of(material), "none");
+          const RenderedImage image = rendered(unlit_scene_of(material), "none");
           for (std::size_t k = 0; k < image.data.light.size(); ++k)
             EXPECT_EQ(image.data.light[k], first.data.light[k]) << name_of(isa) << " " << k;
         });

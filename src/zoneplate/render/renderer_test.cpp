@@ -9,6 +9,7 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/transform.h"
 #include "zoneplate/scene/builtin/builtin.h"
+#include "zoneplate/scene/default_lights.h"
 #include "zoneplate/scene/fit.h"
 
 namespace zoneplate {
@@ -19,6 +20,7 @@ constexpr float aspect = 4.0f / 3;
 
 PreparedScene prepared(const std::string& name) {
   Scene scene = *make_builtin_scene(name);
+  if (scene.lights.empty()) scene.lights = default_lights();  // filtering the studio takes longer than a test
   light_unlit(scene);
   return PreparedScene(std::move(scene));
 }
