@@ -148,9 +148,12 @@ TEST(LimitedChild, IsEndedByWhatNoReaderNeeds) {
 /// The first child answers after the second has ended, which writes more than a pipe holds.
 TEST(LimitedChildren, WorkWhileTheParentReadsOneOfThem) {
   constexpr std::size_t size = 5'000'000;
-  int ended = 0, end_of_second[2];
-  LimitedChildren children([&] { ++ended; });
-  ASSERT_EQ(::pipe(end_of_second), 0);
+  int ended = 0, second_has_ended[2];  // a pipe that the parent closes
+  ASSERT_EQ(::pipe(second_has_ended), 0);
+  LimitedChildren children([&] {
+    ++ended;
+    ::close(second_has_ended[1]);
+  });
   const Stopwatch watch;
   LimitedChild::Limits limits{.check_time =
                                   [&] {
@@ -163,13 +166,12 @@ TEST(LimitedChildren, WorkWhileTheParentReadsOneOfThem) {
     answer.write(bytes.data(), bytes.size());
   };
   LimitedChild first("first", limits, [&](ChildAnswer& answer) {
-    ::close(end_of_second[1]);
+    ::close(second_has_ended[1]);
     std::uint8_t byte = 0;
-    if (::read(end_of_second[0], &byte, 1) != 0) std::abort();
+    if (::read(second_has_ended[0], &byte, 1) != 0) std::abort();
     answer_bytes(answer, 1);
   });
   LimitedChild second("second", limits, [&](ChildAnswer& answer) { answer_bytes(answer, 2); });
-  ::close(end_of_second[1]);
   std::vector<std::uint8_t> bytes(size);
   first.read(bytes.data(), bytes.size());
   EXPECT_EQ(bytes, std::vector<std::uint8_t>(size, 1));
@@ -179,7 +181,7 @@ TEST(LimitedChildren, WorkWhileTheParentReadsOneOfThem) {
   second.read(bytes.data() + 100, bytes.size() - 100);
   EXPECT_EQ(bytes, std::vector<std::uint8_t>(size, 2));
   EXPECT_THROW(second.read(bytes.data(), 1), Error);
-  ::close(end_of_second[0]);
+  ::close(second_has_ended[0]);
 }
 
 }  // namespace
