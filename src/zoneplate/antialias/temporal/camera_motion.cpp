@@ -17,14 +17,16 @@ CameraMotion::CameraMotion(const Camera& now, const Camera& last, int width, int
       last_(lens_of(last, static_cast<double>(width) / height)),
       turn_{} {
   // The cameras' matrices are rigid: the inverse is the transpose.
-  const auto component = [](float4 v, int k) -> double { return k == 0 ? v.x : k == 1 ? v.y : k == 2 ? v.z : v.w; };
+  const auto component = [](float4 v, std::size_t k) -> double {
+    return k == 0 ? v.x : k == 1 ? v.y : k == 2 ? v.z : v.w;
+  };
   const auto& a = now.world_from_camera.column;
   const auto& b = last.world_from_camera.column;
   is_at_rest_ = now_ == last_;
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 4; ++column) {
+  for (std::size_t row = 0; row < 3; ++row)
+    for (std::size_t column = 0; column < 4; ++column) {
       double sum = 0;
-      for (int k = 0; k < 3; ++k) {
+      for (std::size_t k = 0; k < 3; ++k) {
         const double offset = column == 3 ? component(b[3], k) : 0;
         sum += component(b[row], k) * (component(a[column], k) - offset);
         is_at_rest_ = is_at_rest_ && component(a[column], k) == component(b[column], k);
@@ -43,7 +45,7 @@ float2 CameraMotion::at(double x, double y, double distance) const {
   const double depth = is_far ? 1 : distance, across = now_.is_orthographic ? 1 : depth, weight = is_far ? 0 : 1;
   const double p[4] = {u * across, v * across, -depth, weight};
   double q[3];
-  for (int row = 0; row < 3; ++row)
+  for (std::size_t row = 0; row < 3; ++row)
     q[row] = ((turn_[row][0] * p[0] + turn_[row][1] * p[1]) + turn_[row][2] * p[2]) + turn_[row][3] * p[3];
   const double divisor = last_.is_orthographic ? 1 : -q[2];
   if (!(divisor > 0)) return {0, 0};
