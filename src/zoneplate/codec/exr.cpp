@@ -265,14 +265,15 @@ class ExrReader {
     const std::unique_ptr<exr_decode_pipeline_t, std::function<void(exr_decode_pipeline_t*)>> end(
         &pipeline, [this](exr_decode_pipeline_t* p) { library_.end_decoding(context_, p); });
     // The library's fast paths write all channels of a pixel, and crash where one has no destination.
-    std::vector<float> unused(static_cast<std::size_t>(window_.width()) * static_cast<std::size_t>(chunk.height));
+    std::vector<float> unused;
     // Channel by channel, because the library's fast paths for interleaved pixels swap channels in some versions.
     for (int i = 0; i < pipeline.channel_count; ++i) {
       exr_coding_channel_info_t& channel = pipeline.channels[i];
       const std::optional<std::size_t> slot = slot_of(channel.channel_name);
-      float* const out = slot && channels_[*slot]
-                             ? &channels_[*slot](static_cast<std::size_t>(x), static_cast<std::size_t>(y))
-                             : unused.data();
+      const bool is_used = slot && channels_[*slot];
+      if (!is_used) unused.resize(static_cast<std::size_t>(window_.width()) * static_cast<std::size_t>(chunk.height));
+      float* const out =
+          is_used ? &channels_[*slot](static_cast<std::size_t>(x), static_cast<std::size_t>(y)) : unused.data();
       channel.decode_to_ptr = reinterpret_cast<std::uint8_t*>(out);
       channel.user_pixel_stride = sizeof(float);
       channel.user_line_stride = static_cast<std::int32_t>(window_.width()) * std::int32_t{sizeof(float)};

@@ -31,7 +31,8 @@ std::array<float, 4> catmull_rom(float t) {
           (0.5f * t - 0.5f) * t * t};
 }
 
-/// As many samples of a frame's pixel as give so many to each pixel of the image.
+/// Samples per pixel of a frame with 1 / `scale` of the image's pixels per side, so that each pixel of the image has at
+/// least `samples`.
 int per_frame_pixel(int samples, double scale) { return static_cast<int>(std::ceil(samples * scale * scale)); }
 
 }  // namespace
