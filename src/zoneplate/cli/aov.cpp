@@ -8,13 +8,12 @@
 #include <cmath>
 #include <limits>
 
+#include "zoneplate/cli/false_color.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/math/random.h"
-#include "zoneplate/metrics/flip/magma.h"
-#include "zoneplate/raster/types/batch.h"
 #include "zoneplate/render/cryptomatte.h"
 
 namespace zoneplate::cli {
@@ -146,16 +145,6 @@ std::vector<std::uint8_t> position_picture(const Frame& frame, const Scene&) {
   });
 }
 
-// A hue of the colour circle, from red (0) over green (1/3) and blue (2/3) to red (1), blended with white.
-Rgba8 circle_color(float turn, float saturation) {
-  const auto channel = [&](float offset) {
-    const float t = 6 * (turn + offset), from = t - 6 * std::floor(t / 6);
-    const float value = std::clamp(std::abs(from - 3) - 1, 0.0f, 1.0f);
-    return code8(1 - saturation * (1 - value));
-  };
-  return {channel(0), channel(2.0f / 3), channel(1.0f / 3), 255};
-}
-
 template <Plane<float2> Frame::*steps>
 std::vector<std::uint8_t> motion_picture(const Frame& frame, const Scene&) {
   constexpr float two_pi = 6.2831853f;
@@ -168,18 +157,12 @@ std::vector<std::uint8_t> motion_picture(const Frame& frame, const Scene&) {
                       [&](float2 m) { return circle_color(atan2(m.y, m.x) / two_pi, length(m) * scale); });
 }
 
-// White where the texture is magnified by two or more, then once around the colour circle in eight levels.
 std::vector<std::uint8_t> mip_level_picture(const Frame& frame, const Scene&) {
-  return data_picture(frame, frame.mip_level, data, [](float level) {
-    if (level == FragmentOutputs::no_mip_level) return nothing;
-    return circle_color(std::clamp(level, 0.0f, 7.5f) / 8, std::clamp(level + 1, 0.0f, 1.0f));
-  });
+  return data_picture(frame, frame.mip_level, data, mip_level_color);
 }
 
-// By its logarithm: black for footprints as wide as long, pale yellow at a ratio of 16.
 std::vector<std::uint8_t> anisotropy_picture(const Frame& frame, const Scene&) {
-  return data_picture(frame, frame.anisotropy, data,
-                      [](float ratio) { return ratio > 0 ? metrics::magma(log2(ratio) / 4) : nothing; });
+  return data_picture(frame, frame.anisotropy, data, anisotropy_color);
 }
 
 std::vector<std::uint8_t> coverage_picture(const Frame& frame, const Scene&) {

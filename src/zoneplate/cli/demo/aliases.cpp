@@ -2,6 +2,7 @@
 // Aliases: different waves with the same samples, and the suppression of aliases by each filter.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -15,9 +16,26 @@
 namespace zoneplate::cli {
 namespace {
 
-constexpr double frequency = 0.9;  // cycles per sample
 constexpr int shown_samples = 10;
-constexpr const char* shown_kernel = "lanczos3";
+
+std::span<const Param> alias_params() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> out;
+    for (const KernelEntry& kernel : kernels()) out.push_back(kernel.name);
+    return out;
+  }();
+  static const Param params[] = {{.name = "frequency",
+                                  .meaning = "of the faster wave, in cycles per sample",
+                                  .value = 0.9,
+                                  .low = 0.6,
+                                  .high = 2.4,
+                                  .decimals = 1},
+                                 {.name = "kernel",
+                                  .meaning = "of the filtered zone plates",
+                                  .value = static_cast<double>(std::ranges::find(names, "lanczos3") - names.begin()),
+                                  .names = names}};
+  return params;
+}
 
 /// A reduction of a zone plate.
 struct Reduction {
@@ -30,7 +48,7 @@ std::array<Reduction, 2> reductions(const DemoSize& size) {
   return {{{128 * share, 64 * share}, {185 * share, 50 * share}}};
 }
 
-Plot waves_plot() {
+Plot waves_plot(double frequency) {
   const double seen = apparent_frequency(frequency, 1);
   Plot plot{.x = {"position (samples)", 0, shown_samples}, .y = {"value", -1.25, 1.25}};
   Curve fast{.name = fmt::format("{} cycles per sample", number(frequency, 1)), .color = Curve::grey};
@@ -47,7 +65,7 @@ Plot waves_plot() {
   return plot;
 }
 
-Plot folding_plot() {
+Plot folding_plot(double frequency) {
   Plot plot{.x = {"true frequency (cycles per sample)", 0, 2.5}, .y = {"apparent frequency", 0, 0.6}};
   Curve folded{.name = "apparent", .color = 0}, same{.name = "true", .mark = Curve::Mark::Dashed, .color = Curve::grey};
   for (int i = 0; i <= 25; ++i) folded.points.emplace_back(i / 10.0, folded_frequency(i / 10.0, 1));
@@ -87,17 +105,18 @@ Table kernel_table(const std::array<Reduction, 2>& measured) {
   return table;
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings& settings) {
   const int side = size.panel, gap = size.style().gap_px, tenths = (side + 2 * seam) / 10;
   const int width = 2 * side + gap, height = side * 9 / 10;
   Figure figure{.title = "Aliases: different waves with the same samples"};
-  const double seen = std::abs(apparent_frequency(frequency, 1));
+  const double frequency = settings.number("frequency"), seen = std::abs(apparent_frequency(frequency, 1));
+  const std::string shown_kernel(settings.chosen("kernel"));
   figure.rows.push_back(
-      {{plot_at(waves_plot(), width, height),
+      {{plot_at(waves_plot(frequency), width, height),
         fmt::format("Indistinguishable waves\nWaves of {} and of {} cycles per sample agree at every sample; "
                     "reconstruction gives the lower frequency.",
                     number(frequency, 1), number(seen, 1))},
-       {plot_at(folding_plot(), width, height),
+       {plot_at(folding_plot(frequency), width, height),
         "Frequencies fold at ½\nHalf a cycle per sample is the Nyquist frequency: a higher frequency appears as a "
         "lower "
         "one, its alias."}});
@@ -129,7 +148,8 @@ Lesson make(const DemoSize& size) {
 }  // namespace
 
 Demo demo_aliases() {
-  return {"aliases", "waves with the same samples, and the suppression of aliases by each kernel", make};
+  return {"aliases", "waves with the same samples, and the suppression of aliases by each kernel", make,
+          alias_params()};
 }
 
 }  // namespace zoneplate::cli

@@ -55,7 +55,7 @@ std::string heading_of(std::string method) {
   return method;
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings&) {
   const int side = size.panel, width = side * 4 / 3, crop_side = side / 2;
   Scene scene = scene_of(scene_name);
   const Camera camera = camera_of(scene, width, side);

@@ -16,12 +16,18 @@
 namespace zoneplate::cli {
 namespace {
 
-constexpr int factor = 8, samples = 4;
+constexpr int factor = 8;
+constexpr int grids[] = {2, 3, 4};
+constexpr Param params[] = {
+    {.name = "grid", .meaning = "n × n coverage samples in a pixel", .value = 2, .choices = grids}};
 
-/// The scene's samples: the visible triangle and the colour at each of a pixel's four samples.
-Frame sampled(const Scene& scene, int width, int height) {
+/// A number of samples in words.
+const char* words_of(std::size_t samples) { return samples == 4 ? "four" : samples == 9 ? "nine" : "sixteen"; }
+
+/// The scene's samples: the visible triangle and the colour at each of a pixel's samples.
+Frame sampled(const Scene& scene, int grid, int width, int height) {
   RenderOptions options{.width = width, .height = height};
-  const auto resolver = make_resolver(antialias::methods(), "msaa:grid=2");
+  const auto resolver = make_resolver(antialias::methods(), fmt::format("msaa:grid={}", grid));
   Request request = resolver->request({});
   request.resolves_per_pixel = false;
   request.planes.samples = true;
@@ -38,9 +44,10 @@ LinearImage drawn(const Frame& frame, Draw draw) {
       for (std::uint32_t triangle = 0; triangle < 2; ++triangle) {
         int owned = 0;
         Linear color;
-        for (std::size_t s = 0; s < samples; ++s)
+        for (std::size_t s = 0; s < frame.sample_color.size(); ++s)
           if (frame.sample_triangle[s](x, y) == triangle) ++owned, color = frame.sample_color[s](x, y);
-        if (owned > 0) out(x, y) = draw(out(x, y), color, static_cast<float>(owned) / samples);
+        if (owned > 0)
+          out(x, y) = draw(out(x, y), color, static_cast<float>(owned) / static_cast<float>(frame.sample_color.size()));
       }
   return out;
 }
@@ -74,9 +81,10 @@ Darkness measured(const Frame& frame, const LinearImage& picture) {
   for (int y = 0; y < picture.height(); ++y)
     for (int x = 0; x < picture.width(); ++x) {
       int owned[2] = {};
-      for (std::size_t s = 0; s < samples; ++s)
+      for (std::size_t s = 0; s < frame.sample_color.size(); ++s)
         if (const std::uint32_t t = frame.sample_triangle[s](x, y); t < 2) ++owned[t];
-      if (owned[0] == 0 || owned[1] == 0 || owned[0] + owned[1] != samples) continue;
+      if (owned[0] == 0 || owned[1] == 0 || owned[0] + owned[1] != static_cast<int>(frame.sample_color.size()))
+        continue;
       const float brightness = picture(x, y).g / frame.color(x, y).g;
       ++out.pixels;
       out.dark += brightness < 0.999f;
@@ -91,35 +99,40 @@ std::string words_of(const Darkness& d) {
                                    d.pixels, number(100 * static_cast<double>(d.least), 0));
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings& settings) {
   const int side = size.panel, x = side * 78 / 100, y = side * 42 / 100;
-  const Frame frame = sampled(scene_of("triangles"), side, side);
-  Figure figure{.title = "The black edge: four coverage samples, but one colour per pixel", .rows = {{}, {}}};
-  const auto add = [&](const LinearImage& light, const char* caption) {
+  const Frame frame = sampled(scene_of("triangles"), settings.integer("grid"), side, side);
+  const char* const samples = words_of(frame.sample_color.size());
+  Figure figure{.title = fmt::format("The black edge: {} coverage samples, but one colour per pixel", samples),
+                .rows = {{}, {}}};
+  const auto add = [&](const LinearImage& light, const std::string& caption) {
     const Rgba8Image picture = shown(light);
     figure.rows[0].push_back({marked(picture, x, y, factor, side), caption});
     figure.rows[1].push_back({crop_of(picture, x, y, factor, side), words_of(measured(frame, light))});
   };
   add(overwritten(frame),
-      "Overwritten\nEach triangle writes its colour times its coverage. The far triangle, visible at one of four "
-      "samples, overwrites the near one's colour of the other three.");
+      fmt::format(
+          "Overwritten\nEach triangle writes its colour times its coverage. The far triangle, visible at one of "
+          "{} samples, overwrites the near one's colour of the other{}.",
+          samples, frame.sample_color.size() == 4 ? " three" : "s"));
   add(blended(frame),
       "Blended while drawing\nEach triangle is blended over the pixel's present colour: the near one over the black of "
       "the empty buffer, which remains in the result.");
   add(cured(frame),
       "Correct\nEvery sample has its own depth and colour. They are averaged once, after the last triangle.");
-  figure.text =
-      "All three test depth at four samples, and draw the near triangle first. A pixel on its edge shows both "
+  figure.text = fmt::format(
+      "All three test depth at {} samples, and draw the near triangle first. A pixel on its edge shows both "
       "triangles. With one colour per pixel, the part that is still empty when the near triangle is drawn counts as "
       "black: a dark line between two bright surfaces that touch, which the background does not explain. Colours must "
-      "be averaged after the last triangle, over samples instead of triangles.";
+      "be averaged after the last triangle, over samples instead of triangles.",
+      samples);
   return {.frames = {figure}};
 }
 
 }  // namespace
 
 Demo demo_black_edge() {
-  return {"black-edge", "a dark line between bright surfaces: the bug, and its correction", make};
+  return {"black-edge", "a dark line between bright surfaces: the bug, and its correction", make, params};
 }
 
 }  // namespace zoneplate::cli

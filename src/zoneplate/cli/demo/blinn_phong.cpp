@@ -14,7 +14,6 @@
 namespace zoneplate::cli {
 namespace {
 
-constexpr float exponents[] = {4, 16, 64, 256};
 constexpr int columns = 192, rows = 128;
 
 struct Row {
@@ -22,9 +21,13 @@ struct Row {
   const char* name;
   float ks;
 };
-constexpr Row lobes[] = {{ShadingModel::BlinnPhong, "Blinn-Phong", 0.15f},
-                         {ShadingModel::BlinnPhong, "Blinn-Phong", 0.5f},
-                         {ShadingModel::Phong, "Phong", 0.5f}};
+constexpr Param params[] = {
+    {.name = "ks", .meaning = "coefficient of the lower rows", .value = 0.5, .low = 0, .high = 1, .decimals = 2},
+    {.name = "p",
+     .meaning = "exponent of the first column; four times as large in each next one",
+     .value = 4,
+     .low = 1,
+     .high = 64}};
 
 LinearImage ball(const Row& row, float exponent, int side) {
   Material m;
@@ -46,12 +49,16 @@ double width_of(const LinearImage& with, const LinearImage& without) {
   return 100 * std::sqrt(4 * static_cast<double>(above) / pi) / (ball * with.width());
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings& settings) {
   const LinearImage matt = ball({ShadingModel::BlinnPhong, "", 0}, 1, size.panel);
   Figure figure{.title = "Blinn-Phong: the coefficient scales the highlight, the exponent narrows it", .rows = {}};
+  const auto ks = static_cast<float>(settings.number("ks")), p = static_cast<float>(settings.integer("p"));
+  const Row lobes[] = {{ShadingModel::BlinnPhong, "Blinn-Phong", 0.15f},
+                       {ShadingModel::BlinnPhong, "Blinn-Phong", ks},
+                       {ShadingModel::Phong, "Phong", ks}};
   for (const Row& row : lobes) {
     std::vector<Panel>& panels = figure.rows.emplace_back();
-    for (const float exponent : exponents) {
+    for (const float exponent : {p, 4 * p, 16 * p, 64 * p}) {
       const LinearImage light = ball(row, exponent, size.panel);
       panels.push_back({shown(light), fmt::format("{}, ks = {}, p = {}\nThe highlight is {}\u00a0% as wide as the "
                                                   "sphere, at half its peak.",
@@ -68,6 +75,8 @@ Lesson make(const DemoSize& size) {
 
 }  // namespace
 
-Demo demo_blinn_phong() { return {"blinn-phong", "the specular term by coefficient and exponent, and Phong's", make}; }
+Demo demo_blinn_phong() {
+  return {"blinn-phong", "the specular term by coefficient and exponent, and Phong's", make, params};
+}
 
 }  // namespace zoneplate::cli

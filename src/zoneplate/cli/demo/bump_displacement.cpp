@@ -16,7 +16,19 @@ namespace zoneplate::cli {
 namespace {
 
 constexpr const char* method = "msaa:n=8";
-constexpr float height = 0.16f;  ///< of the studs, in radii of the sphere
+constexpr Param params[] = {
+    {.name = "height",
+     .meaning = "of the studs, in radii of the sphere",
+     .value = 0.16,
+     .low = 0,
+     .high = 0.4,
+     .decimals = 2},
+    {.name = "layers",
+     .meaning = "of the height map that parallax occlusion tests along the ray",
+     .value = 32,
+     .low = 1,
+     .high = 64},
+};
 
 /// Round studs, 8 × 4 over the map.
 Rgba16Image studs() {
@@ -33,7 +45,7 @@ Rgba16Image studs() {
 }
 
 /// A unit sphere of latitudes and longitudes, with the map wrapped around it once.
-Scene sphere() {
+Scene sphere(float height) {
   constexpr int columns = 128, rows = 64;
   Scene scene;
   Mesh mesh;
@@ -70,11 +82,12 @@ Scene sphere() {
   return scene;
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings& settings) {
   const int side = size.panel;
-  Scene smooth = sphere(), parallax = sphere(), displaced = sphere();
+  const auto height = static_cast<float>(settings.number("height"));
+  Scene smooth = sphere(height), parallax = sphere(height), displaced = sphere(height);
   smooth.materials[0].height_texture = {};
-  parallax.materials[0].parallax_layers = 32;
+  parallax.materials[0].parallax_layers = settings.integer("layers");
   displace_surfaces(displaced, {.tolerance = 0.001f});
   const std::uint64_t before = smooth.meshes[0].primitives(), after = displaced.meshes[0].primitives();
 
@@ -87,7 +100,7 @@ Lesson make(const DemoSize& size) {
     figure.rows[1].push_back({crop_of(image, x, y, factor, side), below});
   };
   add(smooth, fmt::format("No height map\n{} triangles.", counted(before)), "The outline is a circle.");
-  add(sphere(),
+  add(sphere(height),
       fmt::format("Bump mapping\nThe gradient of the heights turns the normal while shading. {} triangles.",
                   counted(before)),
       "The studs are shaded, but the outline stays a circle, and no stud hides another.");
@@ -106,7 +119,7 @@ Lesson make(const DemoSize& size) {
 }  // namespace
 
 Demo demo_bump_displacement() {
-  return {"bump-displacement", "a height map as bumps, as parallax and as geometry", make};
+  return {"bump-displacement", "a height map as bumps, as parallax and as geometry", make, params};
 }
 
 }  // namespace zoneplate::cli

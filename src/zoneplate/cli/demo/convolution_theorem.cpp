@@ -12,6 +12,8 @@
 namespace zoneplate::cli {
 namespace {
 
+constexpr Param params[] = {
+    {.name = "radius", .meaning = "of the disk, for panels of 360 pixels", .value = 10, .low = 1, .high = 40}};
 constexpr double range_db = 130;  // dynamic range of the displayed spectra
 
 /// A disk, the blur of an out-of-focus lens, antialiased with 16 × 16 points per pixel; the sum is 1.
@@ -87,8 +89,8 @@ Plane<float> brightened(Plane<float> plane) {
 /// A phrase for the difference of both results.
 std::string agreement(double most) { return most == 0 ? "the same bits" : "the greatest difference is " + small(most); }
 
-Lesson make(const DemoSize& size) {
-  const int side = size.panel, radius = side / 40 + 1;
+Lesson make(const DemoSize& size, const Settings& settings) {
+  const int side = size.panel, radius = (settings.integer("radius") - 1) * side / 360 + 1;
   const Plane<float> picture = luminance_of(shoot(scene_of("city"), "msaa:n=8", side, side));
   const Plane<float> kernel = disk(radius), lens = placed(kernel, side);
   const Plane<float> space = convolve(picture, kernel, {.border = Border::Wrap});
@@ -123,7 +125,7 @@ Lesson make(const DemoSize& size) {
 }  // namespace
 
 Demo demo_convolution_theorem() {
-  return {"convolution-theorem", "a blur by convolution in space and by multiplication of spectra", make};
+  return {"convolution-theorem", "a blur by convolution in space and by multiplication of spectra", make, params};
 }
 
 }  // namespace zoneplate::cli

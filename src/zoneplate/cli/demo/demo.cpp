@@ -35,7 +35,14 @@ struct DemoArgs {
 
 std::string list_of_lessons() {
   std::string text = "Lessons:\n";
-  for (const Demo& demo : demos()) text += fmt::format("  {:<22}{}\n", demo.name, demo.summary);
+  for (const Demo& demo : demos()) {
+    text += fmt::format("  {:<22}{}\n", demo.name, demo.summary);
+    for (const Param& p : demo.params) {
+      const std::string value =
+          p.names.empty() ? fmt::format("{}", p.value) : std::string(Settings(demo.params).chosen(p.name));
+      text += fmt::format("      {:<18}{}\n", fmt::format("{}={}", p.name, value), p.meaning);
+    }
+  }
   return text + fmt::format("  {:<22}{}\n", "all", "all lessons, into a folder");
 }
 
@@ -44,10 +51,11 @@ Syntax demo_syntax(DemoArgs& args) {
       .verb = "demo",
       .summary =
           "Make a lesson about aliasing: an image with captions, that shows an artifact, its remedy and measurements",
-      .operands = "LESSON -o OUT.png",
+      .operands = "LESSON[:PARAMETER=VALUE,...] -o OUT.png",
       .examples =
           "  zoneplate demo jaggies -o jaggies.png\n"
           "  zoneplate demo wagon-wheel -o wheel.png        also writes wheel.webp: both are animations\n"
+          "  zoneplate demo sampling:rate=1.6 -o sampling.png\n"
           "  zoneplate demo zbuffer --slide 1920x1080 -o zbuffer.png\n"
           "  zoneplate demo all -o lessons                  creates the folder\n"
           "  zoneplate demo all --slide 1920x1080 -o lessons.pdf\n"
@@ -79,7 +87,7 @@ std::span<const Demo> chosen(const std::string& name) {
   std::vector<std::string_view> names{"all"};
   for (const Demo& demo : demos()) {
     names.push_back(demo.name);
-    if (demo.name == name) return {&demo, 1};
+    if (demo.name == name.substr(0, name.find(':'))) return {&demo, 1};
   }
   const std::string_view near = closest(name, names);
   throw Error(ErrorKind::Usage, near.empty() ? fmt::format("demo: no lesson {}; `zoneplate demo -h` lists them", name)
@@ -93,8 +101,8 @@ struct ComposedLesson {
   DemoSize size;
 };
 
-ComposedLesson composed(const Demo& demo, const DemoSize& size) {
-  ComposedLesson out{demo.make(size), {}, size};
+ComposedLesson composed(const Demo& demo, const Settings& settings, const DemoSize& size) {
+  ComposedLesson out{demo.make(size, settings), {}, size};
   out.animation.seconds = out.lesson.seconds, out.animation.per = out.lesson.per;
   for (const Figure& figure : out.lesson.frames) out.animation.frames.push_back(compose(figure, size.style()));
   return out;
@@ -111,11 +119,11 @@ Rgba8Image centred(const Rgba8Image& image, int2 size) {
 
 /// The lesson with the largest panels with which it fits into the slide. The sizes of texts are proportional to the
 /// panels, up to where lines are broken, so that a few attempts suffice.
-ComposedLesson fitted(const Demo& demo, int2 slide) {
+ComposedLesson fitted(const Demo& demo, const Settings& settings, int2 slide) {
   constexpr int least_panel = 64, most_panel = 1024, attempts = 8;
   DemoSize size;
   for (int i = 0; i < attempts; ++i) {
-    ComposedLesson lesson = composed(demo, size);
+    ComposedLesson lesson = composed(demo, settings, size);
     const Rgba8Image& first = lesson.animation.frames.at(0);
     const double room =
         std::min(static_cast<double>(slide.x) / first.width(), static_cast<double>(slide.y) / first.height());
@@ -200,8 +208,6 @@ void check_output(const std::string& lesson, const DemoArgs& args) {
 
 }  // namespace
 
-FigureStyle DemoSize::style() const { return {.text_px = std::max(8, panel / 20), .gap_px = std::max(6, panel / 15)}; }
-
 std::string text_of(const Lesson& lesson) {
   const Figure& figure = lesson.frames.at(0);
   std::string text = paragraph(figure.title, "") + '\n';
@@ -236,11 +242,14 @@ void run_demo(std::span<const std::string> arguments) {
   for (const Demo& demo : lessons)
     for (const std::string& file : files_of(demo, path_of(demo)))
       if (has_images) check_savable(file);
+  std::vector<Settings> settings;
+  for (const Demo& demo : lessons) settings.emplace_back("lesson", demo.params, name == "all" ? demo.name : name);
   std::vector<NamedLesson> made;
   std::vector<FigurePage> pages;
   with_threads(args.threads, [&] {
     for (const Demo& demo : lessons) {
-      ComposedLesson lesson = args.slide ? fitted(demo, *args.slide) : composed(demo, args.size);
+      const Settings& own = settings[static_cast<std::size_t>(&demo - lessons.data())];
+      ComposedLesson lesson = args.slide ? fitted(demo, own, *args.slide) : composed(demo, own, args.size);
       if (is_vector(args.output) && !is_folder)
         pages.push_back(vector_page(lesson, args));
       else if (has_images)

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "zoneplate/base/spec.h"
 #include "zoneplate/report/figure.h"
 #include "zoneplate/report/table.h"
 
@@ -15,7 +17,7 @@ namespace zoneplate::cli {
 struct DemoSize {
   int panel = 360;  ///< side of one panel in pixels; text and gaps scale with it
 
-  FigureStyle style() const;
+  FigureStyle style() const { return {.text_px = std::max(8, panel / 20), .gap_px = std::max(6, panel / 15)}; }
 };
 
 /// A lesson: a figure, or the frames of an animated one. The text of the first frame is also printed to stdout.
@@ -30,7 +32,8 @@ struct Lesson {
 /// An entry of the list of lessons; each lesson's file defines its own.
 struct Demo {
   std::string_view name, summary;
-  Lesson (*make)(const DemoSize& size);
+  Lesson (*make)(const DemoSize& size, const Settings& settings);
+  std::span<const Param> params = {};
   bool is_animated = false;  ///< the lesson has several frames, written as APNG and WebP
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/cli/demo/demo.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,7 +21,9 @@ namespace {
 
 constexpr DemoSize small{64};
 
-Rgba8Image drawn(const Demo& demo) { return compose(demo.make(small).frames.at(0), small.style()); }
+Rgba8Image drawn(const Demo& demo) {
+  return compose(demo.make(small, Settings(demo.params)).frames.at(0), small.style());
+}
 
 std::string message_of(const std::vector<std::string>& arguments) {
   try {
@@ -166,6 +169,9 @@ TEST(Demo, SaysWhatIsMissingOrUnknown) {
   EXPECT_EQ(message_of({}), "demo: give one lesson; `zoneplate demo -h` lists them");
   EXPECT_EQ(message_of({"jaggies", "moire"}), "demo: give one lesson; `zoneplate demo -h` lists them");
   EXPECT_EQ(message_of({"jagies", "-o", "x.png"}), "demo: no lesson jagies; did you mean jaggies?");
+  EXPECT_EQ(message_of({"jaggies:n=2", "-o", "x.png"}), "lesson jaggies: unknown parameter 'n'; it has none");
+  EXPECT_EQ(message_of({"sampling:rate=2", "-o", "x.png"}),
+            "lesson sampling: rate is '2', expected a number of 1 decimals from 0.5 to 1.9");
   EXPECT_EQ(message_of({"jaggies"}), "no output: give -o OUT.png");
   EXPECT_EQ(message_of({"all"}), "no output: give -o FOLDER");
   EXPECT_EQ(message_of({"jaggies", "-o", "x.jpg"}), "--output: x.jpg is not a format for lessons (.png, .svg, .pdf)");
@@ -197,9 +203,19 @@ TEST_F(DemoFolder, FailsAtOnceWhereNothingCanBeWritten) {
   EXPECT_EQ(refusal("jaggies", longest + ".png"), longest + ".png: cannot be written: File name too long");
 }
 
+TEST(Demo, AParameterChangesTheLesson) {
+  for (const Demo& demo : demos()) {
+    if (demo.params.empty()) continue;
+    const Param& first = demo.params[0];
+    const double other = first.choices.empty() ? first.high : first.choices.back();
+    const Settings settings("lesson", demo.params, fmt::format("{}:{}={}", demo.name, first.name, other));
+    EXPECT_NE(compose(demo.make(small, settings).frames.at(0), small.style()), drawn(demo)) << demo.name;
+  }
+}
+
 // The table has each kernel's measured aliasing close to its theory, and lanczos3 keeps its limits.
 TEST(Demo, AliasesHaveEveryKernelBesideItsTheory) {
-  const Lesson lesson = demo_of("aliases").make(small);
+  const Lesson lesson = demo_of("aliases").make(small, Settings(demo_of("aliases").params));
   const Table& table = lesson.tables.at(0);
   EXPECT_EQ(table.head.size(), 9u);
   ASSERT_EQ(table.rows.size(), kernels().size());

@@ -26,8 +26,12 @@ namespace {
 
 using F = scalar::Float;
 constexpr float pi = 3.14159265f;
-constexpr float mirror_roughness = 0, rough = 0.4f;
-constexpr float roughnesses[] = {mirror_roughness, 0.2f, rough, 1};
+constexpr Param params[] = {{.name = "roughness",
+                             .meaning = "of the third ball and of the split sum",
+                             .value = 0.4,
+                             .low = 0.1,
+                             .high = 1,
+                             .decimals = 2}};
 // Of the integral: directions a pixel, and the roughness of their look-ups, which are filtered so that the sun is not
 // seen as dots.
 constexpr int samples = 1024;
@@ -168,8 +172,8 @@ LinearImage ball_of(int side, const Reflected& reflected) {
 constexpr float3 viewer{0, 0, 1};
 
 /// ∫ L f (n·l) dl by samples of the lobe.
-float3 integral(const EnvironmentView& view, float3 n) {
-  constexpr float alpha = rough * rough;
+float3 integral(const EnvironmentView& view, float rough, float3 n) {
+  const float alpha = rough * rough;
   Directions lobe(samples);
   float weight[samples];
   for (int i = 0; i < samples; ++i) {
@@ -185,7 +189,7 @@ float3 integral(const EnvironmentView& view, float3 n) {
 }
 
 /// The mean light of the lobe times the lobe's reflectance.
-float3 split_sum(const EnvironmentView& view, float3 n) {
+float3 split_sum(const EnvironmentView& view, float rough, float3 n) {
   const float3 l = mirrored(viewer, n);
   const auto light = specular_light(view, Vector<F>{l.x, l.y, l.z}, F(rough));
   const SpecularWeights<F> weights = SpecularFit<F>(F(rough)).at(F(n.z));
@@ -205,9 +209,9 @@ Rgba8Image table_picture(int side) {
   return shown(image);
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings& settings) {
   const int side = size.panel;
-  const auto map = make_terrace();
+  static const auto map = make_terrace();
   const Environment environment{.color = {1, 1, 1}, .map = map};
   const EnvironmentView view = map->view(environment, {0, 1, 0});
   const auto draw = [&](float metallic, float roughness) {
@@ -224,10 +228,12 @@ Lesson make(const DemoSize& size) {
   };
 
   Figure figure{.title = "Environment light: integrals over all directions, made into look-ups", .rows = {{}, {}}};
-  constexpr const char* captions[] = {
+  const auto rough = static_cast<float>(settings.number("roughness"));
+  const float roughnesses[] = {0, 0.2f, rough, 1};
+  const std::string captions[] = {
       "A mirror, roughness 0\nReflection and background are the radiance itself.",
       "Roughness 0.2\nThe mean over a narrow lobe about the mirror direction, for the ball and the background alike.",
-      "Roughness 0.4\nThe sun alone makes this highlight: its light is spread over the lobe.",
+      fmt::format("Roughness {}\nThe sun alone makes this highlight: its light is spread over the lobe.", rough),
       "Roughness 1\nThe lobe is the cosine over a hemisphere: what a white diffuse surface reflects."};
   for (std::size_t k = 0; k < std::size(roughnesses); ++k) {
     std::string caption = captions[k];
@@ -236,8 +242,8 @@ Lesson make(const DemoSize& size) {
     figure.rows[0].push_back({draw(1, roughnesses[k]), caption});
   }
 
-  const LinearImage exact = ball_of(side, [&](float3 n) { return integral(view, n); });
-  const LinearImage split = ball_of(side, [&](float3 n) { return split_sum(view, n); });
+  const LinearImage exact = ball_of(side, [&](float3 n) { return integral(view, rough, n); });
+  const LinearImage split = ball_of(side, [&](float3 n) { return split_sum(view, rough, n); });
   const Plane<float> exact_luminance = luminance_of(exact), split_luminance = luminance_of(split);
   double mean = 0;
   for (const float light : exact_luminance.values()) mean += static_cast<double>(light);
@@ -250,7 +256,8 @@ Lesson make(const DemoSize& size) {
       {table_picture(side),
        "The lobe's reflectance\nRoughness downwards, n·v to the right: the factor of f0 in red, what Fresnel adds in "
        "green."},
-      {shown(split), "Split sum, roughness 0.4\nThe mean light of the lobe, times the table: two look-ups."},
+      {shown(split),
+       fmt::format("Split sum, roughness {}\nThe mean light of the lobe, times the table: two look-ups.", rough)},
       {shown(exact),
        fmt::format("The integral itself\n{} directions a pixel. At grazing views the lobe is longer and dimmer than "
                    "the split sum's. Difference: {}\u00a0% of the mean.",
@@ -275,6 +282,8 @@ Lesson make(const DemoSize& size) {
 
 }  // namespace
 
-Demo demo_environment() { return {"environment", "reflection by roughness, irradiance, and the split sum", make}; }
+Demo demo_environment() {
+  return {"environment", "reflection by roughness, irradiance, and the split sum", make, params};
+}
 
 }  // namespace zoneplate::cli

@@ -44,7 +44,7 @@ Errors errors_of(const LinearImage& picture, const LinearImage& exact, const Lin
   return out;
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings&) {
   const int side = size.panel, height = side * 3 / 4;
   const Scene scene = scene_of("crossing");
   const LinearImage exact = shoot(scene, "analytic", side, height), centres = shoot(scene, "none", side, height);

@@ -83,7 +83,7 @@ Rgba8Image curve_plot(int side) {
   return plot_at(plot, side, side, plot_width);
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings&) {
   const int side = size.panel, crop = side / factor;
   const Plane<float> coverage = fan(crop);
   const Blend codes = blended(coverage, false), light = blended(coverage, true);

@@ -19,8 +19,19 @@ using sdf::Point;
 struct Corner {
   double x, y, z, u, v;
 };
-constexpr std::array<Corner, 4> corners = {
-    {{-0.84, -0.78, -1.3, 0, 0}, {0.84, -0.78, -1.3, 1, 0}, {0.84, 2.1, -4.6, 1, 1}, {-0.84, 2.1, -4.6, 0, 1}}};
+using Square = std::array<Corner, 4>;
+constexpr double near = 1.3;  // distance of the near edge
+constexpr Param params[] = {{.name = "far",
+                             .meaning = "distance of the far edge; that of the near one is 1.3",
+                             .value = 4.6,
+                             .low = 1.4,
+                             .high = 20,
+                             .decimals = 1}};
+
+/// The square whose far edge has this distance.
+Square square_of(double far) {
+  return {{{-0.84, -0.78, -near, 0, 0}, {0.84, -0.78, -near, 1, 0}, {0.84, 2.1, -far, 1, 1}, {-0.84, 2.1, -far, 0, 1}}};
+}
 constexpr std::array<std::array<std::size_t, 3>, 2> triangles = {{{0, 1, 2}, {0, 2, 3}}};
 constexpr double focal = 1.45;  // half of the image's height, at distance 1, is 1 / focal
 constexpr int checks = 8;
@@ -43,7 +54,7 @@ std::array<double, 3> barycentric(const std::array<Point, 3>& t, Point p) {
 }
 
 /// The texture coordinates at a pixel, or none outside of the square.
-std::optional<Uv> interpolated(Point p, int side, bool is_perspective) {
+std::optional<Uv> interpolated(const Square& corners, Point p, int side, bool is_perspective) {
   for (const auto& indices : triangles) {
     std::array<Point, 3> t;
     for (std::size_t i = 0; i < 3; ++i) t[i] = project(corners[indices[i]], side);
@@ -61,7 +72,7 @@ std::optional<Uv> interpolated(Point p, int side, bool is_perspective) {
 }
 
 /// The point of the square on the ray through a pixel.
-Uv exact(Point p, int side) {
+Uv exact(const Square& corners, Point p, int side) {
   const double x = (2 * p.x / side - 1) / focal, y = (1 - 2 * p.y / side) / focal;  // the ray (x, y, -1)
   const Corner &a = corners[0], &d = corners[3];
   const double slope = (d.y - a.y) / (d.z - a.z);  // the plane's y is a.y + slope (z - a.z)
@@ -74,7 +85,7 @@ struct View {
   double greatest = 0;  ///< error of u or v
 };
 
-View view_of(int side, bool is_perspective) {
+View view_of(const Square& corners, int side, bool is_perspective) {
   constexpr int grid = 4;
   LinearImage light(side, side, Linear{1, 1, 1, 1});
   double greatest = 0;
@@ -83,10 +94,10 @@ View view_of(int side, bool is_perspective) {
       Linear sum{0, 0, 0, 0};
       for (int k = 0; k < grid * grid; ++k) {
         const Point p{x + (k % grid + 0.5) / grid, y + (k / grid + 0.5) / grid};
-        const std::optional<Uv> uv = interpolated(p, side, is_perspective);
+        const std::optional<Uv> uv = interpolated(corners, p, side, is_perspective);
         Linear c{1, 1, 1, 1};
         if (uv) {
-          const Uv e = exact(p, side);
+          const Uv e = exact(corners, p, side);
           greatest = std::max({greatest, std::abs(uv->u - e.u), std::abs(uv->v - e.v)});
           const int i = static_cast<int>(uv->u * checks), j = static_cast<int>(uv->v * checks);
           c = (i + j) % 2 == 0 ? Linear{0.0f, 0.17f, 0.45f, 1} : Linear{0.93f, 0.87f, 0.72f, 1};
@@ -99,7 +110,7 @@ View view_of(int side, bool is_perspective) {
 }
 
 /// v along the vertical line through the middle of the image.
-Rgba8Image plot_of(int side) {
+Rgba8Image plot_of(const Square& corners, int side) {
   Plot plot{.title = "",
             .x = {"height above the near edge (pixels)"},
             .y = {"texture coordinate v", 0, 1},
@@ -107,7 +118,7 @@ Rgba8Image plot_of(int side) {
   const double column = 0.45 * side, bottom = project(corners[0], side).y;
   for (int y = side; y-- > 0;) {
     const Point p{column, y + 0.5};
-    const auto affine = interpolated(p, side, false), perspective = interpolated(p, side, true);
+    const auto affine = interpolated(corners, p, side, false), perspective = interpolated(corners, p, side, true);
     if (!affine || !perspective) continue;
     plot.curves[0].points.emplace_back(bottom - p.y, affine->v);
     plot.curves[1].points.emplace_back(bottom - p.y, perspective->v);
@@ -115,9 +126,11 @@ Rgba8Image plot_of(int side) {
   return plot_at(plot, side, side, plot_width);
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings& settings) {
   const int side = size.panel;
-  const View affine = view_of(side, false), perspective = view_of(side, true);
+  const double far = settings.number("far");
+  const Square corners = square_of(far);
+  const View affine = view_of(corners, side, false), perspective = view_of(corners, side, true);
   Figure figure{.title = "Interpolation: weights on the screen are not weights on the surface", .rows = {{}}};
   figure.rows[0].push_back(
       {affine.image,
@@ -129,22 +142,24 @@ Lesson make(const DemoSize& size) {
                                       "Compared with the points where rays meet the plane, u and v differ by at most "
                                       "{:.0e}.",
                                       perspective.greatest)});
-  figure.rows[0].push_back({plot_of(side),
+  figure.rows[0].push_back({plot_of(corners, side),
                             "Along a column\nAn affine v rises at a constant rate; the correct one rises "
                             "faster towards the horizon, where squares are smaller."});
-  figure.text =
+  figure.text = fmt::format(
       "A projection keeps straight lines but not distances along them: the middle of an edge on the screen is not the "
       "middle of the edge in space. With barycentric coordinates α, β, γ on the screen and the depths of the vertices "
       "z, "
       "an attribute I is (α I/z + β I/z + γ I/z) / (α/z + β/z + γ/z), each term with its own vertex. The square is "
-      "made of two triangles; its far edge is 3.5 times as far as the near one.";
+      "made of two triangles; its far edge is {} times as far as the near one.",
+      number(far / near, 1));
   return {.frames = {figure}};
 }
 
 }  // namespace
 
 Demo demo_interpolation() {
-  return {"interpolation", "affine and perspective-correct texture coordinates, against ray-plane intersections", make};
+  return {"interpolation", "affine and perspective-correct texture coordinates, against ray-plane intersections", make,
+          params};
 }
 
 }  // namespace zoneplate::cli

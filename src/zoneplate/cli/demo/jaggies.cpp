@@ -25,7 +25,7 @@ constexpr std::array<Way, 3> ways = {
       "Coverage has 8 samples, shading one per surface: smooth outlines at little cost."},
      {"ssaa:n=4", "16 shaded samples", "Highlights inside the outline become smooth as well."}}};
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings&) {
   const int side = size.panel, height = side * 3 / 4;
   const Scene scene = scene_of("teapot");
   RenderCounts counts;

@@ -6,10 +6,9 @@
 #include <cmath>
 
 #include "zoneplate/antialias/methods.h"
-#include "zoneplate/cli/aov.h"
 #include "zoneplate/cli/demo/demo.h"
 #include "zoneplate/cli/demo/picture.h"
-#include "zoneplate/codec/png.h"
+#include "zoneplate/cli/false_color.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/render/renderer.h"
@@ -24,7 +23,8 @@ namespace zoneplate::cli {
 namespace {
 
 constexpr int texels = 256;
-constexpr float cutoff = 0.5f;  // of the alpha test
+constexpr Param params[] = {
+    {.name = "cutoff", .meaning = "of the alpha test", .value = 0.5, .low = 0.1, .high = 0.9, .decimals = 2}};
 
 /// Level 0 on the left, the others below one another on its right, reduced or enlarged to `side` pixels in height.
 Rgba8Image pyramid(const Texture& texture, int side, Rgba8 paper) {
@@ -55,19 +55,21 @@ Rgba8Image pyramid(const Texture& texture, int side, Rgba8 paper) {
       width, side, make_kernel("mitchell")));
 }
 
-/// A data pass of the board in false colour.
-Rgba8Image pass(const Scene& scene, std::string_view name, bool Planes::*plane, int side) {
+/// A data pass of the board in false colour, transparent where nothing is drawn.
+Rgba8Image pass(const Scene& scene, bool Planes::*plane, Plane<float> Frame::*values, Rgba8 (*color)(float), int side) {
   Renderer renderer(PreparedScene(scene), make_resolver(antialias::methods(), "none"));
   Planes planes;
   planes.depth = planes.*plane = true;
   const RenderedImage image =
       renderer.render(camera_of(scene, side, side), {.options = {.width = side, .height = side}, .planes = planes});
-  const Aov& aov = *std::ranges::find(aovs(), name, &Aov::name);
-  return decode_png(encode_data_png(aov, image.data, scene), std::string(name)).pixels;
+  Rgba8Image out(side, side, Rgba8{0, 0, 0, 0});
+  for (std::size_t i = 0; i < out.values().size(); ++i)
+    if (std::isfinite(image.data.depth.values()[i])) out.values()[i] = color((image.data.*values).values()[i]);
+  return out;
 }
 
 /// The fraction of the texels of each level that pass an alpha test.
-std::string coverage_text(const Texture& texture) {
+std::string coverage_text(const Texture& texture, float cutoff) {
   const TextureView& view = texture.view();
   std::string text;
   for (int l = 0; l < std::min(view.levels, 6); ++l) {
@@ -100,7 +102,7 @@ TexelImage grass() {
 }
 
 /// The same hedge at 1, 2, 4, 8 and 16 times a distance.
-Scene receding(const TexelImage& blades) {
+Scene receding(const TexelImage& blades, float cutoff) {
   Scene scene;
   scene.images.push_back({"grass", blades});
   Material leaf;
@@ -127,8 +129,9 @@ Scene receding(const TexelImage& blades) {
   return scene;
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings& settings) {
   const int side = size.panel;
+  const auto cutoff = static_cast<float>(settings.number("cutoff"));
   Figure figure{.title = "Mip levels: a texture at every size, made before it is needed", .rows = {{}, {}, {}}};
 
   const Rgba8Image wall = shown(make_pattern(fmt::format("bricks:size={}", texels)));
@@ -139,10 +142,10 @@ Lesson make(const DemoSize& size) {
                             "take a third more memory than the image."});
   Scene scene = scene_of("checkerboard");
   scene.images.at(0).pixels = wall;
-  figure.rows[0].push_back({pass(scene, "mip-level", &Planes::mip_level, side),
+  figure.rows[0].push_back({pass(scene, &Planes::mip_level, &Frame::mip_level, mip_level_color, side),
                             "--aov mip-level\nlog2 of the longer side of a pixel's footprint in texels: white where "
                             "the texture is magnified, red level 0, then a hue for each level."});
-  figure.rows[0].push_back({pass(scene, "anisotropy", &Planes::anisotropy, side),
+  figure.rows[0].push_back({pass(scene, &Planes::anisotropy, &Frame::anisotropy, anisotropy_color, side),
                             "--aov anisotropy\nThe footprint's length over its width: towards the horizon, where no "
                             "square level fits; pale is 16 and more."});
 
@@ -160,17 +163,19 @@ Lesson make(const DemoSize& size) {
        "Kaiser levels\nA wider filter with negative lobes keeps more contrast: --mip-filter kaiser."});
 
   const TexelImage blades = grass();
-  const Scene hedges = receding(blades);
+  const Scene hedges = receding(blades, cutoff);
   const auto view = [&](const std::string& method, const RenderOptions& options, bool keeps_coverage) {
     return enlarged(shown(shoot(hedges, method, options, {.keeps_coverage = keeps_coverage})), 2);
   };
   const RenderOptions small{.width = side / 2, .height = side / 2};
-  figure.rows[2].push_back({view("none", small, false), "Alpha averaged\nWith distance the test removes the blades: " +
-                                                            coverage_text(Texture(blades, TexelMeaning::Color)) +
-                                                            " of the texels pass at levels 0 to 5."});
+  figure.rows[2].push_back(
+      {view("none", small, false), "Alpha averaged\nWith distance the test removes the blades: " +
+                                       coverage_text(Texture(blades, TexelMeaning::Color), cutoff) +
+                                       " of the texels pass at levels 0 to 5."});
   figure.rows[2].push_back({view("none", small, true),
                             "Coverage kept\nAlpha is scaled level by level (--mip-filter box:alpha=coverage): " +
-                                coverage_text(Texture(blades, TexelMeaning::Color, {.kept_cutoff = cutoff})) + "."});
+                                coverage_text(Texture(blades, TexelMeaning::Color, {.kept_cutoff = cutoff}), cutoff) +
+                                "."});
   figure.rows[2].push_back({view("ssaa:samples=256", small, false), "256 samples a pixel\nThe reference."});
   figure.text =
       "Levels are made in linear light, as light adds up. Source of the pyramid: Williams, Pyramidal Parametrics, "
@@ -181,6 +186,8 @@ Lesson make(const DemoSize& size) {
 
 }  // namespace
 
-Demo demo_mip_levels() { return {"mip-levels", "mip levels: where each is read, their filters and their alpha", make}; }
+Demo demo_mip_levels() {
+  return {"mip-levels", "mip levels: where each is read, their filters and their alpha", make, params};
+}
 
 }  // namespace zoneplate::cli

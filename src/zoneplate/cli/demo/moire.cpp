@@ -74,7 +74,7 @@ std::array<Column, 2> checks(int side) {
              "Distant checks converge to their mean grey.")};
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings&) {
   Figure figure{.title = "Moiré: detail too fine for the pixels appears as a false pattern", .rows = {{}, {}}};
   for (const auto& columns : {rings(size.panel), checks(size.panel)})
     for (const Column& c : columns) figure.rows[0].push_back(c.above), figure.rows[1].push_back(c.below);

@@ -139,7 +139,7 @@ Scene metal() {
   return scene;
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings&) {
   using Kind = SpecularAntialiasing;
   const int side = size.panel;
   Figure figure{.title = "Normal map aliasing: highlights smaller than a pixel"};

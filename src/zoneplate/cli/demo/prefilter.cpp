@@ -15,10 +15,17 @@
 namespace zoneplate::cli {
 namespace {
 
-constexpr int step = 4;        // every fourth pixel is kept
-constexpr double sigma = 0.8;  // of the Gaussian, in pixels of the small image
-constexpr int factor = 8;      // enlargement
-constexpr int spokes = 240;
+constexpr int step = 4;    // every fourth pixel is kept
+constexpr int factor = 8;  // enlargement
+constexpr Param params[] = {
+    {.name = "sigma",
+     .meaning = "of the Gaussian, in pixels of the small image",
+     .value = 0.8,
+     .low = 0.2,
+     .high = 3,
+     .decimals = 1},
+    {.name = "spokes", .meaning = "of the wheel", .value = 240, .low = 20, .high = 400},
+};
 
 Plane<float> blurred(const Plane<float>& plane, double sigma_here) {
   const std::vector<double> taps = sampled(make_kernel(fmt::format("gaussian:sigma={}", sigma_here)));
@@ -38,25 +45,26 @@ std::string decibels(double first, double second) {
 }
 
 /// A large image reduced in three ways: sampled; sampled, then filtered; filtered, then sampled.
-std::array<Plane<float>, 3> made_small(const Plane<float>& large, int side) {
+std::array<Plane<float>, 3> made_small(const Plane<float>& large, int side, double sigma) {
   const auto taken = [side](const Plane<float>& plane) { return resample_nearest(plane, side, side); };
   return {taken(large), blurred(taken(large), sigma), taken(blurred(large, sigma * step))};
 }
 
 /// The result of each way for the frequencies above the small image's Nyquist limit only. The steps are linear, so that
 /// all of it is aliasing.
-std::array<double, 3> aliases_of(const Plane<float>& large, int side) {
+std::array<double, 3> aliases_of(const Plane<float>& large, int side, double sigma) {
   const Plane<float> held = resample_ideal(resample_ideal(large, side, side), large.width(), large.height());
-  const auto rest = made_small(difference(large, held), side);
+  const auto rest = made_small(difference(large, held), side, sigma);
   return {rms(rest[0]), rms(rest[1]), rms(rest[2])};
 }
 
-Lesson make(const DemoSize& size) {
-  const int side = size.panel, large = step * side;
+Lesson make(const DemoSize& size, const Settings& settings) {
+  const int side = size.panel, large = step * side, spokes = settings.integer("spokes");
+  const double sigma = settings.number("sigma");
   const Scene wheel = scene_of(fmt::format("wheel:spokes={}", spokes));
   const Plane<float> original = luminance_of(shoot(wheel, "msaa:n=8", large, large));
-  const auto results = made_small(original, side);
-  const auto aliases = aliases_of(original, side);
+  const auto results = made_small(original, side, sigma);
+  const auto aliases = aliases_of(original, side, sigma);
 
   const std::string captions[] = {
       fmt::format("Sampled: every {}th pixel\nSpokes break into dashes, and the dashes form false curves.", step),
@@ -88,6 +96,6 @@ Lesson make(const DemoSize& size) {
 
 }  // namespace
 
-Demo demo_prefilter() { return {"prefilter", "filtering before sampling against filtering after it", make}; }
+Demo demo_prefilter() { return {"prefilter", "filtering before sampling against filtering after it", make, params}; }
 
 }  // namespace zoneplate::cli

@@ -15,11 +15,17 @@ namespace {
 
 constexpr const char *method = "msaa:n=8", *reference = "ssaa:n=16";
 
-constexpr SolidTexture marble{.pattern = SolidPattern::Marble,
-                              .scale = 1.6f,
-                              .distortion = 1.6f,
-                              .low = {0.84f, 0.82f, 0.79f},
-                              .high = {0.09f, 0.10f, 0.12f}};
+constexpr Param params[] = {
+    {.name = "octaves", .meaning = "of the fractal sum", .value = 6, .low = 3, .high = 8},
+    {.name = "distortion",
+     .meaning = "of the marble's waves by turbulence",
+     .value = 1.6,
+     .low = 0,
+     .high = 5,
+     .decimals = 1},
+};
+constexpr SolidTexture marble{
+    .pattern = SolidPattern::Marble, .scale = 1.6f, .low = {0.84f, 0.82f, 0.79f}, .high = {0.09f, 0.10f, 0.12f}};
 constexpr SolidTexture wood{
     .pattern = SolidPattern::Wood, .scale = 7, .low = {0.52f, 0.28f, 0.10f}, .high = {0.17f, 0.06f, 0.016f}};
 constexpr SolidTexture rock{
@@ -40,26 +46,26 @@ Scene sphere(const SolidTexture& texture) {
 }
 
 /// A plane to the horizon.
-Scene floor(bool is_filtered) {
+Scene floor(const SolidTexture& texture, bool is_filtered) {
   Scene scene;
   Mesh mesh;
   add_quad(mesh, {{-300, 0, 2}, {300, 0, 2}, {300, 0, -600}, {-300, 0, -600}});
   mesh.normal.assign(mesh.position.size(), {0, 1, 0});
   Material material = unlit("marble", {1, 1, 1});
-  material.solid_texture = marble;
+  material.solid_texture = texture;
   material.solid_texture.is_filtered = is_filtered;
   add_part(scene, material, std::move(mesh));
   scene.cameras.push_back(camera_at({0, 2, 6}, {0, 0.4f, 0}, 0.75f, 0.1f, 1000));
   return scene;
 }
 
-std::array<Panel, 3> floors(int side) {
-  const LinearImage exact = shoot(floor(false), reference, side, side);
+std::array<Panel, 3> floors(const SolidTexture& texture, int side) {
+  const LinearImage exact = shoot(floor(texture, false), reference, side, side);
   const auto error = [&](const LinearImage& image) {
     return number(100 * rms_difference(luminance_of(image), luminance_of(exact)), 1);
   };
-  const LinearImage point_sampled = shoot(floor(false), "none", side, side),
-                    filtered = shoot(floor(true), "none", side, side);
+  const LinearImage point_sampled = shoot(floor(texture, false), "none", side, side),
+                    filtered = shoot(floor(texture, true), "none", side, side);
   return {
       {{shown(point_sampled),
         fmt::format("Point samples\nOne evaluation per pixel aliases towards the horizon. Error: {}\u00a0% of white.",
@@ -71,21 +77,25 @@ std::array<Panel, 3> floors(int side) {
        {shown(exact), "Reference\n256 samples per pixel."}}};
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings& settings) {
   Figure figure{.title = "Procedural textures: functions of position, filtered by the pixel's footprint", .rows = {}};
-  const int side = size.panel;
+  const int side = size.panel, octaves = settings.integer("octaves");
+  constexpr const char* words[] = {"", "", "", "Three", "Four", "Five", "Six", "Seven", "Eight"};
   figure.rows.push_back(
       {{pattern_picture("octaves=1", side), "Perlin noise\nRandom gradients at lattice points, 8 cells per side."},
        {pattern_picture("octaves=2", side), "Two octaves\nTwice the frequency, half the amplitude, added."},
-       {pattern_picture("octaves=6", side), "Six octaves\nA fractal sum: detail at every scale."}});
+       {pattern_picture(fmt::format("octaves={}", octaves), side),
+        fmt::format("{} octaves\nA fractal sum: detail at every scale.", words[octaves])}});
+  SolidTexture veined = marble;
+  veined.distortion = static_cast<float>(settings.number("distortion"));
   const auto solid = [&](const SolidTexture& texture, const char* caption) {
     return Panel{shown(shoot(sphere(texture), method, side, side)), caption};
   };
   figure.rows.push_back(
-      {solid(marble, "Marble\nPlane waves along x, their phase displaced by turbulence (sum of |noise|)."),
+      {solid(veined, "Marble\nPlane waves along x, their phase displaced by turbulence (sum of |noise|)."),
        solid(wood, "Wood\nRings around the y axis, displaced by noise, with a stretched grain."),
        solid(rock, "Rock\nA fractal sum, and the creases of turbulence.")});
-  const std::array<Panel, 3> planes = floors(side);
+  const std::array<Panel, 3> planes = floors(veined, side);
   figure.rows.push_back({planes.begin(), planes.end()});
   figure.text =
       "A solid texture is evaluated at the position in object space, so that a mesh needs no texture coordinates and "
@@ -101,6 +111,6 @@ Lesson make(const DemoSize& size) {
 
 }  // namespace
 
-Demo demo_procedural() { return {"procedural", "noise, marble, wood and rock, and their filtering", make}; }
+Demo demo_procedural() { return {"procedural", "noise, marble, wood and rock, and their filtering", make, params}; }
 
 }  // namespace zoneplate::cli

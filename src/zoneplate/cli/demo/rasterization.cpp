@@ -21,9 +21,22 @@ using sdf::Point;
 using Triangle = std::array<Point, 3>;
 
 constexpr int columns = 12, rows = 9;
-constexpr Triangle triangle = {{{1.7, 7.6}, {10.6, 5.2}, {4.4, 0.9}}};
-// A square whose sides and diagonal run through centres of pixels.
-constexpr Triangle lower = {{{3.5, 1.5}, {3.5, 7.5}, {9.5, 7.5}}}, upper = {{{3.5, 1.5}, {9.5, 7.5}, {9.5, 1.5}}};
+constexpr Param params[] = {
+    {.name = "x", .meaning = "moves the triangles, in pixels", .value = 0, .low = -1.5, .high = 1.5, .decimals = 2},
+    {.name = "y", .meaning = "moves the triangles, in pixels", .value = 0, .low = -0.75, .high = 0.75, .decimals = 2},
+};
+
+/// The triangles of the figure, moved by a part of a pixel.
+struct Triangles {
+  Triangle one = {{{1.7, 7.6}, {10.6, 5.2}, {4.4, 0.9}}};
+  // A square whose sides and diagonal run through centres of pixels.
+  Triangle lower = {{{3.5, 1.5}, {3.5, 7.5}, {9.5, 7.5}}}, upper = {{{3.5, 1.5}, {9.5, 7.5}, {9.5, 1.5}}};
+
+  explicit Triangles(Point by) {
+    for (Triangle* const triangle : {&one, &lower, &upper})
+      for (Point& p : *triangle) p = p + by;
+  }
+};
 
 /// The number of triangles that cover each sample: each adds half of the light that is left.
 Plane<int> covered(std::span<const Triangle> triangles, EdgeRule rule) {
@@ -79,7 +92,7 @@ struct Grid {
   }
 };
 
-Panel coverage_panel(const Grid& grid, const Plane<int>& counts) {
+Panel coverage_panel(const Grid& grid, const Triangle& triangle, const Plane<int>& counts) {
   Diagram d(grid.width, grid.height());
   int inside = 0, different = 0;
   for (int y = 0; y < rows; ++y)
@@ -106,7 +119,7 @@ Panel coverage_panel(const Grid& grid, const Plane<int>& counts) {
                       inside, columns * rows, different)};
 }
 
-Panel edge_panel(const Grid& grid) {
+Panel edge_panel(const Grid& grid, const Triangle& triangle) {
   Diagram d(grid.width, grid.height());
   constexpr Rgba8 colors[] = {hue::vermilion, hue::green, hue::blue};
   const Point inside[] = {grid.at(triangle[0]), grid.at(triangle[1]), grid.at(triangle[2])};
@@ -139,7 +152,8 @@ Panel edge_panel(const Grid& grid) {
 }
 
 /// Two triangles that share a diagonal.
-Panel shared_panel(const Grid& grid, EdgeRule rule) {
+Panel shared_panel(const Grid& grid, const Triangles& triangles, EdgeRule rule) {
+  const auto& [unused, lower, upper] = triangles;
   const Triangle both[] = {lower, upper};
   const Plane<int> counts = covered(both, rule), first = covered({both, 1}, rule);
   Diagram d(grid.width, grid.height());
@@ -173,14 +187,15 @@ Panel shared_panel(const Grid& grid, EdgeRule rule) {
                                   : " Transparent triangles would show these seams.")};
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings& settings) {
   const Grid grid{size.panel};
   Figure figure{.title = "Rasterization: a triangle covers the samples that it contains", .rows = {{}}};
-  const Triangle one[] = {triangle};
-  figure.rows[0].push_back(coverage_panel(grid, covered(one, EdgeRule::TopLeft)));
-  figure.rows[0].push_back(edge_panel(grid));
-  figure.rows[0].push_back(shared_panel(grid, EdgeRule::Inside));
-  figure.rows[0].push_back(shared_panel(grid, EdgeRule::TopLeft));
+  const Triangles triangles({settings.number("x"), settings.number("y")});
+  const Triangle one[] = {triangles.one};
+  figure.rows[0].push_back(coverage_panel(grid, triangles.one, covered(one, EdgeRule::TopLeft)));
+  figure.rows[0].push_back(edge_panel(grid, triangles.one));
+  figure.rows[0].push_back(shared_panel(grid, triangles, EdgeRule::Inside));
+  figure.rows[0].push_back(shared_panel(grid, triangles, EdgeRule::TopLeft));
   figure.text =
       "Only the pixels of the bounding box are tested, and the edge functions change by a constant from pixel to "
       "pixel. "
@@ -195,7 +210,7 @@ Lesson make(const DemoSize& size) {
 }  // namespace
 
 Demo demo_rasterization() {
-  return {"rasterization", "samples inside a triangle, edge functions, and the top-left rule", make};
+  return {"rasterization", "samples inside a triangle, edge functions, and the top-left rule", make, params};
 }
 
 }  // namespace zoneplate::cli

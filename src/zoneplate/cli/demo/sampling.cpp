@@ -37,7 +37,13 @@ struct Way {
 
   Pulse pulse() const { return {is_filtered ? rate / 2 : bandwidth}; }
 };
-constexpr std::array<Way, 4> ways = {{{4, false}, {2, false}, {1.3, false}, {1.3, true}}};
+constexpr Param params[] = {{.name = "rate",
+                             .meaning = "samples per second of the lower rows, below twice the bandwidth",
+                             .value = 1.3,
+                             .low = 0.5,
+                             .high = 1.9,
+                             .decimals = 1}};
+std::array<Way, 4> ways_of(double rate) { return {{{4, false}, {2, false}, {rate, false}, {rate, true}}}; }
 
 struct Samples {
   double rate;
@@ -144,10 +150,10 @@ std::string words_of(const Way& way) {
                                   : "They touch: twice the bandwidth is the minimum rate.";
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings& settings) {
   const int width = 2 * size.panel, height = size.panel * 3 / 4;
   Figure figure{.title = "Sampling repeats the spectrum: at too low a rate the copies overlap"};
-  for (const Way& way : ways) {
+  for (const Way& way : ways_of(settings.number("rate"))) {
     const Samples samples = taken(way);
     const std::string rate = number(way.rate, way.rate < 2 ? 1 : 0);
     figure.rows.push_back({{plot_at(time_plot(samples), width, height),
@@ -169,6 +175,6 @@ Lesson make(const DemoSize& size) {
 
 }  // namespace
 
-Demo demo_sampling() { return {"sampling", "the spectrum of a signal's samples at different rates", make}; }
+Demo demo_sampling() { return {"sampling", "the spectrum of a signal's samples at different rates", make, params}; }
 
 }  // namespace zoneplate::cli

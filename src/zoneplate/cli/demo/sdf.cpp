@@ -18,10 +18,14 @@ namespace {
 using sdf::Point;
 using sdf::Shape;
 
+constexpr Param params[] = {
+    {.name = "soft", .meaning = "reach of the soft union of the cloud", .value = 26, .low = 0, .high = 80},
+    {.name = "texels", .meaning = "per em of the fields of letters", .value = 32, .low = 12, .high = 64},
+};
 constexpr int plot_width = 480;  // for which the letters of the plot are designed
 
 /// A ring, a star and a soft union, in 360 × 270 units.
-sdf::ShapePtr emblem() {
+sdf::ShapePtr emblem(double soft) {
   std::vector<Point> star;
   for (const Point p :
        {Point{0, -60}, {16, -20}, {58, -19}, {25, 7}, {36, 48}, {0, 24}, {-36, 48}, {-25, 7}, {-58, -19}, {-16, -20}})
@@ -33,7 +37,7 @@ sdf::ShapePtr emblem() {
       combined(Shape::Kind::SmoothUnion,
                {sdf::moved({240, 178}, sdf::circle(38)), sdf::moved({292, 165}, sdf::ellipse(46, 30)),
                 sdf::moved({276, 202}, rotated(-12, sdf::rectangle(120, 26)))},
-               26);
+               soft);
   return combined(Shape::Kind::Union, {badge, cloud});
 }
 
@@ -50,8 +54,8 @@ Rgba8Image fitted_to(const Rgba8Image& image, int width, int height) {
 
 /// The errors of text from a field, by the size at which it is drawn.
 Rgba8Image error_plot(const Font& font, const std::string& words, const sdf::Atlas& single, const sdf::Atlas& multi,
-                      int width, int height) {
-  Plot plot{.title = "32 texels per em",
+                      double texels, int width, int height) {
+  Plot plot{.title = number(texels, 0) + " texels per em",
             .x = {"pixels per em", 16, 256, true},
             .y = {"error along edges (%)", 0, 0},
             .curves = {{.name = "one channel", .points = {}, .mark = Curve::Mark::LineAndPoints},
@@ -65,11 +69,11 @@ Rgba8Image error_plot(const Font& font, const std::string& words, const sdf::Atl
   return plot_at(plot, width, height, plot_width);
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings& settings) {
   const int side = size.panel, height = side * 3 / 4, line_height = side / 2;
   const double scale = side / 360.0;
   const sdf::Raster raster{side, height, {0, 0}, scale};
-  const sdf::ShapePtr shape = emblem();
+  const sdf::ShapePtr shape = emblem(settings.number("soft"));
   Figure figure{.title = "Signed distance fields: shapes are drawn, grown and joined by one number per point",
                 .rows = {{}, {}}};
 
@@ -91,13 +95,13 @@ Lesson make(const DemoSize& size) {
 
   const Font font(dejavu_path("DejaVuSans.ttf"));
   const std::string words = "kR4";
-  constexpr double texels = 32;
+  const double texels = settings.number("texels");
   const auto atlas_with = [&](sdf::FieldKind kind) {
     return atlas_of(font, code_points(words), {.kind = kind, .size = texels, .range = 4});
   };
   const sdf::Atlas single = atlas_with(sdf::FieldKind::Single), multi = atlas_with(sdf::FieldKind::Multi);
   figure.rows[0].push_back(
-      {error_plot(font, words, single, multi, side, height),
+      {error_plot(font, words, single, multi, texels, side, height),
        "Errors by size\nRoot mean square difference from exact coverage, for these three letters."});
 
   const TextLine line(font, words, side / 2.4);
@@ -130,6 +134,6 @@ Lesson make(const DemoSize& size) {
 
 }  // namespace
 
-Demo demo_sdf() { return {"sdf", "shapes and text from signed distances of one and three channels", make}; }
+Demo demo_sdf() { return {"sdf", "shapes and text from signed distances of one and three channels", make, params}; }
 
 }  // namespace zoneplate::cli

@@ -38,7 +38,7 @@ LinearImage ball(const Resolution& resolution, ShadingFrequency frequency, int s
   return shoot(lit_ball(shiny(), resolution.columns, resolution.rows), "msaa:n=8", side, side, nullptr, frequency);
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings&) {
   const Plane<float> exact = luminance_of(ball(reference, ShadingFrequency::Fragment, size.panel));
   Figure figure{.title = "Shading frequency: where lights are evaluated", .rows = {}};
   for (const Frequency& f : frequencies) {

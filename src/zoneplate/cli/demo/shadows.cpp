@@ -54,7 +54,7 @@ ShadowOptions map_of(ShadowFilter filter, float radius) {
   return {.method = ShadowMethod::Map, .map = {.filter = filter, .size = map_size, .radius = radius}};
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings&) {
   const int side = size.panel, x = side * 60 / 100, y = side * 62 / 100;
   const Scene scene = make_scene();
   const auto draw = [&](const ShadowOptions& shadows) {

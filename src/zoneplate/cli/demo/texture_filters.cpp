@@ -111,7 +111,7 @@ std::array<double, 4> add_enlarged(int side, Figure& figure) {
   return errors;
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings&) {
   const int side = size.panel;
   Figure figure{.title = "Texture filters: what a pixel takes of the texture under it"};
   std::array<double, 8> checks{}, bricks{};

@@ -48,16 +48,23 @@ constexpr std::array<std::array<std::size_t, 2>, 17> edges = {{{0, 1},
                                                                {2, 3},
                                                                {7, 8}}};
 constexpr int image_width = 640, image_height = 480;
+constexpr Param params[] = {
+    {.name = "turn", .meaning = "of the house, in radians", .value = 0.6, .low = -3.14, .high = 3.14, .decimals = 2},
+    {.name = "angle", .meaning = "of view, in radians", .value = 0.5, .low = 0.3, .high = 1.2, .decimals = 2},
+    {.name = "near", .meaning = "distance of the near plane", .value = 2.5, .low = 0.1, .high = 6, .decimals = 1},
+    {.name = "far", .meaning = "distance of the far plane", .value = 13, .low = 9, .high = 30, .decimals = 1},
+};
 
 struct Stages {
   float4x4 world_from_object, camera_from_world, clip_from_camera;
   Camera camera;
 };
 
-Stages stages() {
+Stages stages(const Settings& settings) {
+  const auto value = [&](const char* name) { return static_cast<float>(settings.number(name)); };
   Stages s;
-  s.world_from_object = translation({1.2f, 0, -1}) * rotation({0, 1, 0}, 0.6f);
-  s.camera = camera_at({-2.4f, 2.6f, 6.5f}, {1.1f, 0.9f, -0.8f}, 0.5f, 2.5f, 13);
+  s.world_from_object = translation({1.2f, 0, -1}) * rotation({0, 1, 0}, value("turn"));
+  s.camera = camera_at({-2.4f, 2.6f, 6.5f}, {1.1f, 0.9f, -0.8f}, value("angle"), value("near"), value("far"));
   s.camera_from_world = inverse(s.camera.world_from_camera);
   s.clip_from_camera = s.camera.clip_from_camera(static_cast<float>(image_width) / image_height);
   return s;
@@ -212,9 +219,9 @@ Table matrix_table(const float4x4& m, const char* name) {
   return table;
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings& settings) {
   const int side = size.panel;
-  const Stages s = stages();
+  const Stages s = stages(settings);
   const float3 p = house[ridge];
   const float4 clip = s.clip_from_camera * (s.camera_from_world * (s.world_from_object * float4{p.x, p.y, p.z, 1}));
   Figure figure{.title = "Transforms: a point on its way from the model to the image", .rows = {{}, {}}};
@@ -243,7 +250,7 @@ Lesson make(const DemoSize& size) {
 }  // namespace
 
 Demo demo_transforms() {
-  return {"transforms", "model, view, projection and viewport: one point through all of them", make};
+  return {"transforms", "model, view, projection and viewport: one point through all of them", make, params};
 }
 
 }  // namespace zoneplate::cli

@@ -52,7 +52,7 @@ Shot shot(const PreparedScene& scene, const Camera& camera, const std::string& m
   return {std::move(out), image.counts.shaded};
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings&) {
   const int side = size.panel, height = side * 3 / 4;
   Scene scene = scene_of("teapot");
   const Camera camera = camera_of(scene, side, height);

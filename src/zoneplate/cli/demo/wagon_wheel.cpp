@@ -87,7 +87,7 @@ constexpr const char* about =
     "Speeds in spokes per frame; a turn by half a spoke has no direction. An open shutter is a box filter in time: it "
     "does not restore the true speed, but it suppresses the alias. As in space, the filter must come before sampling.";
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings&) {
   const WheelFilm film = film_wheel(spokes, steps, size.panel);
   std::vector<Motion> motions;
   for (const int speed : speeds) motions.push_back(measured(film, speed));
@@ -112,7 +112,10 @@ Lesson make(const DemoSize& size) {
 }  // namespace
 
 Demo demo_wagon_wheel() {
-  return {"wagon-wheel", "an animation: a wheel that appears to roll backwards, with closed and open shutter", make,
+  return {"wagon-wheel",
+          "an animation: a wheel that appears to roll backwards, with closed and open shutter",
+          make,
+          {},
           true};
 }
 

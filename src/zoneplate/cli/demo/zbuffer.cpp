@@ -45,7 +45,7 @@ Rgba8Image depth_of(const Scene& scene, int width, int height) {
   return decode_png(encode_data_png(aov, image.data, scene), "depth").pixels;
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings&) {
   const int width = size.panel, height = width * 3 / 4;
   Figure figure{.title = "The z-buffer decides visibility per sample, the painter's algorithm per triangle",
                 .rows = {{}, {}}};

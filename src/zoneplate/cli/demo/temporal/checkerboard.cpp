@@ -20,7 +20,9 @@
 namespace zoneplate::cli {
 namespace {
 
-constexpr int factor = 4, frames = 9;
+constexpr int factor = 4;
+constexpr Param params[] = {
+    {.name = "frames", .meaning = "of the film; the last one is displayed", .value = 9, .low = 2, .high = 24}};
 
 /// Where the pixels of a frame that are not shaded come from.
 enum class Fill { Nothing, FourNeighbours, SmoothPair, LastFrame };
@@ -128,8 +130,8 @@ struct Shot {
 constexpr std::array<Shot, 2> shots = {
     {{"teleport", "a wheel that turns", 0.5, 0.41}, {"disocclusion", "a wall of noise behind a board", 0.24, 0.5}}};
 
-Lesson make(const DemoSize& size) {
-  const int side = size.panel, height = side * 3 / 4;
+Lesson make(const DemoSize& size, const Settings& settings) {
+  const int side = size.panel, height = side * 3 / 4, frames = settings.integer("frames");
   Figure figure{.title = "Checkerboard rendering: half of the pixels in each frame", .rows = {{}, {}}};
   Table table{{"pixels that are not shaded"}, {}};
   for (const Way& way : ways)
@@ -164,7 +166,7 @@ Lesson make(const DemoSize& size) {
 }  // namespace
 
 Demo demo_checkerboard() {
-  return {"checkerboard", "half of the pixels in each frame, and where the other half comes from", make};
+  return {"checkerboard", "half of the pixels in each frame, and where the other half comes from", make, params};
 }
 
 }  // namespace zoneplate::cli

@@ -37,7 +37,7 @@ double error_at(const LinearImage& reference, const LinearImage& test) {
   return sum;
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings&) {
   const int side = size.panel, height = side * 3 / 4;
   const auto film = [&](const char* method) {
     return film_of_scene("teleport", method, jump + shown_frames.back() + 1, side, height);

@@ -59,7 +59,7 @@ Spot worst_spot(const LinearImage& a, const LinearImage& b, int side) {
   return worst;
 }
 
-Lesson make(const DemoSize& size) {
+Lesson make(const DemoSize& size, const Settings&) {
   const int side = size.panel, height = side * 3 / 4;
   const Scene scene = scene_of(still);
   const LinearImage reference = shoot(scene, "ssaa:pattern=halton,samples=256", side, height);

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "zoneplate/image/rgb.h"
+
+namespace zoneplate::cli {
+
+/// A hue of the colour circle, from red (0) over green (1/3) and blue (2/3) to red (1), blended with white.
+Rgba8 circle_color(float turn, float saturation);
+
+/// White where the texture is magnified by two or more, then once around the colour circle in eight levels; transparent
+/// without a texture.
+Rgba8 mip_level_color(float level);
+
+/// By the logarithm of the footprint's length over its width: black for 1, pale yellow for 16; transparent without a
+/// texture.
+Rgba8 anisotropy_color(float ratio);
+
+}  // namespace zoneplate::cli
