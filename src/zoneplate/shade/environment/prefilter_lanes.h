@@ -15,7 +15,7 @@ struct Cone {
   float radius;
 };
 
-inline Cone cone_of(const DirectionBlock& b) {
+[[gnu::always_inline]] inline Cone cone_of(const DirectionBlock& b) {
   const auto direction = [&](int i) { return float3{b.x[i], b.y[i], b.z[i]}; };
   float3 sum{0, 0, 0};
   for (int i = 0; i < DirectionBlock::size; ++i) sum = sum + direction(i);
@@ -35,7 +35,7 @@ struct Division {
   static constexpr float horizon = 1.41421356f;  ///< the chord of a right angle
 
   /// The wider the lobe, the more light arrives from near the horizon, where the lobe ends abruptly.
-  Division(const Lobe& lobe, const DirectionBlock& block)
+  [[gnu::always_inline]] Division(const Lobe& lobe, const DirectionBlock& block)
       : cone(cone_of(block)),
         detail(lobe.detail),
         core(std::min(2 * lobe.alpha, 0.7f)),
@@ -43,7 +43,7 @@ struct Division {
 
   /// The least number of equal parts along each axis into which a node of this width is divided: 1 where it is taken
   /// whole, 0 where it is skipped.
-  int parts(const LightTree::Node& node, float width, float prominence) const {
+  [[gnu::always_inline]] int parts(const LightTree::Node& node, float width, float prominence) const {
     const float3 away = float3{node.direction[0], node.direction[1], node.direction[2]} - cone.centre;
     const float distance = std::sqrt(dot(away, away)) - cone.radius;
     // A node is at most √2 widths long.

@@ -116,7 +116,7 @@ template <class Use>
 struct Derivatives {
   alignas(64) float value[4][Taps::padded_capacity];
 
-  Derivatives(const Footprint& from, int count) {
+  [[gnu::always_inline]] Derivatives(const Footprint& from, int count) {
     const float* const source[4] = {from.dudx, from.dvdx, from.dudy, from.dvdy};
     for (int d = 0; d < 4; ++d)
       for (int i = 0; i < count; i += 8) {
