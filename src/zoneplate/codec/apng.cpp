@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstring>
+#include <deque>
 #include <span>
 #include <string_view>
+#include <utility>
 
-#include "zoneplate/base/parallel.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/png/png_chunk.h"
 
@@ -67,48 +67,46 @@ Bytes encoded(const Rgba8Image& frame, const Rectangle& r, bool has_alpha) {
   return encode_png(part, {.has_alpha = has_alpha, .is_small = true});
 }
 
+struct EncodedFrame {
+  Rectangle rectangle;
+  Bytes png;
+};
+
 /// Builds the file. The fcTL and fdAT chunks share one sequence of numbers.
 class Writer {
  public:
-  explicit Writer(const Animation& animation) : animation_(animation) {}
+  Writer(const AnimationFormat& format, const std::deque<EncodedFrame>& frames) : format_(format), frames_(frames) {}
 
   Bytes write() {
-    const std::vector<Rgba8Image>& frames = animation_.frames;
-    std::vector<Rectangle> rectangles(frames.size());
-    std::vector<Bytes> files(frames.size());
-    parallel_for(frames.size(), [&](std::size_t i) {
-      rectangles[i] =
-          i == 0 ? Rectangle{0, 0, frames[0].width(), frames[0].height()} : difference(frames[i - 1], frames[i]);
-      files[i] = encoded(frames[i], rectangles[i], animation_.has_alpha);
-    });
-    write_first(files[0]);
-    for (std::size_t i = 1; i < frames.size(); ++i) write_next(files[i], rectangles[i]);
+    write_first();
+    for (std::size_t i = 1; i < frames_.size(); ++i) write_next(frames_[i]);
     put_png_chunk(out_, "IEND", {});
     return std::move(out_);
   }
 
  private:
   // Writes the file of the first frame, with acTL and fcTL chunks inserted before its data.
-  void write_first(const Bytes& png) {
+  void write_first() {
+    const Bytes& png = frames_[0].png;
     out_.assign(png.begin(), png.begin() + signature_size);
     bool is_before_data = true;
     for_chunks(png, [&](std::string_view name, auto, std::span<const std::uint8_t> chunk) {
       if (name == "IEND") return;
       if (name == "IDAT" && is_before_data) {
         Bytes counts;
-        put_png_word(counts, static_cast<std::uint32_t>(animation_.frames.size()));
-        put_png_word(counts, static_cast<std::uint32_t>(animation_.loops));
+        put_png_word(counts, static_cast<std::uint32_t>(frames_.size()));
+        put_png_word(counts, static_cast<std::uint32_t>(format_.loops));
         put_png_chunk(out_, "acTL", counts);
-        write_control({0, 0, animation_.frames[0].width(), animation_.frames[0].height()});
+        write_control(frames_[0].rectangle);
         is_before_data = false;
       }
       out_.insert(out_.end(), chunk.begin(), chunk.end());
     });
   }
 
-  void write_next(const Bytes& png, const Rectangle& r) {
-    write_control(r);
-    for_chunks(png, [&](std::string_view name, auto data, auto) {
+  void write_next(const EncodedFrame& frame) {
+    write_control(frame.rectangle);
+    for_chunks(frame.png, [&](std::string_view name, auto data, auto) {
       if (name != "IDAT") return;
       Bytes numbered;
       put_png_word(numbered, sequence_++);
@@ -121,23 +119,51 @@ class Writer {
     Bytes control;
     put_png_word(control, sequence_++);
     for (const int value : {r.width, r.height, r.x, r.y}) put_png_word(control, static_cast<std::uint32_t>(value));
-    put16(control, animation_.seconds);
-    put16(control, animation_.per);
+    put16(control, format_.seconds);
+    put16(control, format_.per);
     control.push_back(0);  // dispose_op: keep the frame as the background of the next one
     control.push_back(0);  // blend_op: replace the pixels below, do not blend
     put_png_chunk(out_, "fcTL", control);
   }
 
-  const Animation& animation_;
+  const AnimationFormat& format_;
+  const std::deque<EncodedFrame>& frames_;
   Bytes out_;
   std::uint32_t sequence_ = 0;
 };
 
+class ApngEncoder final : public AnimationEncoder {
+ public:
+  explicit ApngEncoder(const AnimationFormat& format) : format_(format) {}
+
+  std::function<void()> add(std::shared_ptr<const Rgba8Image> frame) override {
+    EncodedFrame& out = frames_.emplace_back();
+    return [&out, before = std::exchange(last_, frame), now = frame, has_alpha = format_.has_alpha] {
+      out.rectangle = before ? difference(*before, *now) : Rectangle{0, 0, now->width(), now->height()};
+      out.png = encoded(*now, out.rectangle, has_alpha);
+    };
+  }
+
+  Bytes finish() override {
+    assert(!frames_.empty());
+    return Writer(format_, frames_).write();
+  }
+
+ private:
+  const AnimationFormat format_;
+  std::shared_ptr<const Rgba8Image> last_;
+  std::deque<EncodedFrame> frames_;  ///< whose addresses do not change when others are appended
+};
+
 }  // namespace
 
+std::unique_ptr<AnimationEncoder> make_apng_encoder(const AnimationFormat& format) {
+  return std::make_unique<ApngEncoder>(format);
+}
+
 std::vector<std::uint8_t> encode_apng(const Animation& animation) {
-  assert(!animation.frames.empty());
-  return Writer(animation).write();
+  ApngEncoder encoder(animation.format);
+  return encode_animation(encoder, animation);
 }
 
 }  // namespace zoneplate

@@ -15,7 +15,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 /// A light square that moves over a gradient; the last frame is equal to the previous one.
 Animation walk(bool has_alpha) {
-  Animation animation{.seconds = 1, .per = 24, .loops = 3, .has_alpha = has_alpha};
+  Animation animation{.format = {.seconds = 1, .per = 24, .loops = 3, .has_alpha = has_alpha}, .frames = {}};
   for (const int place : {2, 9, 20, 20}) {
     Rgba8Image& frame = animation.frames.emplace_back(40, 24);
     for (int y = 0; y < 24; ++y)
@@ -105,6 +105,16 @@ TEST(Apng, PlaysTheFramesThatWereGiven) {
     EXPECT_EQ(decode_png(file, "whole").pixels, animation.frames[0]);
     EXPECT_EQ(encode_apng(animation), file);
   }
+}
+
+TEST(Apng, TheOrderOfTheWorkDoesNotMatter) {
+  const Animation animation = walk(true);
+  const auto encoder = make_apng_encoder(animation.format);
+  std::vector<std::function<void()>> works;
+  for (const Rgba8Image& frame : animation.frames)
+    works.push_back(encoder->add(std::make_shared<const Rgba8Image>(frame)));
+  for (auto work = works.rbegin(); work != works.rend(); ++work) (*work)();
+  EXPECT_EQ(encoder->finish(), encode_apng(animation));
 }
 
 TEST(Apng, SaysHowManyFramesHowOftenAndHowLong) {

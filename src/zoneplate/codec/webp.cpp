@@ -6,7 +6,10 @@
 
 #include <cassert>
 #include <memory>
+#include <mutex>
+#include <queue>
 #include <string>
+#include <utility>
 
 #include "zoneplate/base/error.h"
 
@@ -66,35 +69,77 @@ WebPConfig lossless() {
   return config;
 }
 
-Encoder make_encoder(const Animation& animation) {
+Encoder make_encoder(const Rgba8Image& first, int loops) {
   WebPAnimEncoderOptions options;
   if (WebPAnimEncoderOptionsInit(&options) == 0) fail("libwebpmux has another version than its headers");
-  options.anim_params.loop_count = animation.loops;
-  Encoder encoder(WebPAnimEncoderNew(animation.frames[0].width(), animation.frames[0].height(), &options));
+  options.anim_params.loop_count = loops;
+  Encoder encoder(WebPAnimEncoderNew(first.width(), first.height(), &options));
   if (!encoder) fail("frames of this size are not possible");
   return encoder;
 }
 
+/// libwebp compares each frame with the one before. The frames therefore wait in a queue, and each work encodes the
+/// first one in it.
+class WebpEncoder final : public AnimationEncoder {
+ public:
+  explicit WebpEncoder(const AnimationFormat& format) : format_(format) {}
+
+  std::function<void()> add(std::shared_ptr<const Rgba8Image> frame) override {
+    const std::lock_guard lock(mutex_);
+    waiting_.push(std::move(frame));
+    return [this] { encode_first(); };
+  }
+
+  std::vector<std::uint8_t> finish() override {
+    assert(encoder_ && waiting_.empty());
+    Data data;
+    if (WebPAnimEncoderAdd(encoder_.get(), nullptr, begin_of(encoded_), nullptr) == 0 ||
+        WebPAnimEncoderAssemble(encoder_.get(), &data.data) == 0)
+      fail(WebPAnimEncoderGetError(encoder_.get()));
+    return {data.data.bytes, data.data.bytes + data.data.size};
+  }
+
+ private:
+  void encode_first() {
+    const std::lock_guard order(encoding_);
+    const std::shared_ptr<const Rgba8Image> frame = take_first();
+    if (!encoder_) encoder_ = make_encoder(*frame, format_.loops);
+    Picture picture(*frame, format_.has_alpha);
+    if (WebPAnimEncoderAdd(encoder_.get(), *picture, begin_of(encoded_++), &config_) == 0)
+      fail(WebPAnimEncoderGetError(encoder_.get()));
+  }
+
+  std::shared_ptr<const Rgba8Image> take_first() {
+    const std::lock_guard lock(mutex_);
+    std::shared_ptr<const Rgba8Image> first = std::move(waiting_.front());
+    waiting_.pop();
+    return first;
+  }
+
+  /// The time in milliseconds at which frame `i` begins.
+  int begin_of(std::size_t i) const {
+    return static_cast<int>(
+        (2000 * i * static_cast<std::size_t>(format_.seconds) / static_cast<std::size_t>(format_.per) + 1) / 2);
+  }
+
+  const AnimationFormat format_;
+  const WebPConfig config_ = lossless();
+  std::mutex mutex_;  ///< of the queue
+  std::queue<std::shared_ptr<const Rgba8Image>> waiting_;
+  std::mutex encoding_;  ///< of the members below
+  Encoder encoder_;
+  std::size_t encoded_ = 0;
+};
+
 }  // namespace
 
+std::unique_ptr<AnimationEncoder> make_webp_encoder(const AnimationFormat& format) {
+  return std::make_unique<WebpEncoder>(format);
+}
+
 std::vector<std::uint8_t> encode_webp(const Animation& animation) {
-  assert(!animation.frames.empty());
-  const WebPConfig config = lossless();
-  const Encoder encoder = make_encoder(animation);
-  const auto begins = [&](std::size_t i) {
-    return static_cast<int>(
-        (2000 * i * static_cast<std::size_t>(animation.seconds) / static_cast<std::size_t>(animation.per) + 1) / 2);
-  };
-  for (std::size_t i = 0; i < animation.frames.size(); ++i) {
-    Picture picture(animation.frames[i], animation.has_alpha);
-    if (WebPAnimEncoderAdd(encoder.get(), *picture, begins(i), &config) == 0)
-      fail(WebPAnimEncoderGetError(encoder.get()));
-  }
-  Data data;
-  if (WebPAnimEncoderAdd(encoder.get(), nullptr, begins(animation.frames.size()), nullptr) == 0 ||
-      WebPAnimEncoderAssemble(encoder.get(), &data.data) == 0)
-    fail(WebPAnimEncoderGetError(encoder.get()));
-  return {data.data.bytes, data.data.bytes + data.data.size};
+  WebpEncoder encoder(animation.format);
+  return encode_animation(encoder, animation);
 }
 
 }  // namespace zoneplate

@@ -2,19 +2,23 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "zoneplate/codec/animation.h"
 
 namespace zoneplate {
 
-/// An animated WebP file.
+/// Encodes an animated WebP file, one frame at a time.
 ///
 /// Units     WebP stores whole milliseconds: frame i begins at round(1000 i seconds / per), so that rounding errors do
 ///           not accumulate.
 ///
 /// Exact     lossless, including the colours of transparent pixels; the same bytes with the same version of libwebp.
 /// Errors    ErrorKind::Failed with libwebp's reason, for example sides above 16383 pixels.
+std::unique_ptr<AnimationEncoder> make_webp_encoder(const AnimationFormat& format);
+
+/// The WebP file of an animation.
 std::vector<std::uint8_t> encode_webp(const Animation& animation);
 
 }  // namespace zoneplate

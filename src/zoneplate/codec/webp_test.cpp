@@ -13,7 +13,7 @@ namespace zoneplate {
 namespace {
 
 Animation noise(bool has_alpha) {
-  Animation animation{.seconds = 1, .per = 24, .loops = 5, .has_alpha = has_alpha};
+  Animation animation{.format = {.seconds = 1, .per = 24, .loops = 5, .has_alpha = has_alpha}, .frames = {}};
   std::uint32_t word = 1;
   for (int i = 0; i < 4; ++i)
     for (Rgba8& c : animation.frames.emplace_back(33, 21).values()) {
@@ -61,6 +61,16 @@ TEST(Webp, PlaysTheFramesThatWereGiven) {
     EXPECT_EQ(result.loops, 5u);
     EXPECT_EQ(encode_webp(animation), file);
   }
+}
+
+TEST(Webp, TheOrderOfTheWorkDoesNotMatter) {
+  const Animation animation = noise(true);
+  const auto encoder = make_webp_encoder(animation.format);
+  std::vector<std::function<void()>> works;
+  for (const Rgba8Image& frame : animation.frames)
+    works.push_back(encoder->add(std::make_shared<const Rgba8Image>(frame)));
+  for (auto work = works.rbegin(); work != works.rend(); ++work) (*work)();
+  EXPECT_EQ(encoder->finish(), encode_webp(animation));
 }
 
 TEST(Webp, RefusesWhatTheFormatCannotHold) {

@@ -18,6 +18,7 @@
 #include "zoneplate/cli/render/picture.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
+#include "zoneplate/codec/apng.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/metrics/flip/magma.h"
@@ -199,13 +200,11 @@ std::vector<std::uint8_t> png(const Rgba8Image& image) {
 /// The film `name`, its slice in time and, where there is a reference, the difference from it.
 void add_film(const std::string& name, const std::vector<Rgba8Image>& frames, const std::vector<Rgba8Image>& reference,
               std::vector<OutputFile>& files) {
-  Animation film = film_of(frame_rate);
-  film.frames = frames;
-  files.push_back({name + ".film.png", encode_film(film, "film.apng")});
+  const AnimationFormat format = film_format(frame_rate);
+  files.push_back({name + ".film.png", encode_apng({format, frames})});
   files.push_back({name + ".slice.png", png(slice_in_time(frames, frames[0].height() / 2))});
   if (reference.empty()) return;
-  film.frames = difference_film(reference, frames);
-  files.push_back({name + ".difference.png", encode_film(film, "film.apng")});
+  files.push_back({name + ".difference.png", encode_apng({format, difference_film(reference, frames)})});
 }
 
 void add_files(const SceneTrials& scene, std::vector<OutputFile>& files) {

@@ -103,7 +103,7 @@ struct ComposedLesson {
 
 ComposedLesson composed(const Demo& demo, const Settings& settings, const DemoSize& size) {
   ComposedLesson out{demo.make(size, settings), {}, size};
-  out.animation.seconds = out.lesson.seconds, out.animation.per = out.lesson.per;
+  out.animation.format.seconds = out.lesson.seconds, out.animation.format.per = out.lesson.per;
   for (const Figure& figure : out.lesson.frames) out.animation.frames.push_back(compose(figure, size.style()));
   return out;
 }

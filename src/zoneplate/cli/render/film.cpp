@@ -61,7 +61,7 @@ const Codec* find_codec(const std::string& output) {
 
 constexpr int longest_wait_ms = 3'600'000;  // GIF: all frames are encoded after the last one
 
-Words arguments_for(const std::string& output, int width, int height, const Animation& timing) {
+Words arguments_for(const std::string& output, int width, int height, const AnimationFormat& format) {
   Words words = {"-v",
                  "error",
                  "-f",
@@ -71,7 +71,7 @@ Words arguments_for(const std::string& output, int width, int height, const Anim
                  "-s",
                  fmt::format("{}x{}", width, height),
                  "-r",
-                 fmt::format("{}/{}", timing.per, timing.seconds),
+                 fmt::format("{}/{}", format.per, format.seconds),
                  "-i",
                  "-",
                  "-map_metadata",
@@ -89,25 +89,25 @@ Words arguments_for(const std::string& output, int width, int height, const Anim
 
 }  // namespace
 
-Animation film_of(double rate) {
+AnimationFormat film_format(double rate) {
   // The duration of a frame as a fraction of integers.
-  Animation film;
+  AnimationFormat format;
   const bool is_whole = rate == std::floor(rate);
-  film.seconds = is_whole ? 1 : 1000;
-  film.per = static_cast<int>(std::lround(is_whole ? rate : rate * 1000));
-  if (film.per < 1 || film.per > 65535)
+  format.seconds = is_whole ? 1 : 1000;
+  format.per = static_cast<int>(std::lround(is_whole ? rate : rate * 1000));
+  if (format.per < 1 || format.per > 65535)
     throw Error(ErrorKind::Usage, "--frame-rate: expected a whole number, or one up to 65");
-  return film;
+  return format;
 }
 
 bool is_encoded_by_ffmpeg(const std::string& output) { return find_codec(output) != nullptr; }
 
-std::vector<std::uint8_t> encode_film(const Animation& film, const std::string& output) {
-  return std::filesystem::path(output).extension() == ".webp" ? encode_webp(film) : encode_apng(film);
+std::unique_ptr<AnimationEncoder> make_film_encoder(const std::string& output, const AnimationFormat& format) {
+  return std::filesystem::path(output).extension() == ".webp" ? make_webp_encoder(format) : make_apng_encoder(format);
 }
 
-FfmpegFilm::FfmpegFilm(const std::string& output, int width, int height, const Animation& timing)
-    : ffmpeg_("ffmpeg", arguments_for(output, width, height, timing), {.milliseconds = longest_wait_ms}) {}
+FfmpegFilm::FfmpegFilm(const std::string& output, int width, int height, const AnimationFormat& format)
+    : ffmpeg_("ffmpeg", arguments_for(output, width, height, format), {.milliseconds = longest_wait_ms}) {}
 
 void FfmpegFilm::add(std::span<const std::uint8_t> pixels) { ffmpeg_.write(pixels); }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,24 +12,22 @@
 
 namespace zoneplate::cli {
 
-/// An animation without frames, whose frames last 1 / rate seconds.
+/// The format of a film whose frames last 1 / rate seconds.
 ///
 /// Errors    ErrorKind::Usage for a rate that is not a fraction of small integers.
-Animation film_of(double rate);
+AnimationFormat film_format(double rate);
 
 /// True for the name of a video that the program ffmpeg encodes: .mp4, .mov, .mkv, .webm or .gif.
 bool is_encoded_by_ffmpeg(const std::string& output);
 
-/// The bytes of an APNG or WebP film.
-std::vector<std::uint8_t> encode_film(const Animation& film, const std::string& output);
+/// The encoder of a film that is not encoded by ffmpeg: WebP by its name, else APNG.
+std::unique_ptr<AnimationEncoder> make_film_encoder(const std::string& output, const AnimationFormat& format);
 
 /// A film that ffmpeg encodes while further frames are drawn.
 class FfmpegFilm {
  public:
-  /// `timing` is the timing of the frames; its own frames are ignored.
-  ///
   /// Errors    ErrorKind::Failed if ffmpeg is not installed.
-  FfmpegFilm(const std::string& output, int width, int height, const Animation& timing);
+  FfmpegFilm(const std::string& output, int width, int height, const AnimationFormat& format);
 
   /// Appends pixels in the order of the frames, RGBA, 8 bits per channel, rows from the top; in parts of any size.
   ///

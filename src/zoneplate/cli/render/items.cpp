@@ -78,7 +78,7 @@ Summary RenderItems::next() {
     const int width = crop ? crop->width : args.options.width, height = crop ? crop->height : args.options.height;
     if (size != std::uint64_t{4} * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height))
       throw Error(ErrorKind::Failed, args.input + ": a frame of another size than the film's");
-    if (!film) film.emplace(args.output, width, height, film_of(args.sequence.rate));
+    if (!film) film.emplace(args.output, width, height, film_format(args.sequence.rate));
     for_parts(size, read, [&](std::span<const std::uint8_t> part) { film->add(part); });
   };
 

@@ -140,16 +140,6 @@ Rendered render_frame(const RenderArgs& args, Sequence& sequence, int frame, con
   return finish_picture(args, std::move(image), renderer.scene().scene(), camera, output, summary, frame);
 }
 
-void check_film(const RenderArgs& args, std::size_t frames) {
-  if (!args.aovs.empty()) throw Error(ErrorKind::Usage, "--aov requires numbered frames, as chair.####.png");
-  const std::uint64_t bytes = std::uint64_t{4} * frames * static_cast<std::uint64_t>(args.options.width) *
-                              static_cast<std::uint64_t>(args.options.height);
-  if (!is_encoded_by_ffmpeg(args.output) && bytes > args.load.limits.memory)
-    throw Error(ErrorKind::Failed,
-                fmt::format("{}: a film of {} frames needs {} MB of memory, --max-memory allows {} MB", args.input,
-                            frames, bytes >> 20, args.load.limits.memory >> 20));
-}
-
 /// A method with history needs all frames in order.
 void check_history(const RenderArgs& args, const Request& request) {
   if (!request.has_history() && args.sequence.warm_up > 0)
@@ -208,7 +198,8 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
   const bool is_animated = !renderer.scene().scene().animations.empty();
   if (is_builtin_scene(args.input) && is_animated && !args.view.index && !args.view.position) args.view.index = 0;
   const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
-  if (!is_numbered) check_film(args, plan.frames().size());
+  if (!is_numbered && !args.aovs.empty())
+    throw Error(ErrorKind::Usage, "--aov requires numbered frames, as chair.####.png");
   sequence.set_view(args.view, aspect);
   // One exposure for all frames, so that the sequence does not flicker.
   if (args.meters_exposure) {
@@ -218,7 +209,8 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
   summary.exposure = args.display.exposure;
 
   warm_up(args, sequence, plan.frames().front(), renderer);
-  Animation film = film_of(args.sequence.rate);
+  AnimationFormat format = film_format(args.sequence.rate);
+  std::unique_ptr<AnimationEncoder> film;
   Background background;
   std::size_t done = 0;
   for (const int frame : plan.frames()) {
@@ -257,13 +249,14 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
     } else if (is_encoded_by_ffmpeg(output)) {
       out.film_frame(picture.image);
     } else {
-      film.has_alpha = picture.has_alpha;
-      film.frames.push_back(std::move(picture.image));
+      format.has_alpha = picture.has_alpha;
+      if (!film) film = make_film_encoder(args.output, format);
+      background.run(film->add(std::make_shared<const Rgba8Image>(std::move(picture.image))));
     }
   }
   background.wait();
   summary.frames = static_cast<int>(plan.frames().size());
-  if (!film.frames.empty()) out.file(-1, -1, encode_film(film, args.output));
+  if (film) out.file(-1, -1, film->finish());
 }
 
 }  // namespace zoneplate::cli
