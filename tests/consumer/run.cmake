@@ -21,7 +21,8 @@ endfunction()
 # Configures and builds a project against the installed package, with further options of CMake.
 function(build_project folder binary)
   run(${CMAKE_COMMAND} -G Ninja -S ${folder} -B ${binary} -DCMAKE_PREFIX_PATH=${place}/installed
-      -DCMAKE_CXX_COMPILER=${compiler} -DCMAKE_CXX_FLAGS=${flags} -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE=-O1 ${ARGN})
+      -DCMAKE_CXX_COMPILER=${compiler} -DCMAKE_C_FLAGS=${flags} -DCMAKE_CXX_FLAGS=${flags} -DCMAKE_BUILD_TYPE=Release
+      -DCMAKE_CXX_FLAGS_RELEASE=-O1 ${ARGN})
   run(${CMAKE_COMMAND} --build ${binary})
 endfunction()
 # Fails if a picture is missing or empty.

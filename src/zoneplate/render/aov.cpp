@@ -13,11 +13,15 @@ void add_value(const Frame& frame, DataChannels& out, std::string name) {
   out.list.push_back({std::move(name), ChannelPrecision::Float, (frame.*plane).values().data()});
 }
 
-// Adds one channel for each letter of `letters`: "N." and "XYZ" give N.X, N.Y and N.Z.
-void add_vector(const float* first, std::string_view letters, ChannelPrecision type, std::string_view layer,
+// Adds one channel for each letter of `letters`: "N." and "XYZ" give N.X, N.Y and N.Z. The channels of an empty plane
+// have no values.
+template <typename Vector>
+void add_vector(const Plane<Vector>& plane, std::string_view letters, ChannelPrecision type, std::string_view layer,
                 DataChannels& out) {
+  const std::span<const Vector> values = plane.values();
   for (std::size_t i = 0; i < letters.size(); ++i)
-    out.list.push_back({fmt::format("{}{}", layer, letters[i]), type, first + i, nullptr, letters.size()});
+    out.list.push_back({fmt::format("{}{}", layer, letters[i]), type, values.empty() ? nullptr : &values[0].x + i,
+                        nullptr, letters.size()});
 }
 
 template <Plane<std::uint32_t> Frame::*ids>
@@ -30,32 +34,31 @@ void add_matte(const Frame& frame, const Scene& scene, DataChannels& out) {
   Cryptomatte matte = make_cryptomatte(frame, scene, kind);
   for (std::size_t i = 0; i < matte.ranks.size(); ++i) {
     const Plane<float4>& plane = out.made.emplace_back(std::move(matte.ranks[i]));
-    add_vector(&plane.values().data()->x, "RGBA", ChannelPrecision::Float, fmt::format("{}{:02}.", matte.layer, i),
-               out);
+    add_vector(plane, "RGBA", ChannelPrecision::Float, fmt::format("{}{:02}.", matte.layer, i), out);
   }
   out.attributes.insert(out.attributes.end(), matte.attributes.begin(), matte.attributes.end());
 }
 
 void add_depth(const Frame& frame, const Scene&, DataChannels& out) { add_value<&Frame::depth>(frame, out, "Z"); }
 void add_normal(const Frame& frame, const Scene&, DataChannels& out) {
-  add_vector(&frame.normal.values().data()->x, "XYZ", ChannelPrecision::Float, "N.", out);
+  add_vector(frame.normal, "XYZ", ChannelPrecision::Float, "N.", out);
 }
 void add_position(const Frame& frame, const Scene&, DataChannels& out) {
-  add_vector(&frame.position.values().data()->x, "XYZ", ChannelPrecision::Float, "P.", out);
+  add_vector(frame.position, "XYZ", ChannelPrecision::Float, "P.", out);
 }
 void add_albedo(const Frame& frame, const Scene&, DataChannels& out) {
-  add_vector(&frame.albedo.values().data()->x, "RGB", ChannelPrecision::Half, "albedo.", out);
+  add_vector(frame.albedo, "RGB", ChannelPrecision::Half, "albedo.", out);
 }
 void add_uv(const Frame& frame, const Scene&, DataChannels& out) {
-  add_vector(&frame.uv.values().data()->x, "UV", ChannelPrecision::Float, "UV.", out);
+  add_vector(frame.uv, "UV", ChannelPrecision::Float, "UV.", out);
 }
 void add_motion(const Frame& frame, const Scene&, DataChannels& out) {
-  add_vector(&frame.motion.values().data()->x, "XY", ChannelPrecision::Float, "motion.", out);
+  add_vector(frame.motion, "XY", ChannelPrecision::Float, "motion.", out);
   out.attributes.emplace_back("motion",
                               "pixels, +x right, +y down: position now minus position in the last frame, no jitter");
 }
 void add_flow(const Frame& frame, const Scene&, DataChannels& out) {
-  add_vector(&frame.flow.values().data()->x, "XY", ChannelPrecision::Float, "flow.", out);
+  add_vector(frame.flow, "XY", ChannelPrecision::Float, "flow.", out);
   out.attributes.emplace_back("flow",
                               "pixels, +x right, +y down: position in the next frame minus position now, no jitter");
 }
@@ -83,7 +86,7 @@ void add_anisotropy(const Frame& frame, const Scene&, DataChannels& out) {
 template <std::size_t component>
 void add_light(const Frame& frame, const Scene&, DataChannels& out) {
   constexpr std::string_view layers[] = {"diffuse.", "specular.", "transmission.", "emission."};
-  add_vector(&frame.light[component].values().data()->x, "RGB", ChannelPrecision::Half, layers[component], out);
+  add_vector(frame.light[component], "RGB", ChannelPrecision::Half, layers[component], out);
 }
 
 constexpr Aov all[] = {
