@@ -262,15 +262,17 @@ typedef enum zoneplate_shadows {
 
 /// How an image is rendered.
 typedef struct zoneplate_render_options {
-  size_t size;                   ///< sizeof(zoneplate_render_options)
-  int32_t width;                 ///< pixels; 0: 800
-  int32_t height;                ///< pixels; 0: 600
-  const char* method;            ///< antialiasing, as "ssaa:n=4" or "smaa"; null: "msaa:n=8"
-  const char* passes;            ///< data passes separated by commas, as "depth,normal"; null: none
-  zoneplate_form form;           ///< ZONEPLATE_SRGB8 by default
-  int32_t crop[4];               ///< x, y, width, height; width 0: the whole image
-  int32_t threads;               ///< 0: as many as affinity and quota allow
-  const char* tone_mapping;      ///< "none", "aces", "neutral", "agx" or "filmic"; null: "none"
+  size_t size;          ///< sizeof(zoneplate_render_options)
+  int32_t width;        ///< pixels; 0: 800
+  int32_t height;       ///< pixels; 0: 600
+  const char* method;   ///< antialiasing, as "ssaa:n=4" or "smaa"; null: "msaa:n=8"
+  const char* passes;   ///< data passes separated by commas, as "depth,normal"; null: none
+  zoneplate_form form;  ///< ZONEPLATE_SRGB8 by default
+  int32_t crop[4];      ///< x, y, width, height; width 0: the whole image
+  int32_t threads;      ///< 0: as many as affinity and quota allow
+  /// "none", "aces", "neutral", "agx" or "filmic"; null: "neutral" in the studio that a scene without lights gets, else
+  /// "none".
+  const char* tone_mapping;
   float exposure;                ///< stops
   const float* background;       ///< sRGB red, green, blue and straight alpha in [0, 1]; null: dark grey
   int32_t is_transparent;        ///< 1: no background, the image keeps its alpha

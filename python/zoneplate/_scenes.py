@@ -474,7 +474,7 @@ def render(
     dtype: str = "uint8",
     crop: tuple[int, int, int, int] | None = None,
     threads: int = 0,
-    tone_mapping: str = "none",
+    tone_mapping: str | None = None,
     exposure: float = 0.0,
     background: str | Floats | None = None,
     transparent: bool = False,
@@ -495,7 +495,8 @@ def render(
     dtype        "uint8" and "uint16": sRGB codes with straight alpha; "float32": linear light, premultiplied
     crop         x, y, width, height: the rectangle of the image that is rendered
     threads      0: as many as the process may use
-    tone_mapping "none", "aces", "neutral", "agx" or "filmic"; `exposure` in stops
+    tone_mapping "none", "aces", "neutral", "agx" or "filmic"; None: "neutral" in the studio that a scene without lights
+                 gets, else "none"; `exposure` in stops
     background   "#rrggbb", or sRGB numbers in [0, 1]; `transparent`: none
     environment  a colour whose light from all directions replaces the default light
     shadows      "none", "map", "hard" or "soft"; `ambient_occlusion`: rays, 0: none

@@ -22,7 +22,7 @@ std::span<const Param> look_params() {
   static constexpr std::string_view shadows[] = {"none", "map", "hard", "soft"};
   static constexpr std::string_view occlusions[] = {"none", "rays"};
   static constexpr std::string_view grounds[] = {"none", "shadow"};
-  static constexpr std::string_view curves[] = {"none", "aces", "neutral", "agx", "filmic"};
+  static constexpr std::string_view curves[] = {"default", "none", "aces", "neutral", "agx", "filmic"};
   static const Param params[] = {
       {.name = "visibility",
        .meaning = "hidden-surface removal: by the depth of each sample, or triangles sorted back to front",
@@ -46,7 +46,9 @@ std::span<const Param> look_params() {
        .names = shadows},
       {.name = "ambient-occlusion", .meaning = "what hides the environment's light: 32 rays", .names = occlusions},
       {.name = "ground", .meaning = "a plane that displays the shadows on it; requires shadows", .names = grounds},
-      {.name = "tone-mapping", .meaning = "curve from light to the display", .names = curves},
+      {.name = "tone-mapping",
+       .meaning = "curve from light to the display; default: neutral in the studio, else none",
+       .names = curves},
       {.name = "exposure", .meaning = "in stops: each doubles the brightness", .low = -8, .high = 8, .decimals = 2},
   };
   return params;
@@ -67,7 +69,8 @@ void set_look(std::string_view text, RenderOptions& options) {
   options.ground = settings.integer("ground") == 0 ? GroundKind::None : GroundKind::Shadow;
   if (options.ground == GroundKind::Shadow && !has_visibility(options))
     throw Error(ErrorKind::Usage, "ground=shadow requires shadows or ambient-occlusion");
-  options.display.mapping = static_cast<ToneMapping>(settings.integer("tone-mapping"));
+  if (const int curve = settings.integer("tone-mapping"); curve > 0)
+    options.display.mapping = static_cast<ToneMapping>(curve - 1);
   options.display.exposure = exp2(static_cast<float>(settings.number("exposure")));
 }
 

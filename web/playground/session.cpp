@@ -94,7 +94,7 @@ class Session {
  private:
   const Scene& scene() const { return still_->scene(); }
   RenderSettings settings() const;
-  Scene lit(Scene scene) const;
+  Scene lit(Scene scene);
   void set_scene(Scene made, const std::string& name, std::optional<SceneLoader> loader);
   Camera still_camera() const;
 
@@ -107,6 +107,7 @@ class Session {
   View view_;
   int width_ = 640, height_ = 360;
   float4 background_ = default_background;
+  ToneMapping tone_mapping_ = ToneMapping::None;  ///< that goes with the light
 
   std::string method_, look_;
   std::unique_ptr<Renderer> renderer_;  ///< of `method_`; null: none yet for this scene
@@ -124,13 +125,14 @@ void Session::set_studio(std::span<const std::uint8_t> bytes) {
 }
 
 /// The scene under the lights that the command `render` gives it.
-Scene Session::lit(Scene scene) const {
+Scene Session::lit(Scene scene) {
   LightingOptions options;
   if (studio_) options.studio = [this] { return studio_; };
   Lighting lighting = make_lighting(scene, options);
   scene.lights = std::move(lighting.lights);
   scene.environment = lighting.environment;
   scene.ambient_light = lighting.ambient_light;
+  tone_mapping_ = lighting.tone_mapping;
   return scene;
 }
 
@@ -209,6 +211,7 @@ RenderSettings Session::settings() const {
   RenderSettings out;
   out.options.width = width_, out.options.height = height_;
   out.options.display.background = background_;
+  out.options.display.mapping = tone_mapping_;
   set_look(look_, out.options);
   return out;
 }

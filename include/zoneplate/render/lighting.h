@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "zoneplate/image/tonemap.h"
 #include "zoneplate/scene/scene.h"
 
 #pragma GCC visibility push(default)
@@ -16,6 +17,8 @@ struct Lighting {
   std::vector<Light> lights;      ///< in world space or camera space
   Environment environment;        ///< light from infinitely far away
   float3 ambient_light{0, 0, 0};  ///< Scene::ambient_light
+  /// The curve that goes with the light, where the caller chooses none: Neutral for the studio, which it was made for.
+  ToneMapping tone_mapping = ToneMapping::None;
 };
 
 /// Which lights of a scene are used.
@@ -37,10 +40,10 @@ struct LightingOptions {
 /// The scene's own lighting, changed by the options.
 ///
 /// A scene without lights gets the default light, unless the options give an environment; LightingOptions::source
-/// selects that light for other scenes too. Where a material is
-/// metallic-roughness, that is a studio made in code, which turns with the camera: an environment of soft boxes and a
-/// directional light from the brightest of them. Other scenes get three directional lights and a dim constant
-/// environment (scene/default_lights.h); in a scene of (Blinn-)Phong materials alone these lights are divided by π,
+/// selects that light for other scenes too. Where a material is metallic-roughness, that is a studio made in code,
+/// which turns with the camera: an environment of soft boxes and a directional light from the brightest of them, for
+/// the Neutral curve (Lighting::tone_mapping). Other scenes get three directional lights and a dim constant environment
+/// (scene/default_lights.h); in a scene of (Blinn-)Phong materials alone these lights are divided by π,
 /// which the diffuse term of these models lacks. A scene with lights of its own and no environment gets none. The mean
 /// radiance of the environment is also the ambient light of (Blinn-)Phong materials where the scene has none.
 Lighting make_lighting(const Scene& scene, const LightingOptions& options = {});

@@ -52,10 +52,11 @@ constexpr zoneplate_render_options small = {.size = sizeof(zoneplate_render_opti
 // The bytes of the C++ interface: those of the command.
 std::vector<std::uint8_t> png_by_renderer(const char* name, const char* method) {
   const PreparedScene scene(load_scene(name));
-  Renderer renderer(scene.lit(make_lighting(scene.scene())), make_resolver(antialias::methods(), method));
+  const Lighting light = make_lighting(scene.scene());
+  Renderer renderer(scene.lit(light), make_resolver(antialias::methods(), method));
   const Camera camera = choose_camera(scene.scene(), {}, 96.0f / 64);
-  const RenderedImage image =
-      renderer.render(camera, {.options = {.width = 96, .height = 64, .display = {.background = default_background}}});
+  const DisplayOptions display{.mapping = light.tone_mapping, .background = default_background};
+  const RenderedImage image = renderer.render(camera, {.options = {.width = 96, .height = 64, .display = display}});
   return encode_png(image.display, {.has_alpha = false});
 }
 

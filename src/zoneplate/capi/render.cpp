@@ -65,9 +65,9 @@ Camera camera_of(const zoneplate_camera* given) {
   return out;
 }
 
-ToneMapping tone_mapping_of(const char* name) {
+std::optional<ToneMapping> tone_mapping_of(const char* name) {
   constexpr std::string_view names[] = {"none", "aces", "neutral", "agx", "filmic"};  // in the order of ToneMapping
-  if (name == nullptr) return ToneMapping::None;
+  if (name == nullptr) return std::nullopt;
   const auto found = std::ranges::find(names, std::string_view(name));
   if (found == std::end(names)) refuse_name("tone mapping", name, names);
   return static_cast<ToneMapping>(found - std::begin(names));
@@ -116,7 +116,6 @@ RenderSettings settings_of(const zoneplate_render_options& o, const zoneplate_sc
   if (options.ground == GroundKind::Shadow && !has_visibility(options))
     throw Error(ErrorKind::Usage, "a ground for shadows requires shadows or ambient occlusion");
   DisplayOptions& display = options.display;
-  display.mapping = tone_mapping_of(o.tone_mapping);
   display.exposure = exp2(std::clamp(o.exposure, -32.0f, 32.0f));
   display.is_transparent = o.is_transparent != 0;
   display.background = scene.background.value_or(default_background);
@@ -166,9 +165,12 @@ std::unique_ptr<zoneplate_image> render_image(zoneplate_scene& scene, const zone
   LightingOptions lighting;
   if (o.light_intensity != nullptr) lighting.intensity = *o.light_intensity;
   if (const float* c = o.environment) lighting.environment = Environment{.color = {c[0], c[1], c[2]}};
+  const std::optional<ToneMapping> tone_mapping = tone_mapping_of(o.tone_mapping);
   const PreparedScene prepared = scene.prepared();
   const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
-  Renderer renderer(prepared.lit(make_lighting(prepared.scene(), lighting)), std::move(method));
+  const Lighting light = make_lighting(prepared.scene(), lighting);
+  settings.options.display.mapping = tone_mapping.value_or(light.tone_mapping);
+  Renderer renderer(prepared.lit(light), std::move(method));
   RenderedImage image =
       renderer.render_still(camera != nullptr ? camera_of(camera) : find_camera(scene, nullptr, aspect), settings);
 

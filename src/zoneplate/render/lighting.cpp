@@ -59,7 +59,8 @@ Lighting studio_lighting(const LightingOptions& options) {
            .is_in_camera_space = true,
            .strength = options.intensity,
            .map = options.studio ? options.studio() : studio()},
-          {}};
+          {},
+          ToneMapping::Neutral};
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/image/transfer.h"
 #include "zoneplate/math/lanes.h"
 #include "zoneplate/scene/default_lights.h"
 #include "zoneplate/shade/environment/lookup_lanes.h"
@@ -57,6 +58,25 @@ TEST(Lighting, MetallicRoughnessIsLitByTheStudio) {
   for (const float3 d : {float3{0, 0, 1}, float3{1, 0, 0}, float3{0, 1, 0}, float3{-1, 0, 0}, float3{0, 0, -1}})
     EXPECT_GT(key, 1.5f * light_from(d));
   EXPECT_NEAR(lighting.ambient_light.x, 2 * studio->mean().x, 1e-6f);
+  EXPECT_EQ(lighting.tone_mapping, ToneMapping::Neutral);
+}
+
+TEST(Lighting, OnlyTheStudioAloneBringsAToneCurve) {
+  const auto studio = std::make_shared<const PreparedEnvironment>(studio_cube(4));
+  const auto curve = [&](const Scene& scene, LightingOptions options) {
+    options.studio = [&] { return studio; };
+    return make_lighting(scene, options).tone_mapping;
+  };
+  Scene plaster, metal, own;
+  plaster.materials.push_back({.model = ShadingModel::BlinnPhong});
+  metal.materials.push_back({.model = ShadingModel::MetallicRoughness});
+  own = metal;
+  own.lights.resize(1);
+  EXPECT_EQ(curve(plaster, {}), ToneMapping::None);
+  EXPECT_EQ(curve(metal, {.environment = Environment{.color = {1, 1, 1}}}), ToneMapping::None);
+  EXPECT_EQ(curve(own, {}), ToneMapping::None);
+  EXPECT_EQ(curve(own, {.source = LightSource::Both}), ToneMapping::None);
+  EXPECT_EQ(curve(own, {.source = LightSource::Default}), ToneMapping::Neutral);
 }
 
 TEST(Lighting, TheStudioShowsAWhiteSurfaceJustBelowWhite) {
@@ -67,9 +87,14 @@ TEST(Lighting, TheStudioShowsAWhiteSurfaceJustBelowWhite) {
     const float light = diffuse_light(view, Vector<scalar::Float>{n.x, n.y, n.z}).x.v;
     return light + std::max(dot(n, key), 0.0f) * studio_key_lux / 3.14159265f;
   };
-  EXPECT_NEAR(diffuse(key), 1, 0.05f);
-  EXPECT_GT(diffuse({0, 0, 1}), 0.6f);
-  EXPECT_GT(diffuse({0, -1, 0}), 0.3f);
+  const auto code_of = [&](float reflectance, float3 n) {
+    const float light = 0.04f + 0.96f * reflectance * diffuse(n);  // a dielectric, which reflects about 4 %
+    return static_cast<int>(encode_srgb8(tone_map({light, light, light}, ToneMapping::Neutral).x));
+  };
+  EXPECT_NEAR(code_of(1, key), 244, 3);
+  EXPECT_NEAR(code_of(0.8f, key), 238, 3);
+  EXPECT_NEAR(code_of(0.8f, {0, 0, 1}), 209, 6);  // 231 under light from all sides: the form stays readable
+  EXPECT_NEAR(code_of(0.8f, {0, -1, 0}), 135, 6);
 }
 
 TEST(Lighting, LeavesAFilesOwnLightAlone) {

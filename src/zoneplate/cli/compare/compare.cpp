@@ -257,7 +257,7 @@ SceneTrials compare_scene(const CompareArgs& args, const std::string& name, cons
   settings.options.display.background = args.render.background.value_or(default_background);
   const float aspect = static_cast<float>(settings.options.width) / static_cast<float>(settings.options.height);
   const Camera camera = choose_camera(scene, view, aspect);
-  set_look(args.render, scene);
+  settings.options.display.mapping = set_look(args.render, scene);
   const PreparedScene prepared(std::move(scene), args.render.mips);
   if (args.render.meters_exposure) settings.options.display.exposure = metered_exposure(prepared, camera, args.render);
   TrialSetup setup{prepared, camera, settings, args.frames};

@@ -38,9 +38,10 @@ constexpr const char* notes =
     "with a position or an index they turn that camera about its focal point.\n"
     "\n"
     "Light: a scene without lights gets a studio made in code, which turns with the camera: soft boxes, which metals\n"
-    "reflect, and a key light. (Blinn-)Phong materials get a key, a fill and a back light instead. --hdri-file and\n"
-    "--environment replace them. A file with lights of its own has no environment without these options; --lights\n"
-    "default ignores its lights, --lights both adds the studio, and --exposure auto adapts to lights of any strength.\n"
+    "reflect, and a key light, displayed by the Neutral tone curve. (Blinn-)Phong materials get a key, a fill and a\n"
+    "back light instead. --hdri-file and --environment replace them. A file with lights of its own has no environment\n"
+    "without these options; --lights default ignores its lights, --lights both adds the studio, and --exposure auto\n"
+    "adapts to lights of any strength.\n"
     "\n"
     "Sequences: frame F has the time F / rate seconds of the animation. OUT contains the frame number, as\n"
     "chair.####.png, chair.@@@@.png, chair.$F4.png, chair%04d.png or chair_{frame:04}.png, or is a video. GIF, MP4 and "
@@ -312,12 +313,12 @@ std::vector<Option> picture_options(RenderArgs& a) {
        [&](auto&) { a.display.is_transparent = true; }},
       choice_option("--tone-mapping", "CURVE",
                     "Tone-mapping curve of images that are not linear: none, aces, neutral, agx or filmic; default "
-                    "none",
+                    "neutral in the studio that a scene without lights gets, else none",
                     group, false, {"none", "aces", "neutral", "agx", "filmic"},
                     [&](std::size_t i) {
                       constexpr ToneMapping curves[] = {ToneMapping::None, ToneMapping::Aces, ToneMapping::Neutral,
                                                         ToneMapping::Agx, ToneMapping::Filmic};
-                      a.display.mapping = curves[i];
+                      a.tone_mapping = curves[i];
                     }),
       {"--exposure", "STOPS",
        "Exposure in stops: each stop doubles the brightness, negative ones halve it; or auto: 95 % of the surfaces' "

@@ -66,9 +66,10 @@ struct RenderArgs {
   std::string upscaler;                ///< follows the method; check_args appends it to `method`
   std::optional<double> render_scale;  ///< of `upscaler`
   RenderOptions options;
-  DisplayOptions display;
-  bool meters_exposure = false;      ///< --exposure auto: `display.exposure` is set by metered_exposure
-  std::optional<float4> background;  ///< sRGB code; none: the scene's own or the usual one
+  DisplayOptions display;                   ///< `mapping` is set from `tone_mapping`, by the scene's light
+  std::optional<ToneMapping> tone_mapping;  ///< none: that of the light, see Lighting
+  bool meters_exposure = false;             ///< --exposure auto: `display.exposure` is set by metered_exposure
+  std::optional<float4> background;         ///< sRGB code; none: the scene's own or the usual one
   float background_blur = 0;
   View view;
   MipOptions mips;                            ///< how images are decoded and reduced

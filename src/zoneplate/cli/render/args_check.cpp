@@ -64,9 +64,9 @@ void check_effects(const RenderArgs& args, const std::string& ending) {
   if (args.file.webp_quality && (ending != ".webp" || !is_frame)) refuse("--webp-quality is for .webp with one image");
   if (args.file.is_small_png && ending != ".png") refuse("--png-compression is for .png");
   if (args.file.exr_compression && ending != ".exr") refuse("--exr-compression is for .exr");
-  if (args.display.mapping != ToneMapping::None && is_linear)
+  if (args.tone_mapping.value_or(ToneMapping::None) != ToneMapping::None && is_linear)
     refuse("--tone-mapping: .exr and .pfm contain linear light, before tone mapping");
-  if (args.display.mapping != ToneMapping::None && args.display.raw)
+  if (args.tone_mapping.value_or(ToneMapping::None) != ToneMapping::None && args.display.raw)
     refuse("--tone-mapping does not go with --color-management raw");
   if ((args.default_material.metallic || args.default_material.roughness) &&
       args.shading_model.value_or(ShadingModel::MetallicRoughness) != ShadingModel::MetallicRoughness)

@@ -72,7 +72,7 @@ std::vector<std::uint8_t> render_cell(RenderArgs render, ItemSender& sender) {
   if (has_own_view && !render.view.index && !render.view.position) render.view.index = 0;
   const float aspect = static_cast<float>(render.options.width) / static_cast<float>(render.options.height);
   const Camera camera = choose_camera(scene, render.view, aspect);
-  set_look(render, scene);
+  render.display.mapping = set_look(render, scene);
   Renderer renderer(PreparedScene(std::move(scene)), upscale::make_method(render.method));
   if (render.meters_exposure) render.display.exposure = metered_exposure(renderer.scene(), camera, render);
   const Rgba8Image picture = renderer.render_still(camera, settings_of(render, "")).display;

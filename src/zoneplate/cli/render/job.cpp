@@ -76,7 +76,9 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   check_passes(args, method->request({}));
   RenderedImage image;
   {
-    Renderer renderer(scene_->lit(make_lighting(scene, args.lighting)), std::move(method));
+    const Lighting lighting = make_lighting(scene, args.lighting);
+    args.display.mapping = args.tone_mapping.value_or(lighting.tone_mapping);
+    Renderer renderer(scene_->lit(lighting), std::move(method));
     if (args.meters_exposure) args.display.exposure = metered_exposure(renderer.scene(), camera, args);
     RenderSettings settings = settings_of(args, args.named_output());
     settings.options.progress = out.progress_of("render", 0.1, 0.9);

@@ -138,12 +138,13 @@ void convert_materials(const RenderArgs& args, Scene& scene) {
   if (!args.solid_texture.empty()) set_solid_texture(args.solid_texture, scene);
 }
 
-void set_look(const RenderArgs& args, Scene& scene) {
+ToneMapping set_look(const RenderArgs& args, Scene& scene) {
   convert_materials(args, scene);
   Lighting lighting = make_lighting(scene, args.lighting);
   scene.lights = std::move(lighting.lights);
   scene.environment = lighting.environment;
   scene.ambient_light = lighting.ambient_light;
+  return args.tone_mapping.value_or(lighting.tone_mapping);
 }
 
 RenderSettings settings_of(const RenderArgs& args, const std::string& output) {

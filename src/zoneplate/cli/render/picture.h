@@ -54,8 +54,8 @@ void check_passes(const RenderArgs& args, const Request& request);
 /// Converts the materials of a loaded scene to the shading model of the arguments.
 void convert_materials(const RenderArgs& args, Scene& scene);
 
-/// Changes the materials and the lighting of a loaded scene according to the arguments.
-void set_look(const RenderArgs& args, Scene& scene);
+/// Changes the materials and the lighting of a loaded scene according to the arguments. The tone curve for it.
+ToneMapping set_look(const RenderArgs& args, Scene& scene);
 
 /// The settings of each frame from the arguments. The extension of `output` determines the image format.
 RenderSettings settings_of(const RenderArgs& args, const std::string& output);

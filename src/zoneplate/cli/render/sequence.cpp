@@ -44,6 +44,8 @@ class Plan {
   const std::vector<int>& frames() const { return frames_; }
   // Which of several animations is played without having been chosen; empty if there is no choice.
   const std::string& note() const { return note_; }
+  // Of the scene that was made last.
+  ToneMapping tone_mapping() const { return tone_mapping_; }
 
   Sequence sequence() {
     const SequenceTiming timing{.rate = args_.sequence.rate,
@@ -51,12 +53,12 @@ class Plan {
                                 .duration = end_,
                                 .turntable = args_.sequence.turntable};
     if (still_) {
-      set_look(args_, *still_);
+      tone_mapping_ = set_look(args_, *still_);
       return Sequence(PreparedScene(std::move(*still_), args_.mips), timing);
     }
     const auto load_scene = [this](double seconds) {
       Scene scene = load(&SceneSource::load, seconds);
-      set_look(args_, scene);
+      tone_mapping_ = set_look(args_, scene);
       return scene;
     };
     const auto load_shape = [this](double seconds) { return load(&SceneSource::load_shape, seconds); };
@@ -106,6 +108,7 @@ class Plan {
   SceneSource& source_;
   SceneChoice choice_;
   std::string note_;
+  ToneMapping tone_mapping_ = ToneMapping::None;
   double end_ = 0;              // end of the animation, in seconds
   std::optional<Scene> still_;  // the scene, if it is not animated
   std::vector<int> frames_;
@@ -189,6 +192,7 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
   check_history(args, request);
   Sequence sequence = plan.sequence();
   Renderer renderer(sequence.scene(plan.frames().front()), std::move(method));
+  args.display.mapping = plan.tone_mapping();
   summary.warnings = renderer.scene().scene().warnings;
   if (!plan.note().empty()) summary.warnings.push_back(plan.note());
   if (!is_numbered && plan.frames().size() == 1 && !is_one_frame(args.sequence))
