@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# The renderer for the page of web/playground, as an ES module and its WebAssembly: the core, and the readers of models.
+# The renderer for the page of web/playground, as an ES module and its WebAssembly: the core, the readers of
+# models, and the lessons.
 find_path(nlohmann_headers nlohmann/json.hpp PATHS /usr/include REQUIRED NO_CMAKE_FIND_ROOT_PATH)
 file(CREATE_LINK ${nlohmann_headers}/nlohmann ${CMAKE_CURRENT_BINARY_DIR}/headers/nlohmann SYMBOLIC)
 
@@ -7,9 +8,17 @@ file(CREATE_LINK ${nlohmann_headers}/nlohmann ${CMAKE_CURRENT_BINARY_DIR}/header
 set(readers ${all_sources})
 list(FILTER readers INCLUDE REGEX "^src/zoneplate/formats/(gltf|import|json|obj|ply|stl)/|report/json\\.cpp$")
 list(FILTER readers EXCLUDE REGEX "_test\\.cpp$|/(draco|image_file|scene_bytes)\\.cpp$")
+
+# The lessons of `zoneplate demo`. Functions of these sources that need more are not linked, since nothing calls them;
+# figures.cpp and truetype.cpp take the place of those that draw texts and plots.
+set(figures ${all_sources})
+list(FILTER figures INCLUDE REGEX "^src/zoneplate/(cli/demo/|cli/false_color|cli/sdf/(atlas_file|show_field|text_error)|formats/font/text_outline|report/(figure|page_table|plot_palette)\\.cpp|metrics/(mse|flip/magma))")
+list(FILTER figures EXCLUDE REGEX "_test\\.cpp$|_simd\\.cpp$|/demo/demo\\.cpp$")
+make_table(figures cli/demo demos cli/demo/demo.h Demo zoneplate::cli demos demo_)
 # Compiled alone, since they define the same names as others of their folders.
 set_source_files_properties(src/zoneplate/formats/gltf/mesh.cpp src/zoneplate/formats/obj/mtl_material.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
-add_executable(zoneplate_playground web/playground/session.cpp web/playground/look.cpp web/playground/files.cpp ${readers})
+add_executable(zoneplate_playground web/playground/session.cpp web/playground/look.cpp web/playground/files.cpp
+               web/playground/figures.cpp web/playground/truetype.cpp ${readers} ${figures})
 compile_folders_together(zoneplate_playground)
 target_link_libraries(zoneplate_playground PRIVATE zoneplate)
 # Sizes have 32 bits here; session.cpp limits the memory of a model to less. A library, so that its options come last.

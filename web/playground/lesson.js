@@ -7,13 +7,23 @@ export class LessonPanel {
   /// `choosersOf()` are those of the page by the parts of the state; `go` displays a state.
   constructor(choosersOf, go) {
     Object.assign(this, { choosersOf, go });
-    this.list = element('select', { 'aria-label': 'Lesson', onchange: () => this.open(this.list.selectedIndex ? lessons[this.list.selectedIndex - 1] : null, 0) },
-      ['Choose a lesson …', ...lessons.map(({ title }) => title)].map((title) => element('option', {}, title)));
+    const option = ([value, text]) => element('option', { value }, text);
+    this.figures = element('optgroup', { label: 'Figures of the program' });
+    this.list = element('select', { 'aria-label': 'Lesson', onchange: () => this.choose(this.list.value) }, option(['', 'Choose a lesson …']),
+      element('optgroup', { label: 'Scenes and methods, step by step' }, lessons.map(({ name, title }) => option([name, title]))), this.figures);
     const button = (text, by) => element('button', { type: 'button', onclick: () => this.open(this.lesson, this.step + by) }, text);
     this.title = element('h2'), this.text = element('p', { class: 'lesson-text' }), this.knobs = element('div', { class: 'knobs' });
     this.back = button('‹ Back', -1), this.next = button('Next ›', 1), this.place = element('span', { class: 'label' });
     this.node = element('section', { class: 'card lesson', 'aria-label': 'Lesson', hidden: true }, this.title, this.text, this.knobs,
       element('div', { class: 'row' }, this.back, this.next, this.place, element('button', { type: 'button', onclick: () => this.open(null, 0) }, 'Close')));
+  }
+
+  /// Adds the lessons of the catalogue, whose values begin with demo=.
+  listFigures(rows) { this.figures.append(...rows.map(({ name }) => element('option', { value: `demo=${name}` }, name))); }
+
+  choose(value) {
+    if (value.startsWith('demo=')) this.go({ demo: value.slice(5) });
+    else this.open(lessonOf(value) ?? null, 0);
   }
 
   open(lesson, step) {
@@ -23,7 +33,7 @@ export class LessonPanel {
   show(state) {
     const lesson = lessonOf(state.lesson), steps = lesson?.steps ?? [];
     this.lesson = lesson, this.step = Math.min(Math.max(0, Number(state.step || 1) - 1), steps.length - 1);
-    this.list.selectedIndex = lesson ? lessons.indexOf(lesson) + 1 : 0;
+    this.list.value = state.demo ? `demo=${state.demo.split(':')[0]}` : lesson?.name ?? '';
     this.node.hidden = !lesson;
     if (!lesson) return;
     this.title.textContent = lesson.title;

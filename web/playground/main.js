@@ -5,6 +5,7 @@ import { element, list } from './report/dom.js';
 import { addPicture, sizeOf } from './report/picture.js';
 import { Sequence } from './report/sequence.js';
 import { Stage } from './report/stage.js';
+import { FigurePanel } from './figure.js';
 import { LessonPanel } from './lesson.js';
 import { Samples } from './samples.js';
 import { commandOf, defaults, hashOf, readState, sizes } from './state.js';
@@ -27,7 +28,7 @@ function fail(text) {
 }
 
 let model; // { name, files } of a model that was dropped
-let about, choosers, sceneChooser;
+let about, loaded, choosers, sceneChooser, figure;
 const number = (text) => (text === '' ? NaN : Number(text));
 const sizeNow = () => state.size.split('x').map(Number);
 const sizeText = (picture) => { const { width, height } = sizeOf(picture); return `${width}x${height}`; };
@@ -45,7 +46,7 @@ function jobOf({ key }) {
 async function render(side) {
   if (side.isBusy || !about) return;
   side.isBusy = true;
-  for (let job = jobOf(side); JSON.stringify(job) !== side.done; job = jobOf(side)) {
+  for (let job = jobOf(side); !state.demo && JSON.stringify(job) !== side.done; job = jobOf(side)) {
     side.done = JSON.stringify(job);
     try {
       const image = await side.renderer.ask('render', job);
@@ -57,6 +58,7 @@ async function render(side) {
     }
   }
   side.isBusy = false;
+  if (state.demo) return;
   fail(sides.map((s) => s.error).find(Boolean) ?? '');
   app.dataset.done = String(sides.every((s) => !s.isBusy));
   showControls();
@@ -99,8 +101,21 @@ function set(changes) {
   Object.assign(state, changes);
   app.dataset.done = 'false';
   writeAddress();
+  showMode();
+  if (state.demo) return;
   showControls();
   for (const side of sides) render(side);
+}
+
+/// Displays a lesson of the program in place of the scene and its methods, or hides it.
+function showMode() {
+  app.classList.toggle('has-figure', Boolean(state.demo));
+  lessonPanel.show(state);
+  figure.show(state);
+}
+function endFigure(text) {
+  fail(text);
+  app.dataset.done = 'true';
 }
 
 async function load(scene) {
@@ -112,6 +127,7 @@ async function load(scene) {
     fail(failure.message);
     return false;
   }
+  loaded = scene;
   for (const side of sides) side.done = null;
   sequence.show(about.frames, about.frame_rate);
   return true;
@@ -204,7 +220,7 @@ const sizeList = list('Size', sizes.map((size) => size.replace('x', ' × ')), (i
 const sceneFacts = element('p');
 const commands = element('code');
 function showControls() {
-  if (!about) return;
+  if (!about || state.demo) return;
   sceneChooser.show(state.scene);
   for (const { key } of sides) choosers[key].show(state[key]), choosers[`look${key}`].show(lookOf(key));
   lessonPanel.show(state);
@@ -247,7 +263,9 @@ for (const type of ['dragover', 'dragleave', 'drop']) {
 }
 
 function build(catalogue) {
-  const { scenes, methods, upscalers, look } = catalogue;
+  const { scenes, methods, upscalers, figures, look } = catalogue;
+  figure = new FigurePanel(figures, (next) => go({ ...defaults, ...next }), set, endFigure);
+  lessonPanel.listFigures(figures);
   const groups = [['Antialiasing', methods.filter((m) => !m.is_reference)], ['References', methods.filter((m) => m.is_reference)], ['Upscalers', upscalers]];
   choosers = Object.fromEntries(sides.map(({ key }) => [key, new Chooser(key, `Method ${key.toUpperCase()}`, groups, (text) => set({ [key]: text }))]));
   for (const { key } of sides)
@@ -268,7 +286,7 @@ function build(catalogue) {
       ...sides.map(({ key }) => card([element('span', { class: 'mark' }, key.toUpperCase()), `Method ${key.toUpperCase()}`], choosers[key].node, choosers[`look${key}`].node)),
       card(['Camera'], element('div', { class: 'field' }, element('label', {}, 'Size'), sizeList), ...Object.values(lens).map((part) => part.node),
         element('div', { class: 'row' }, element('button', { type: 'button', onclick: () => set({ azimuth: '', elevation: '', angle: '' }) }, 'Reset the camera')))),
-    element('div', { class: 'show' }, lessonPanel.node, wait, sequence.node, stage.node, samples.node,
+    figure.node, element('div', { class: 'show' }, lessonPanel.node, wait, sequence.node, stage.node, samples.node,
       element('section', { class: 'command', 'aria-label': 'Commands' }, element('span', { class: 'label' }, 'The same images by the program:'), commands)),
     help);
 }
@@ -278,30 +296,33 @@ for (const type of ['keydown', 'keyup']) {
     if (event.ctrlKey || event.metaKey || event.altKey || help.open || event.target.closest?.('select, input')) return;
     const key = event.key.toLowerCase();
     if (type === 'keydown') {
-      const own = { '?': () => help.showModal(), p: () => sequence.toggle(), ',': () => sequence.step(-1), '.': () => sequence.step(1), n: () => samples.go(1), b: () => samples.go(-1) }[key];
+      if (event.key === '?') return help.showModal();
+      const own = state.demo ? null : { p: () => sequence.toggle(), ',': () => sequence.step(-1), '.': () => sequence.step(1), n: () => samples.go(1), b: () => samples.go(-1) }[key];
       if (own) return own();
     }
-    if (stage.key(event)) event.preventDefault();
+    if ((state.demo ? figure.stage : stage).key(event)) event.preventDefault();
     return undefined;
   });
 }
 addEventListener('blur', () => stage.isHeld && stage.set({ isHeld: false }));
 /// Displays another state as a whole.
 async function go(next) {
-  const { scene } = state;
   sequence.stop();
   Object.assign(state, next);
+  if (state.demo) return set({});
+  showMode();
   stage.set({ layout: state.layout, pixel: null });
-  if (next.scene !== scene && !await load(next.scene)) return;
+  if (next.scene !== loaded && !await load(next.scene)) return undefined;
   if (stage.scene) stage.fit(), restoreView();
   set({});
-  restorePixel();
+  return restorePixel();
 }
 addEventListener('hashchange', () => go(readState(location.hash)));
 
 try {
   build(await sides[0].renderer.ask('catalogue'));
-  if (await load(state.scene)) set({});
+  if (state.demo) set({});
+  else if (await load(state.scene)) set({});
   else wait.hidden = true;
 } catch (failure) {
   app.replaceChildren(error);

@@ -9,6 +9,8 @@
 #include <optional>
 #include <string>
 
+#include "answer.h"
+#include "figures.h"
 #include "look.h"
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/clock.h"
@@ -38,20 +40,6 @@ constexpr int turntable_frames = 240;
 constexpr int most_warm_up = 32;
 constexpr int no_frame = -1;
 
-Json::Array params_of(std::span<const Param> params) {
-  Json::Array out;
-  for (const Param& p : params)
-    out.push_back(Json::Object{{"name", p.name},
-                               {"meaning", p.meaning},
-                               {"value", p.value},
-                               {"low", p.low},
-                               {"high", p.high},
-                               {"choices", Json::Array(p.choices.begin(), p.choices.end())},
-                               {"names", Json::Array(p.names.begin(), p.names.end())},
-                               {"decimals", p.decimals}});
-  return out;
-}
-
 template <class Row>
 Json::Object row_of(const Row& row) {
   return {{"name", row.name}, {"summary", row.summary}, {"source", row.source}, {"params", params_of(row.params)}};
@@ -76,6 +64,7 @@ Json::Object catalogue() {
   return {{"scenes", std::move(scenes)},
           {"methods", std::move(methods)},
           {"upscalers", std::move(upscalers)},
+          {"figures", figure_rows()},
           {"look", Json::Array{Json::Object{{"name", "look"}, {"summary", ""}, {"params", params_of(look_params())}}}}};
 }
 
@@ -337,23 +326,6 @@ Json::Object Session::samples(int x, int y) const {
 }  // namespace zoneplate
 
 using namespace zoneplate;
-
-namespace {
-
-/// Calls `body`, which returns a JSON value, and returns its text, or {"error": ...}. The text is valid until the next
-/// call.
-template <class Body>
-const char* answer(const Body& body) {
-  static std::string text;
-  try {
-    text = Json(body()).text();
-  } catch (const std::exception& error) {
-    text = Json(Json::Object{{"error", error.what()}}).text();
-  }
-  return text.c_str();
-}
-
-}  // namespace
 
 extern "C" {
 

@@ -16,6 +16,16 @@ async function setStudio() {
   module._free(at);
 }
 
+/// The font of drawings, where the program looks for it.
+let font;
+async function setFont() {
+  const answer = await fetch(new URL('./DejaVuSans.ttf', import.meta.url));
+  if (!answer.ok) throw new Error('DejaVuSans.ttf is missing');
+  const { FS } = (await ready).module, folder = '/usr/share/fonts/truetype/dejavu';
+  FS.mkdirTree(folder);
+  FS.writeFile(`${folder}/DejaVuSans.ttf`, new Uint8Array(await answer.arrayBuffer()));
+}
+
 /// Calls a function of session.cpp that returns JSON.
 async function call(name, types = [], args = []) {
   const { module, session } = await ready;
@@ -51,6 +61,12 @@ const requests = {
       module.images.push(...await Promise.all(module.missing.map(decodeImage)));
     }
   },
+  /// A lesson as a scene of a viewer, and its images.
+  async figure(text, panel) {
+    await (font ??= setFont());
+    const { scene, images } = await call('draw_figure', ['string', 'number'], [text, panel]), { HEAPU8 } = (await ready).module;
+    return { scene, images: images.map(({ at, width, height }) => ({ width, height, data: HEAPU8.slice(at, at + 4 * width * height) })) };
+  },
   samples: (x, y) => call('samples_of', ['number', 'number'], [x, y]),
   async render({ width, height, azimuth = NaN, elevation = NaN, viewAngle = NaN, method, look = 'look', frame = -1 }) {
     await call('set_view', Array(5).fill('number'), [width, height, azimuth, elevation, viewAngle]);
@@ -64,7 +80,7 @@ const requests = {
 onmessage = async ({ data: { id, name, args } }) => {
   try {
     const result = await requests[name](...args);
-    postMessage({ id, result }, result.data ? [result.data.buffer] : []);
+    postMessage({ id, result }, [result, ...(result.images ?? [])].flatMap(({ data }) => (data ? [data.buffer] : [])));
   } catch (error) {
     postMessage({ id, error: error.message ?? String(error) });
   }

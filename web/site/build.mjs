@@ -14,6 +14,7 @@ import { escapeText, pageOf } from './template.mjs';
 import { rendered, sectionsOf } from './markdown.mjs';
 
 const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '../..');
+const font = '/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf';
 const [program, playground, api, out] = process.argv.slice(2).map((argument) => path.resolve(argument));
 const at = (...parts) => path.join(out, ...parts);
 const run = (...args) => execFileSync(program, args, { cwd: out, encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
@@ -65,13 +66,14 @@ function writeLessons() {
   const listed = run('demo', '--help').split('\nLessons:\n')[1].split('\n').map((line) => /^ {2}([a-z-]+) {2,}(.*)$/.exec(line)).filter((match) => match && match[1] !== 'all');
   const cards = listed.map(([, name, summary]) => {
     run('demo', name, '--html', `lessons/${name}.html`, '-o', `lessons/${name}.png`);
-    const live = lessonOf(name) ? liveLink(name) : '';
+    const drawn = `<a class="live" href="../playground/index.html#demo=${name}">drawn in the page, with its parameters</a>`;
+    const live = drawn + (lessonOf(name) ? liveLink(name) : '');
     index.push({ page: `lessons/${name}.html`, title: 'Lessons', heading: name, text: summary });
     return `<li>${card(`${name}.html`, name, summary, `${name}.png`)}${live}</li>`;
   });
   const more = lessons.filter(({ name }) => !listed.some((row) => row[1] === name));
   writePage('lessons/index.html', 'Lessons', `<h1>Lessons</h1><p>Each lesson displays an artifact, its remedy and measurements. Its page has the images of the lesson at
-every zoom; those that are also lessons of the playground continue there, with their knobs live.</p><ul class="cards">${cards.join('')}</ul>
+every zoom. The playground draws every lesson anew for other parameters; some continue there as lessons of several steps.</p><ul class="cards">${cards.join('')}</ul>
 <h2 id="playground">Lessons of the playground alone</h2><ul>${more.map(({ name, title }) => `<li>${liveLink(name).replace('live in the playground', title).replace(' class="live"', '')}</li>`).join('')}</ul>`, 'lessons/index.html');
 }
 
@@ -99,6 +101,9 @@ function copyPlayground() {
   for (const name of fs.readdirSync(path.join(root, 'web/report')).filter((file) => /\.(js|css)$/.test(file)))
     fs.copyFileSync(path.join(root, 'web/report', name), at('playground/report', name));
   for (const name of ['zoneplate_playground.js', 'zoneplate_playground.wasm']) fs.copyFileSync(path.join(playground, name), at('playground', name));
+  // The font of drawings in lessons, with its licence.
+  fs.copyFileSync(font, at('playground/DejaVuSans.ttf'));
+  fs.copyFileSync('/usr/share/doc/fonts-dejavu-core/copyright', at('playground/DejaVuSans.txt'));
   // The prepared studio, from the cache of the program: the page would need seconds for it.
   const cache = fs.mkdtempSync(path.join(os.tmpdir(), 'zoneplate-cache-'));
   execFileSync(program, ['render', 'teapot', '--size', '16', '-o', path.join(cache, 'image.png'), '--quiet'], { env: { ...process.env, XDG_CACHE_HOME: cache } });

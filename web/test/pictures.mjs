@@ -1,6 +1,7 @@
 // Pictures whose values the tests know, written without the program's own encoders.
 import fs from 'node:fs';
 import zlib from 'node:zlib';
+import { bytesOfText } from '../report/bytes.js';
 import { decodePng } from '../report/png.js';
 
 function chunk(name, body) {
@@ -48,6 +49,14 @@ export function writeExr(path, width, height, bits) {
   const table = Buffer.alloc(8 * height);
   lines.forEach((line, y) => table.writeBigUInt64LE(BigInt(head.length + table.length + y * line.length), 8 * y));
   fs.writeFileSync(path, Buffer.concat([head, table, ...lines]));
+}
+
+/// The data of a page that the program writes, and its pictures, decoded: { content, pictures }.
+export async function readPage(path) {
+  const page = fs.readFileSync(path, 'utf8');
+  const content = JSON.parse(/<script type="application\/json" id="content"[^>]*>(.*?)<\/script>/s.exec(page)[1]);
+  const stored = [...page.matchAll(/<script type="text\/plain" class="picture"[^>]*>(.*?)<\/script>/gs)];
+  return { content, pictures: await Promise.all(stored.map(([, text]) => decodePng(bytesOfText(text)))) };
 }
 
 export const readPng = (path) => decodePng(new Uint8Array(fs.readFileSync(path)));

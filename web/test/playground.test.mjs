@@ -3,6 +3,7 @@
 //   ZONEPLATE=build/check/zoneplate SITE=build/web/site node --test web/test/playground.test.mjs
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
+import { createHash } from 'node:crypto';
 import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
@@ -10,6 +11,7 @@ import { after, before, test } from 'node:test';
 import zlib from 'node:zlib';
 import { Browser } from './browser.mjs';
 import { writeModels } from './models.mjs';
+import { readPage } from './pictures.mjs';
 import { serve } from './server.mjs';
 
 const program = path.resolve(process.env.ZONEPLATE ?? 'build/check/zoneplate');
@@ -121,6 +123,85 @@ test('every lesson opens at every step with its knobs, and a knob changes the im
   await done(page);
   assert.match(await hashOf(page), /b=msaa:n=2/);
   assert.notDeepEqual((await page.shot()).data, before.data);
+});
+
+/// Draws lessons of the program in the page: their scenes, with a digest of every image in place of its index.
+const drawLessons = (page, texts, panel) => page.evaluate(async (list, size) => {
+  const { Renderer } = await import('./renderer.js'), renderer = window.testRenderer ??= new Renderer(), out = [];
+  for (const text of list) {
+    const { scene, images } = await renderer.ask('figure', text, size), digests = [];
+    for (const { width, height, data } of images)
+      digests.push(`${width}x${height} ${[...new Uint8Array(await crypto.subtle.digest('SHA-256', data))].map((byte) => byte.toString(16).padStart(2, '0')).join('')}`);
+    out.push({ ...scene, images: scene.images.map((image) => ({ ...image, frames: image.frames.map((i) => digests[i]) })) });
+  }
+  return out;
+}, texts, panel);
+
+/// The same from a page that the program writes, without the images that the playground draws as plots.
+async function nativeLessons(texts, panel, drawn) {
+  const out = [];
+  for (const text of texts) {
+    execFileSync(program, ['demo', text, '--panel', String(panel), '--html', 'lesson.html'], { cwd: folder, stdio: 'ignore' });
+    const { content, pictures } = await readPage(path.join(folder, 'lesson.html'));
+    for (const scene of content.scenes) {
+      const plots = (drawn[out.length].plots ?? []).map(({ name }) => name);
+      const digest = ({ width, height, data }) => `${width}x${height} ${createHash('sha256').update(data).digest('hex')}`;
+      out.push({ ...scene, images: scene.images.filter(({ name }) => !plots.includes(name)).map((image) => ({ ...image, frames: image.frames.map((i) => digest(pictures[i])) })) });
+    }
+  }
+  return out;
+}
+const withoutPlots = ({ plots, chosen, ...scene }) => scene;
+
+test('every lesson of the program has the same bytes, captions and tables', async () => {
+  const page = await open('#demo=rasterization&panel=120');
+  const { figures } = await page.evaluate(async () => new (await import('./renderer.js')).Renderer().ask('catalogue'));
+  assert.ok(figures.length >= 29);
+  const others = ['sampling:rate=1.6', 'rasterization:x=0.3', 'sdf:soft=40,texels=20', 'blinn-phong:p=7'];
+  const drawn = await drawLessons(page, [...figures.map(({ name }) => name), ...others], 64);
+  const native = await nativeLessons(['all', ...others], 64, drawn);
+  assert.equal(drawn.length, native.length);
+  drawn.forEach((scene, i) => assert.deepEqual(withoutPlots(scene), withoutPlots(native[i]), scene.name));
+  assert.ok(drawn.some(({ plots }) => plots?.every(({ plot }) => plot.curves.some(({ points }) => points.length > 1))));
+});
+
+test('every parameter of a lesson changes it', async () => {
+  const page = await open('#demo=rasterization&panel=120');
+  const { figures } = await page.evaluate(async () => new (await import('./renderer.js')).Renderer().ask('catalogue'));
+  const changed = figures.flatMap(({ name, params }) => params.map(({ name: key, names, choices, high }) => ({ name, text: `${name}:${key}=${names.at(-1) ?? choices.at(-1) ?? high}` })));
+  assert.ok(changed.length > 20);
+  const names = [...new Set(changed.map(({ name }) => name))], plain = await drawLessons(page, names, 64), drawn = await drawLessons(page, changed.map(({ text }) => text), 64);
+  changed.forEach(({ name, text }, i) => assert.notDeepEqual(drawn[i], plain[names.indexOf(name)], text));
+});
+
+test('a lesson of the program is chosen, changed by keys, restored by its address, and closed', async () => {
+  const page = await open('#size=320x180');
+  const choose = (value) => page.evaluate((text) => { const list = document.querySelector('[aria-label="Lesson"]'); document.getElementById('app').dataset.done = 'false', list.value = text; list.dispatchEvent(new Event('change')); }, value);
+  await choose('demo=rasterization');
+  await done(page);
+  assert.equal(await hashOf(page), '#demo=rasterization');
+  assert.match(await page.evaluate('document.querySelector(".figure [role=status]").textContent'), /^Drawn in/);
+  const labels = await page.evaluate('[...document.querySelectorAll(".figure .knobs .field")].map((field) => [field.querySelector("label").textContent, field.querySelector("input, select").labels.length])');
+  assert.deepEqual(labels, [['x', 1], ['y', 1]]);
+  const before = await page.shot();
+  await page.evaluate('document.querySelector(".figure .knobs input[type=range]").focus()');
+  for (let i = 0; i < 12; ++i) await page.key('ArrowRight');
+  await page.until('document.getElementById("app").dataset.done === "true"', 60);
+  await page.settle();
+  const hash = await hashOf(page);
+  assert.match(hash, /^#demo=rasterization:x=0\.\d+$/);
+  assert.ok(!Buffer.from((await page.shot()).data).equals(Buffer.from(before.data)));
+  assert.match(await page.evaluate('document.querySelector(".figure .command code").textContent'), /^\.\/zoneplate demo rasterization:x=0\.\d+ --panel 240 -o rasterization\.png$/);
+  const shown = await page.evaluate('[document.getElementById("figure-x").value, document.querySelector(".figure .words").textContent]');
+  await choose('');
+  await done(page);
+  assert.equal(await page.evaluate('document.querySelector(".figure").hidden'), true);
+  assert.match(await page.evaluate('document.querySelector(".show .room .name").textContent'), /./);
+  const other = await open(hash);
+  assert.equal(await other.evaluate('document.getElementById("figure-x").value'), shown[0]);
+  assert.equal(await other.evaluate('document.querySelector(".figure .words").textContent'), shown[1]);
+  const wrong = await open('#demo=sampling:rate=7');
+  assert.match(await wrong.evaluate('document.querySelector(".error").textContent'), /rate is '7'/);
 });
 
 test('models of every format have the same bytes as those of the program', async () => {

@@ -41,21 +41,9 @@ std::vector<std::uint8_t> data_picture(const Frame& frame, const Plane<T>& plane
 }
 
 std::vector<std::uint8_t> depth_picture(const Frame& frame, const Scene&) {
-  float near = std::numeric_limits<float>::infinity(), far = -near;
-  for (const float depth : frame.depth.values()) {
-    if (!std::isfinite(depth)) continue;
-    near = std::min(near, depth);
-    far = std::max(far, depth);
-  }
+  const auto [image, near, far] = depth_codes(frame.depth);
   PngOptions options{.has_alpha = false, .is_srgb = false};
   if (near <= far) options.text = {{"near", fmt::format("{}", near)}, {"far", fmt::format("{}", far)}};
-
-  Plane<std::uint16_t> image(frame.depth.width(), frame.depth.height(), 65535);
-  const float range = far > near ? far - near : 1.0f;
-  for (std::size_t i = 0; i < image.values().size(); ++i) {
-    const float depth = frame.depth.values()[i];
-    if (std::isfinite(depth)) image.values()[i] = static_cast<std::uint16_t>(code((depth - near) / range, 65534));
-  }
   return encode_png(image, options);
 }
 

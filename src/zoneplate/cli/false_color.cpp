@@ -3,12 +3,31 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/metrics/flip/magma.h"
 #include "zoneplate/raster/types/batch.h"
 
 namespace zoneplate::cli {
+
+DepthCodes depth_codes(const Plane<float>& depth) {
+  DepthCodes out{Plane<std::uint16_t>(depth.width(), depth.height(), 65535), std::numeric_limits<float>::infinity(),
+                 -std::numeric_limits<float>::infinity()};
+  for (const float d : depth.values()) {
+    if (!std::isfinite(d)) continue;
+    out.near = std::min(out.near, d);
+    out.far = std::max(out.far, d);
+  }
+  const float range = out.far > out.near ? out.far - out.near : 1.0f;
+  for (std::size_t i = 0; i < depth.values().size(); ++i) {
+    const float d = depth.values()[i];
+    if (!std::isfinite(d)) continue;
+    const float share = std::clamp((d - out.near) / range, 0.0f, 1.0f);
+    out.image.values()[i] = static_cast<std::uint16_t>(std::floor(share * 65534 + 0.5f));
+  }
+  return out;
+}
 
 Rgba8 circle_color(float turn, float saturation) {
   const auto channel = [&](float offset) {

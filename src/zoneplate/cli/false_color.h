@@ -1,9 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+
+#include "zoneplate/image/plane.h"
 #include "zoneplate/image/rgb.h"
 
 namespace zoneplate::cli {
+
+/// Depths as greys of 16 bits: 0 is the nearest and 65534 the farthest visible distance, linear between; 65535 is
+/// empty.
+struct DepthCodes {
+  Plane<std::uint16_t> image;
+  float near = 0, far = 0;  ///< near > far: nothing is visible
+};
+DepthCodes depth_codes(const Plane<float>& depth);
 
 /// A hue of the colour circle, from red (0) over green (1/3) and blue (2/3) to red (1), blended with white.
 Rgba8 circle_color(float turn, float saturation);

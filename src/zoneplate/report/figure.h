@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "zoneplate/image/rgb.h"
+#include "zoneplate/report/plot.h"
 
 namespace zoneplate {
 
@@ -13,6 +15,7 @@ struct Panel {
   Rgba8Image picture;
   /// UTF-8; wrapped at the image's width; if it has several lines, the first is a heading, in bold.
   std::string caption;
+  std::optional<Plot> plot = {};  ///< what the picture displays, for media that draw it themselves
 };
 
 /// A figure: a title, rows of captioned images, and a text below.

@@ -82,14 +82,6 @@ PagePicture page_errors(const Plane<float>& errors) {
   return {.png = small_png(codes), .values = PagePicture::Values::Errors};
 }
 
-Json page_table(const Table& table, std::string_view title, Json::Array targets) {
-  const auto cells = [](const std::vector<std::string>& row) { return Json::Array(row.begin(), row.end()); };
-  Json::Array rows;
-  for (const auto& row : table.rows) rows.emplace_back(cells(row));
-  return Json::Object{
-      {"title", title}, {"head", cells(table.head)}, {"rows", std::move(rows)}, {"targets", std::move(targets)}};
-}
-
 std::string text_of_bytes(std::span<const std::uint8_t> bytes) {
   constexpr std::string_view alphabet =
       "!#$%'()*+,-./0123456789:;=>?@ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]^_`abcdefghijklmnopqrstuvwxyz{|}~";

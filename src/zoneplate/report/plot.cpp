@@ -31,10 +31,6 @@ struct Terminal {
 };
 constexpr Terminal svg = {"svg", "dynamic", 1, 0.55, 0.86}, cairo = {"pngcairo", "", 0.75, 1, 1.12};
 
-constexpr Rgba8 palette[] = {{0, 114, 178}, {213, 94, 0},   {0, 158, 115}, {204, 121, 167},
-                             {230, 159, 0}, {86, 180, 233}, {40, 40, 40}};
-constexpr Rgba8 grey = {130, 130, 130};
-
 // A gnuplot string in single quotes, in which no characters are special; single quotes in the text are replaced.
 std::string quoted(const std::string& text) {
   std::string out = "'";
@@ -56,15 +52,10 @@ std::string label_of(const std::string& text) {
   return out + '"';
 }
 
-Rgba8 color_of(const Curve& curve, std::size_t place) {
-  if (curve.color == Curve::grey) return grey;
-  return palette[(curve.color < 0 ? place : static_cast<std::size_t>(curve.color)) % std::size(palette)];
-}
-
 // The part of a plot command that draws one curve from the data block of this name.
 std::string marks_of(const Curve& curve, const std::string& block, std::size_t place, const Terminal& terminal) {
   using Mark = Curve::Mark;
-  const std::string color = hex_color(color_of(curve, place));
+  const std::string color = hex_color(curve_color(curve, place));
   const std::string title = curve.name.empty() ? "notitle" : "title " + quoted(curve.name);
   const double point = point_size * terminal.point;
   const auto line = [&](double width) { return fmt::format("lw {} lc rgb '{}'", width, color); };
@@ -99,7 +90,7 @@ std::string drawing_of(const Curve& curve, const std::string& block, std::size_t
       curve.labels_are == Curve::Beside::RightAbove ? "left offset 0.8,0.35" : "right offset -0.8,-0.45";
   if (!curve.labels.empty())
     text += fmt::format(", {} using 1:2:3 with labels {} font 'DejaVu Sans,{}' textcolor rgb '{}' notitle", block,
-                        place_of_labels, label_px * terminal.font, hex_color(color_of(curve, place)));
+                        place_of_labels, label_px * terminal.font, hex_color(curve_color(curve, place)));
   return text;
 }
 
@@ -239,8 +230,6 @@ std::vector<std::uint8_t> drawn(std::span<const Plot> plots, int columns, const 
 }
 
 }  // namespace
-
-std::span<const Rgba8> plot_palette() { return palette; }
 
 std::string plots_svg(std::span<const Plot> plots, int columns, const PlotSize& size) {
   const std::vector<std::uint8_t> bytes = drawn(plots, columns, size, svg);

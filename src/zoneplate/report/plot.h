@@ -58,6 +58,7 @@ struct PlotSize {
 /// The plot is drawn by gnuplot in a child process with a time limit. Texts are unchanged, except that ' becomes ’.
 /// Exact     no time stamp; the same bytes with the same versions of gnuplot and its fonts.
 /// Errors    ErrorKind::Failed naming gnuplot and its package if it is not installed or fails.
+///           Where there is no gnuplot, as in a page, a picture may be empty.
 std::string plot_svg(const Plot& plot, const PlotSize& size = {});
 Rgba8Image plot_picture(const Plot& plot, const PlotSize& size = {});
 
@@ -71,5 +72,8 @@ Rgba8Image plots_picture(std::span<const Plot> plots, int columns, const PlotSiz
 ///
 /// Source    Okabe and Ito, Color Universal Design, 2008; without its yellow, which is hardly visible on white.
 std::span<const Rgba8> plot_palette();
+
+/// The colour of the curve at this place of a plot.
+Rgba8 curve_color(const Curve& curve, std::size_t place);
 
 }  // namespace zoneplate

@@ -112,14 +112,15 @@ Lesson make(const DemoSize& size, const Settings& settings) {
   const double frequency = settings.number("frequency"), seen = std::abs(apparent_frequency(frequency, 1));
   const std::string shown_kernel(settings.chosen("kernel"));
   figure.rows.push_back(
-      {{plot_at(waves_plot(frequency), width, height),
-        fmt::format("Indistinguishable waves\nWaves of {} and of {} cycles per sample agree at every sample; "
-                    "reconstruction gives the lower frequency.",
-                    number(frequency, 1), number(seen, 1))},
-       {plot_at(folding_plot(frequency), width, height),
-        "Frequencies fold at ½\nHalf a cycle per sample is the Nyquist frequency: a higher frequency appears as a "
-        "lower "
-        "one, its alias."}});
+      {plot_panel(waves_plot(frequency), width, height,
+                  fmt::format("Indistinguishable waves\nWaves of {} and of {} cycles per sample agree at every sample; "
+                              "reconstruction gives the lower frequency.",
+                              number(frequency, 1), number(seen, 1))),
+       plot_panel(
+           folding_plot(frequency), width, height,
+           "Frequencies fold at ½\nHalf a cycle per sample is the Nyquist frequency: a higher frequency appears as a "
+           "lower "
+           "one, its alias.")});
 
   const Kernel kernel = make_kernel(shown_kernel);
   std::vector<Panel>& row = figure.rows.emplace_back();

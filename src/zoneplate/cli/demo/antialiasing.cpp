@@ -93,7 +93,7 @@ Lesson make(const DemoSize& size, const Settings&) {
       {crop_of(exact.picture, x, y, factor, crop_side),
        fmt::format("Reference\n{}: {} shaded samples per pixel.", reference,
                    number(static_cast<double>(exact.counts.shaded) / pixels, 1))},
-      {plot_at(plot, rest - gap, side), "Error against cost."}};
+      plot_panel(plot, rest - gap, side, "Error against cost.")};
   figure.text =
       "Error: root mean square difference from the reference over the whole image, of sRGB values, white being 100 %; "
       "shaded: shaded samples per pixel. Post-process filters shade no more samples than no antialiasing, and infer "

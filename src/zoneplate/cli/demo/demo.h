@@ -2,6 +2,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -9,6 +11,7 @@
 
 #include "zoneplate/base/spec.h"
 #include "zoneplate/report/figure.h"
+#include "zoneplate/report/json.h"
 #include "zoneplate/report/table.h"
 
 namespace zoneplate::cli {
@@ -46,7 +49,14 @@ struct NamedLesson {
   Lesson lesson;
 };
 
-/// The lessons as a page for a browser (report/html_page.h): the panels that have captions, and the tables.
+/// Takes a picture of a page, and gives its index.
+using AddPicture = std::function<std::uint64_t(const Rgba8Image&)>;
+
+/// A lesson as a scene of a page (report/html_page.h): the panels that have captions, and the tables. Panels of plots
+/// without a picture are in `plots`: { name, text, plot }.
+Json page_scene(const NamedLesson& lesson, const AddPicture& add);
+
+/// The lessons as a page for a browser.
 std::string page_of(std::span<const NamedLesson> lessons);
 
 /// The texts of the figure, wrapped for a terminal: title, captions, text and tables.

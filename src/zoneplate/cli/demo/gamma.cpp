@@ -71,7 +71,7 @@ Rgba8Image patches(int side) {
   return image;
 }
 
-Rgba8Image curve_plot(int side) {
+Plot curve_plot() {
   Plot plot{.title = "White on black",
             .x = {"coverage (%)", 0, 100},
             .y = {"light (% of white)", 0, 100},
@@ -80,7 +80,7 @@ Rgba8Image curve_plot(int side) {
     plot.curves[0].points.emplace_back(i, 100 * static_cast<double>(decode_srgb(static_cast<float>(i) / 100)));
     plot.curves[1].points.emplace_back(i, i);
   }
-  return plot_at(plot, side, side, plot_width);
+  return plot;
 }
 
 Lesson make(const DemoSize& size, const Settings&) {
@@ -105,10 +105,11 @@ Lesson make(const DemoSize& size, const Settings&) {
        "Black and white rows\nOf one pixel each, at 1:1: from a distance the right patch, code 188, merges "
        "with them, because it has half of the light of white. Code 128 on the left is darker."});
   figure.rows[0].push_back(
-      {curve_plot(side),
-       fmt::format("Coverage and light\nA pixel that is half covered has {} % of the light of white if "
-                   "sRGB values are blended.",
-                   number(100 * static_cast<double>(decode_srgb(0.5f)), 0))});
+      plot_panel(curve_plot(), side, side,
+                 fmt::format("Coverage and light\nA pixel that is half covered has {} % of the light of white if "
+                             "sRGB values are blended.",
+                             number(100 * static_cast<double>(decode_srgb(0.5f)), 0)),
+                 plot_width));
   figure.text =
       "sRGB values are spaced as the eye sees differences, not as light adds up. Filters, antialiasing, transparency "
       "and mip "

@@ -110,7 +110,7 @@ View view_of(const Square& corners, int side, bool is_perspective) {
 }
 
 /// v along the vertical line through the middle of the image.
-Rgba8Image plot_of(const Square& corners, int side) {
+Plot plot_of(const Square& corners, int side) {
   Plot plot{.title = "",
             .x = {"height above the near edge (pixels)"},
             .y = {"texture coordinate v", 0, 1},
@@ -123,7 +123,7 @@ Rgba8Image plot_of(const Square& corners, int side) {
     plot.curves[0].points.emplace_back(bottom - p.y, affine->v);
     plot.curves[1].points.emplace_back(bottom - p.y, perspective->v);
   }
-  return plot_at(plot, side, side, plot_width);
+  return plot;
 }
 
 Lesson make(const DemoSize& size, const Settings& settings) {
@@ -142,9 +142,10 @@ Lesson make(const DemoSize& size, const Settings& settings) {
                                       "Compared with the points where rays meet the plane, u and v differ by at most "
                                       "{:.0e}.",
                                       perspective.greatest)});
-  figure.rows[0].push_back({plot_of(corners, side),
-                            "Along a column\nAn affine v rises at a constant rate; the correct one rises "
-                            "faster towards the horizon, where squares are smaller."});
+  figure.rows[0].push_back(plot_panel(plot_of(corners, side), side, side,
+                                      "Along a column\nAn affine v rises at a constant rate; the correct one rises "
+                                      "faster towards the horizon, where squares are smaller.",
+                                      plot_width));
   figure.text = fmt::format(
       "A projection keeps straight lines but not distances along them: the middle of an edge on the screen is not the "
       "middle of the edge in space. With barycentric coordinates α, β, γ on the screen and the depths of the vertices "

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/image/tonemap.h"
@@ -130,16 +131,25 @@ Rgba8Image sign_picture(const std::string& sign, int height, const FigureStyle& 
   return picture;
 }
 
+namespace {
+
 Rgba8Image plot_at(const Plot& plot, int width, int height, int designed_width) {
   const int drawn_width = std::max(width, designed_width);
   const int drawn_height = static_cast<int>(std::int64_t{height} * drawn_width / width);
   const Rgba8Image drawn = plot_picture(plot, {drawn_width, drawn_height});
-  if (drawn_width == width) return drawn;
+  if (drawn_width == width || drawn.empty()) return drawn;
   LinearImage light(drawn_width, drawn_height);
   std::transform(drawn.values().begin(), drawn.values().end(), light.values().begin(), [](Rgba8 c) {
     return Linear{decode_srgb8(c.r), decode_srgb8(c.g), decode_srgb8(c.b), 1};
   });
   return shown(resample(light, width, height, make_kernel("mitchell")));
+}
+
+}  // namespace
+
+Panel plot_panel(Plot plot, int width, int height, std::string caption, int designed_width) {
+  Rgba8Image drawn = plot_at(plot, width, height, designed_width);
+  return {std::move(drawn), std::move(caption), std::move(plot)};
 }
 
 double rms_difference(const Plane<float>& a, const Plane<float>& b) {

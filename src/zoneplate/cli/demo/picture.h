@@ -55,7 +55,7 @@ Rgba8Image sign_picture(const std::string& sign, int height, const FigureStyle& 
 
 /// The plot at this size; below the width for which its letters are designed, a plot of that width is reduced. Plots
 /// with few ticks and a short key have room for larger letters: a smaller width.
-Rgba8Image plot_at(const Plot& plot, int width, int height, int designed_width = 720);
+Panel plot_panel(Plot plot, int width, int height, std::string caption, int designed_width = 720);
 
 /// Root mean square difference.
 double rms_difference(const Plane<float>& a, const Plane<float>& b);

@@ -24,7 +24,7 @@ constexpr Param params[] = {
      .low = 0.2,
      .high = 3,
      .decimals = 1},
-    {.name = "spokes", .meaning = "of the wheel", .value = 240, .low = 20, .high = 400},
+    {.name = "spokes", .meaning = "of the wheel", .value = 240, .low = 20, .high = 360},
 };
 
 Plane<float> blurred(const Plane<float>& plane, double sigma_here) {

@@ -156,12 +156,13 @@ Lesson make(const DemoSize& size, const Settings& settings) {
   for (const Way& way : ways_of(settings.number("rate"))) {
     const Samples samples = taken(way);
     const std::string rate = number(way.rate, way.rate < 2 ? 1 : 0);
-    figure.rows.push_back({{plot_at(time_plot(samples), width, height),
-                            fmt::format("{} samples per second{}\nReconstructed with an error of {}\u00a0%{}.", rate,
-                                        way.is_filtered ? ", filtered first" : "", number(100 * error_of(samples), 1),
-                                        way.is_filtered ? ", without aliases" : "")},
-                           {plot_at(spectrum_plot(way, samples), width, height),
-                            fmt::format("Copies {}\u00a0Hz apart\n{}", rate, words_of(way))}});
+    figure.rows.push_back(
+        {plot_panel(time_plot(samples), width, height,
+                    fmt::format("{} samples per second{}\nReconstructed with an error of {}\u00a0%{}.", rate,
+                                way.is_filtered ? ", filtered first" : "", number(100 * error_of(samples), 1),
+                                way.is_filtered ? ", without aliases" : "")),
+         plot_panel(spectrum_plot(way, samples), width, height,
+                    fmt::format("Copies {}\u00a0Hz apart\n{}", rate, words_of(way)))});
   }
   figure.text = fmt::format(
       "A pulse with frequencies up to {}\u00a0Hz. The spectrum of its samples is the pulse's spectrum, repeated at "

@@ -53,8 +53,8 @@ Rgba8Image fitted_to(const Rgba8Image& image, int width, int height) {
 }
 
 /// The errors of text from a field, by the size at which it is drawn.
-Rgba8Image error_plot(const Font& font, const std::string& words, const sdf::Atlas& single, const sdf::Atlas& multi,
-                      double texels, int width, int height) {
+Plot error_plot(const Font& font, const std::string& words, const sdf::Atlas& single, const sdf::Atlas& multi,
+                double texels) {
   Plot plot{.title = number(texels, 0) + " texels per em",
             .x = {"pixels per em", 16, 256, true},
             .y = {"error along edges (%)", 0, 0},
@@ -66,7 +66,7 @@ Rgba8Image error_plot(const Font& font, const std::string& words, const sdf::Atl
     plot.curves[0].points.emplace_back(px, 100 * error_of(line.from_atlas(single), exact).rms);
     plot.curves[1].points.emplace_back(px, 100 * error_of(line.from_atlas(multi), exact).rms);
   }
-  return plot_at(plot, width, height, plot_width);
+  return plot;
 }
 
 Lesson make(const DemoSize& size, const Settings& settings) {
@@ -100,9 +100,9 @@ Lesson make(const DemoSize& size, const Settings& settings) {
     return atlas_of(font, code_points(words), {.kind = kind, .size = texels, .range = 4});
   };
   const sdf::Atlas single = atlas_with(sdf::FieldKind::Single), multi = atlas_with(sdf::FieldKind::Multi);
-  figure.rows[0].push_back(
-      {error_plot(font, words, single, multi, texels, side, height),
-       "Errors by size\nRoot mean square difference from exact coverage, for these three letters."});
+  figure.rows[0].push_back(plot_panel(
+      error_plot(font, words, single, multi, texels), side, height,
+      "Errors by size\nRoot mean square difference from exact coverage, for these three letters.", plot_width));
 
   const TextLine line(font, words, side / 2.4);
   const Plane<float> exact = line.exact();

@@ -5,10 +5,9 @@
 #include <algorithm>
 
 #include "zoneplate/antialias/methods.h"
-#include "zoneplate/cli/aov.h"
 #include "zoneplate/cli/demo/demo.h"
 #include "zoneplate/cli/demo/picture.h"
-#include "zoneplate/codec/png.h"
+#include "zoneplate/cli/false_color.h"
 #include "zoneplate/render/renderer.h"
 
 namespace zoneplate::cli {
@@ -41,8 +40,12 @@ Rgba8Image depth_of(const Scene& scene, int width, int height) {
   planes.depth = true;
   const RenderedImage image = renderer.render(camera_of(scene, width, height),
                                               {.options = {.width = width, .height = height}, .planes = planes});
-  const Aov& aov = *std::ranges::find(aovs(), std::string_view("depth"), &Aov::name);
-  return decode_png(encode_data_png(aov, image.data, scene), "depth").pixels;
+  Rgba8Image out(width, height);
+  std::ranges::transform(depth_codes(image.data.depth).image.values(), out.values().begin(), [](std::uint16_t code) {
+    const auto grey = static_cast<std::uint8_t>((code * 255u + 32895u) >> 16);  // the nearest of 8 bits
+    return Rgba8{grey, grey, grey, 255};
+  });
+  return out;
 }
 
 Lesson make(const DemoSize& size, const Settings&) {

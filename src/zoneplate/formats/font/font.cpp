@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/formats/font/font.h"
 
-#include <fmt/format.h>
 #include <ft2build.h>
 #include FT_FREETYPE_H
 #include FT_OUTLINE_H
@@ -14,11 +13,6 @@
 namespace zoneplate {
 namespace {
 
-constexpr const char* package = "fonts-dejavu-core";
-/// Font folders of Debian, Arch, Fedora, Gentoo and Alpine, and of local installations.
-constexpr const char* folders[] = {"/usr/share/fonts/truetype/dejavu/",       "/usr/share/fonts/TTF/",
-                                   "/usr/share/fonts/dejavu-sans-fonts/",     "/usr/share/fonts/dejavu/",
-                                   "/usr/local/share/fonts/truetype/dejavu/", "/usr/local/share/fonts/"};
 /// The pen of a glyph's outline, and the size of the font's unit.
 struct GlyphPen {
   sdf::Pen pen;
@@ -30,30 +24,7 @@ struct GlyphPen {
   static GlyphPen& of(void* user) { return *static_cast<GlyphPen*>(user); }
 };
 
-/// Calls use(code, position) for every character of a line of text, positions in em.
-template <class Use>
-double set_line(const Font& font, std::string_view text, const Use& use) {
-  double pen = 0;
-  char32_t before = 0;
-  while (!text.empty()) {
-    const char32_t code = take_code_point(text);
-    if (before != 0) pen += font.kerning(before, code);
-    use(code, pen);
-    pen += font.advance(code);
-    before = code;
-  }
-  return pen;
-}
-
 }  // namespace
-
-std::string dejavu_path(const std::string& file) {
-  std::error_code ignored;
-  for (const char* folder : folders)
-    if (std::filesystem::exists(folder + file, ignored)) return folder + file;
-  throw Error(ErrorKind::Failed, fmt::format("{}: the font of captions is in none of {}; it is in Debian's package {}",
-                                             file, fmt::join(folders, ", "), package));
-}
 
 void Font::Close::operator()(FT_LibraryRec_* library) const { FT_Done_FreeType(library); }
 void Font::Close::operator()(FT_FaceRec_* face) const { FT_Done_Face(face); }
@@ -126,19 +97,6 @@ double Font::kerning(char32_t left, char32_t right) const {
   FT_Get_Kerning(face_.get(), FT_Get_Char_Index(face_.get(), left), FT_Get_Char_Index(face_.get(), right),
                  FT_KERNING_UNSCALED, &kerning);
   return static_cast<double>(kerning.x) / em();
-}
-
-sdf::Outline text_outline(const Font& font, std::string_view text, double size) {
-  sdf::Outline out;
-  set_line(font, text, [&](char32_t code, double pen) {
-    for (sdf::Contour& contour : font.outline(code).mapped({.scale = size, .move = {pen * size, 0}}).contours)
-      out.contours.push_back(std::move(contour));
-  });
-  return out;
-}
-
-double text_width(const Font& font, std::string_view text, double size) {
-  return size * set_line(font, text, [](char32_t, double) {});
 }
 
 }  // namespace zoneplate
