@@ -1,17 +1,18 @@
-// The decoder of text_of_bytes (src/zoneplate/report/html_page.h): two characters of 91 hold 13 bits.
+// The decoder of text_of_bytes (src/zoneplate/report/html_page.h): a character holds 7 bits, one of two bytes 14.
 
-/// The bytes that a text contains; perhaps followed by a zero.
+/// The bytes that a text contains.
 export function bytesOfText(text) {
-  const out = new Uint8Array(Math.floor(text.length / 2 * 13 / 8));
-  const digit = (i) => {
-    const code = text.charCodeAt(i);
-    return code - 33 - (code > 34) - (code > 38) - (code > 60);
-  };
+  const out = new Uint8Array(Math.ceil(text.length * 1.75));
   let bits = 0, count = 0, end = 0;
-  for (let i = 0; i + 1 < text.length; i += 2) {
-    bits |= (digit(i) + 91 * digit(i + 1)) << count;
-    count += 13;
-    for (; count >= 8; count -= 8, bits >>= 8) out[end++] = bits & 255;
+  const add = (seven) => {
+    bits = (bits << 7 | seven) & 0x3fff;
+    count += 7;
+    if (count >= 8) out[end++] = bits >> (count -= 8);
+  };
+  for (let i = 0; i < text.length; ++i) {
+    const code = text.charCodeAt(i);
+    add(code < 128 ? code : [0, 10, 13, 60][code >> 7 & 3]);
+    if (code >= 512 && code < 1024) add(code & 127);
   }
-  return out;
+  return out.slice(0, end);
 }

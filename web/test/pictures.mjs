@@ -53,10 +53,15 @@ export function writeExr(path, width, height, bits) {
 
 /// The data of a page that the program writes, and its pictures, decoded: { content, pictures }.
 export async function readPage(path) {
-  const page = fs.readFileSync(path, 'utf8');
-  const content = JSON.parse(/<script type="application\/json" id="content"[^>]*>(.*?)<\/script>/s.exec(page)[1]);
-  const stored = [...page.matchAll(/<script type="text\/plain" class="picture"[^>]*>(.*?)<\/script>/gs)];
-  return { content, pictures: await Promise.all(stored.map(([, text]) => decodePng(bytesOfText(text)))) };
+  const page = fs.readFileSync(path, 'utf8'), packed = /<script type="text\/plain" id="viewer">(.*?)<\/script>/s.exec(page)[1];
+  const content = JSON.parse(zlib.inflateSync(bytesOfText(packed)).toString().split('\0')[3]);
+  return { content, pictures: await Promise.all(picturesOf(path).map((bytes) => decodePng(bytes))) };
+}
+
+/// The files of the pictures in a page.
+export function picturesOf(path) {
+  const stored = fs.readFileSync(path, 'utf8').matchAll(/<script type="text\/plain" class="picture"[^>]*>(.*?)<\/script>/gs);
+  return [...stored].map(([, text]) => bytesOfText(text));
 }
 
 export const readPng = (path) => decodePng(new Uint8Array(fs.readFileSync(path)));

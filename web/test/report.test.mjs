@@ -8,7 +8,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { Browser } from './browser.mjs';
-import { colorAt, readPng, writeExr, writePng } from './pictures.mjs';
+import { colorAt, picturesOf, readPng, writeExr, writePng } from './pictures.mjs';
 
 const program = path.resolve(process.env.ZONEPLATE ?? 'build/check/zoneplate');
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'zoneplate-report-'));
@@ -109,6 +109,10 @@ test('the page is at most 1.3 times as large as its pictures', () => {
   const pictures = names.reduce((sum, name) => sum + fs.statSync(at(`out/teapot/${name}`)).size, 0), page = fs.statSync(at('compare.html')).size;
   console.log(`page: ${page} bytes, ${(page / pictures).toFixed(2)} times its pictures`);
   assert.ok(page <= 1.3 * pictures);
+  // Of the pictures that are in it, which are smaller: 8/7 as large, and the viewer and the data.
+  const own = picturesOf(at('compare.html')).reduce((sum, { length }) => sum + length, 0), rest = page - own * 8 / 7;
+  console.log(`${(page / own).toFixed(3)} times the pictures inside, and ${Math.round(rest)} bytes of viewer and data`);
+  assert.ok(page <= 1.3 * own && rest < 30000);
 });
 
 test('zoom and pan are linked to one CSS pixel from 1 to 64 times', async () => {

@@ -2,8 +2,10 @@
 #include "zoneplate/report/html_page.h"
 
 #include <fmt/format.h>
+#include <zlib.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include "zoneplate/codec/png.h"
@@ -37,10 +39,24 @@ std::string_view name_of(PagePicture::Values values) {
   return "errors";
 }
 
-/// JSON without <, which could end the element that contains it.
-std::string escaped_json(const Json& json) {
+/// The bytes as a zlib stream.
+std::vector<std::uint8_t> deflated(const std::string& bytes) {
+  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+  std::vector<std::uint8_t> out(size);
+  [[maybe_unused]] const int result = compress2(out.data(), &size, reinterpret_cast<const Bytef*>(bytes.data()),
+                                                static_cast<uLong>(bytes.size()), Z_BEST_COMPRESSION);
+  assert(result == Z_OK);
+  out.resize(size);
+  return out;
+}
+
+/// The colours of error maps, as hexadecimal digits.
+std::string error_colors() {
   std::string out;
-  for (const char c : json.text()) c == '<' ? out += "\\u003c" : out += c;
+  for (int i = 0; i < 256; ++i) {
+    const Rgba8 c = metrics::magma(static_cast<float>(i) / 255);
+    out += fmt::format("{:02x}{:02x}{:02x}", c.r, c.g, c.b);
+  }
   return out;
 }
 
@@ -83,21 +99,27 @@ PagePicture page_errors(const Plane<float>& errors) {
 }
 
 std::string text_of_bytes(std::span<const std::uint8_t> bytes) {
-  constexpr std::string_view alphabet =
-      "!#$%'()*+,-./0123456789:;=>?@ABCDEFGHIJKLMNOPQRSTUVWXYZ[\\]^_`abcdefghijklmnopqrstuvwxyz{|}~";
-  static_assert(alphabet.size() == 91 && 91 * 91 >= 1 << 13);
+  constexpr std::string_view left_out("\0\n\r<", 4);
+  constexpr unsigned with_next = 512, alone = 1024;
   std::string out;
-  out.reserve(bytes.size() / 13 * 16 + 18);
-  std::uint32_t bits = 0;
-  int count = 0;
-  const auto add_pair = [&](std::uint32_t value) { out += alphabet[value % 91], out += alphabet[value / 91]; };
-  for (const std::uint8_t byte : bytes) {
-    bits |= std::uint32_t{byte} << count, count += 8;
-    if (count < 13) continue;
-    add_pair(bits & 0x1fff);
-    bits >>= 13, count -= 13;
+  out.reserve(bytes.size() / 7 * 8 + 16);
+  const std::size_t count = (bytes.size() * 8 + 6) / 7;
+  const auto seven = [&](std::size_t i) {
+    const std::size_t bit = 7 * i, at = bit / 8;
+    const unsigned two = unsigned{bytes[at]} << 8 | (at + 1 < bytes.size() ? bytes[at + 1] : 0u);
+    return two >> (9 - bit % 8) & 127;
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    const unsigned value = seven(i);
+    const std::size_t place = left_out.find(static_cast<char>(value));
+    if (place == std::string_view::npos) {
+      out += static_cast<char>(value);
+      continue;
+    }
+    const bool has_next = ++i < count;
+    const unsigned code = (has_next ? with_next + seven(i) : alone) + (static_cast<unsigned>(place) << 7);
+    out += static_cast<char>(0xc0 | code >> 6), out += static_cast<char>(0x80 | (code & 63));
   }
-  if (count > 0) add_pair(bits);
   return out;
 }
 
@@ -112,12 +134,9 @@ std::string html_page(std::string_view title, const Json& content, std::span<con
   copy_to("{{title}}");
   out += escape_markup(title);
   copy_to("{{content}}");
-  out += "<script type=\"application/json\" id=\"content\" data-colors=\"";
-  for (int i = 0; i < 256; ++i) {
-    const Rgba8 c = metrics::magma(static_cast<float>(i) / 255);
-    out += fmt::format("{:02x}{:02x}{:02x}", c.r, c.g, c.b);
-  }
-  out += "\">" + escaped_json(content) + "</script>\n";
+  const std::string packed = fmt::format("{}{zero}{}{zero}{}{zero}{}", viewer_style, viewer_script, error_colors(),
+                                         content.text(), fmt::arg("zero", '\0'));
+  out += fmt::format("<script type=\"text/plain\" id=\"viewer\">{}</script>\n", text_of_bytes(deflated(packed)));
   for (const PagePicture& picture : pictures)
     out += fmt::format("<script type=\"text/plain\" class=\"picture\" data-values=\"{}\"{}>{}</script>\n",
                        name_of(picture.values), picture.is_rounded ? " data-rounded" : "", text_of_bytes(picture.png));

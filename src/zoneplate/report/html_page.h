@@ -36,9 +36,10 @@ PagePicture page_errors(const Plane<float>& errors);
 /// null.
 Json page_table(const Table& table, std::string_view title, Json::Array targets = {});
 
-/// A page of images that works without a network: the viewer of web/report, with its pictures and data inside. Images
-/// are displayed side by side, alternately or by a slider, at 1 to 64 times their size, with their differences from a
-/// reference, error maps, values of pixels, tables, a plot, and frames.
+/// A page of images that works without a network: the viewer of web/report, with its pictures and data inside. The
+/// viewer and the data are packed, 22 kB without data. Images are displayed side by side, alternately or by a slider,
+/// at 1 to 64 times their size, with their differences from a reference, error maps, values of pixels, tables, a plot,
+/// and frames.
 ///
 /// `content` is an object. Its members (all but `scenes` may be absent):
 ///   title, text        the heading, and a paragraph below it
@@ -61,11 +62,12 @@ Json page_table(const Table& table, std::string_view title, Json::Array targets 
 /// Exact     the same bytes for equal arguments.
 std::string html_page(std::string_view title, const Json& content, std::span<const PagePicture> pictures);
 
-/// Bytes as printable ASCII without quotation marks, & and <: 13 bits become two characters of an alphabet of 91. The
-/// decoder may append a zero byte.
+/// Bytes as UTF-8 that an HTML element can contain unchanged, 8/7 as large: a character holds 7 bits. The four that
+/// HTML does not keep, NUL, LF, CR and <, are characters of two bytes, which hold the next 7 bits as well.
 std::string text_of_bytes(std::span<const std::uint8_t> bytes);
 
-/// The viewer, with the marks {{title}} and {{content}} for what a page adds; made by CMake from web/report.
-extern const std::string_view viewer_page;
+/// The page with the marks {{title}} and {{content}} for what is added, and the viewer that it unpacks; made by CMake
+/// from web/report.
+extern const std::string_view viewer_page, viewer_style, viewer_script;
 
 }  // namespace zoneplate

@@ -14,6 +14,7 @@
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/report/html_page_for_test.h"
 #include "zoneplate/signal/filter/kernel.h"
 
 namespace zoneplate::cli {
@@ -122,7 +123,7 @@ TEST_F(DemoFolder, APageHasThePanelsOfTheLesson) {
   const FileBytes file(path);
   const std::string page(file.bytes().begin(), file.bytes().end());
   EXPECT_NE(page.find("<title>Jaggies: with one sample"), std::string::npos);
-  EXPECT_NE(page.find("{\"name\":\"--aa msaa:n=8\",\"text\":\""), std::string::npos);
+  EXPECT_NE(content_of_page(page).find("{\"name\":\"--aa msaa:n=8\",\"text\":\""), std::string::npos);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(place), std::filesystem::directory_iterator()), 1);
 
   // Of an animated lesson each panel has its frames, and a panel that does not move has one.
@@ -132,8 +133,8 @@ TEST_F(DemoFolder, APageHasThePanelsOfTheLesson) {
   second.rows[0][1].picture(0, 0).r = 9;
   const std::vector<NamedLesson> lessons{{"lesson", {.frames = {first, second}}}};
   const std::string film = page_of(lessons);
-  EXPECT_NE(film.find("{\"name\":\"still\",\"text\":\"\",\"frames\":[0]}"), std::string::npos);
-  EXPECT_NE(film.find("{\"name\":\"moving\",\"text\":\"text\",\"frames\":[1,2]}"), std::string::npos);
+  EXPECT_NE(content_of_page(film).find("{\"name\":\"still\",\"text\":\"\",\"frames\":[0]}"), std::string::npos);
+  EXPECT_NE(content_of_page(film).find("{\"name\":\"moving\",\"text\":\"text\",\"frames\":[1,2]}"), std::string::npos);
   EXPECT_EQ(film, page_of(lessons));
 }
 

@@ -17,6 +17,7 @@
 #include "zoneplate/codec/png.h"
 #include "zoneplate/metrics/flip/magma.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/report/html_page_for_test.h"
 #include "zoneplate/report/json_for_test.h"
 
 namespace zoneplate::cli {
@@ -189,16 +190,17 @@ TEST_F(Regression, EveryImageIsJudgedByItself) {
     return std::string(file.bytes().begin(), file.bytes().end());
   };
   const std::string junit = text_of_file("j.xml"), report = text_of_file("r.html");
+  const std::string content = content_of_page(report);
   EXPECT_TRUE(contains(junit, "tests=\"31\" failures=\"4\" errors=\"1\"")) << junit;
   EXPECT_TRUE(contains(junit, "<testcase name=\"b/extra &amp; more.png\"")) << junit;
   EXPECT_TRUE(contains(junit, "message=\"ssim is ")) << junit;
   EXPECT_TRUE(contains(report, "<title>5 of 31 images failed</title>"));
-  EXPECT_TRUE(contains(report, "{\"name\":\"a/shot8.png\",\"text\":\"ssim is "));
+  EXPECT_TRUE(contains(content, "{\"name\":\"a/shot8.png\",\"text\":\"ssim is "));
   EXPECT_TRUE(contains(report, "class=\"picture\" data-values=\"errors\">"));
-  EXPECT_TRUE(contains(report, "\"b/extra & more.png\",\"new\""));
-  EXPECT_FALSE(contains(report, place.string()));
+  EXPECT_TRUE(contains(content, "\"b/extra & more.png\",\"new\""));
+  EXPECT_FALSE(contains(report, place.string()) || contains(content, place.string()));
   run("'" + at("golden") + "' '" + at("made") + "' --metric ssim --threshold 0.95 --report again.html -q");
-  EXPECT_TRUE(contains(report, "Test images: made. References: golden."));
+  EXPECT_TRUE(contains(content, "Test images: made. References: golden."));
   EXPECT_EQ(text_of_file("again.html"), report);
   if (std::system("xmllint --version >/dev/null 2>&1") == 0) {
     const std::string schema = source_root + std::string("/tests/junit.xsd");
