@@ -80,13 +80,14 @@ every zoom. The playground draws every lesson anew for other parameters; some co
 function writeGallery() {
   fs.mkdirSync(at('gallery'), { recursive: true });
   const { scenes } = JSON.parse(run('list', 'scenes', '--json'));
-  const cards = failures.map(({ scene, methods, frames, size }) => {
+  const cards = failures.map(({ scene, methods, frames, size, look = '' }) => {
+    const options = look.split(',').filter(Boolean).flatMap((item) => [`--${item.split('=')[0]}`, item.split('=')[1]]);
     const more = frames ? ['--frames', String(frames)] : ['--turns', '1'];
-    run('compare', scene, '--aa', methods, '--size', size, '--html', `gallery/${scene}.html`, '--quiet', ...more);
-    run('render', scene, '--aa', 'none', '--size', '320x180', '-o', `gallery/${scene}.png`, '--quiet');
+    run('compare', scene, '--aa', methods, '--size', size, '--html', `gallery/${scene}.html`, '--quiet', ...more, ...options);
+    run('render', scene, '--aa', 'none', '--size', '320x180', '-o', `gallery/${scene}.png`, '--quiet', ...options);
     const { summary, artifact } = scenes.find(({ name }) => name === scene), about = artifact || summary;
     index.push({ page: `gallery/${scene}.html`, title: 'Gallery', heading: scene, text: about });
-    return `<li>${card(`${scene}.html`, scene, about, `${scene}.png`)}<a class="live" href="../playground/index.html#scene=${scene}&a=none&b=msaa:n=8">live in the playground</a></li>`;
+    return `<li>${card(`${scene}.html`, scene, about, `${scene}.png`)}<a class="live" href="../playground/index.html#scene=${scene}&a=none&b=msaa:n=8${look ? `&looka=${look}&lookb=${look}` : ''}">live in the playground</a></li>`;
   });
   writePage('gallery/index.html', 'Gallery', `<h1>Gallery</h1><p>Scenes in which antialiasing fails, each with a report: images by several methods, their errors against a
 reference, and their cost.</p><ul class="cards">${cards.join('')}</ul>`, 'gallery/index.html');
