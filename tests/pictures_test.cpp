@@ -175,12 +175,12 @@ Shot shadowed_shot(ShadowOptions shadows) {
 
 TEST(Pictures, ShadowsHaveTheirBits) {
   const std::pair<ShadowOptions, std::uint64_t> shadow_goldens[] = {
-      {{.method = ShadowMethod::Hard}, 0x6e5621faed3b2b14u},
-      {{.method = ShadowMethod::Soft, .samples = 9, .angle = 0.2f}, 0x4681d2d156bdd0aeu},
-      {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Nearest, .size = 64}}, 0x33fc234ff5ff85cbu},
-      {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Pcf, .size = 64}}, 0xe06f4ece22970c5au},
-      {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Pcss, .size = 64}}, 0x159ed39d3df755dcu},
-      {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Evsm, .size = 64}}, 0x94ba9f047381e5e7u},
+      {{.method = ShadowMethod::Hard}, 0x2f852783bb5a21d6u},
+      {{.method = ShadowMethod::Soft, .samples = 9, .angle = 0.2f}, 0xde70a17ed0f40157u},
+      {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Nearest, .size = 64}}, 0x9ed92046a8313f5bu},
+      {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Pcf, .size = 64}}, 0x5229c1c0ef1be204u},
+      {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Pcss, .size = 64}}, 0x51f405bcce50b53u},
+      {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Evsm, .size = 64}}, 0xa101a75790787357u},
   };
   for (const auto& [shadows, hash] : shadow_goldens)
     EXPECT_EQ(hash_of(shadowed_shot(shadows).frame("msaa:n=4").color), hash) << std::hex << hash;

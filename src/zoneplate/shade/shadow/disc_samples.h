@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <vector>
@@ -74,6 +75,52 @@ class ShiftedDisc {
  private:
   const DiscLattice& lattice_;
   std::uint32_t square_, x_, y_;
+  float cosine_, sine_;
+};
+
+/// Points of a disc on a spiral of equal areas, the golden angle apart, for any number of them. No part of the points
+/// covers the disc evenly, unlike that of a DiscLattice, but all of them do so better.
+///
+/// Source    Vogel, A Better Way to Construct the Sunflower Head, Mathematical Biosciences 44, 1979.
+class DiscSpiral {
+ public:
+  struct Point {
+    float cosine, sine;  ///< of the turn
+  };
+
+  explicit DiscSpiral(int count) {
+    constexpr std::uint32_t golden = 2654435769u;  // 2^32 divided by the golden ratio
+    for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(count); ++i) {
+      const float turn = 6.28318531f * unit_float(i * golden);
+      points_.push_back({cos(turn), sin(turn)});
+    }
+  }
+  const Point& operator[](std::uint32_t i) const { return points_[i]; }
+  int count() const { return static_cast<int>(points_.size()); }
+
+ private:
+  std::vector<Point> points_;
+};
+
+/// The spiral of one receiver: turned by a random angle, and moved outwards by a random part of its step.
+class TurnedSpiral {
+ public:
+  TurnedSpiral(const DiscSpiral& spiral, std::uint32_t seed, std::uint32_t dimension)
+      : spiral_(spiral),
+        step_(1 / static_cast<float>(spiral.count())),
+        start_(unit_float(hash(seed, dimension, 1)) * step_) {
+    const float turn = 6.28318531f * unit_float(hash(seed, dimension, 2));
+    cosine_ = cos(turn), sine_ = sin(turn);
+  }
+  ShiftedDisc::Point operator()(std::uint32_t i) const {
+    const DiscSpiral::Point& p = spiral_[i];
+    const float square = start_ + static_cast<float>(i) * step_;
+    return {std::min(square, 1.0f), p.cosine * cosine_ - p.sine * sine_, p.sine * cosine_ + p.cosine * sine_, 0, 0};
+  }
+
+ private:
+  const DiscSpiral& spiral_;
+  float step_, start_;
   float cosine_, sine_;
 };
 

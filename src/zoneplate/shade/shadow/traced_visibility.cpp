@@ -72,7 +72,8 @@ TracedVisibility::TracedVisibility(const Bvh& bvh, const OpacityOfHits& opacity,
       shadows_(shadows),
       occlusion_(occlusion),
       environment_(environment),
-      lattice_(std::max(shadows.method == ShadowMethod::Soft ? shadows.samples : 0, occlusion.samples)),
+      lattice_(shadows.method == ShadowMethod::Soft ? shadows.samples : 0),
+      spiral_(occlusion.samples),
       kernels_(RayKernels::of()) {}
 
 /// The mean over rays ray(0), ray(1), ... of what each of them sees. The first quarter of the rays are the only ones
@@ -148,7 +149,7 @@ void TracedVisibility::of_environment(const Receivers& receivers, float* visible
     const float3 origin = origin_of(receivers, i, 1);
     visible[i] = 1;
     if (distance_squared(bounds_, origin) > occlusion_.distance * occlusion_.distance) continue;
-    const ShiftedDisc disc(lattice_, receivers.seed[i], 0);
+    const TurnedSpiral disc(spiral_, receivers.seed[i], 0);
     const DirectionsAbout directions(at(receivers.normal, i));
     float all = 0, arriving = 0;
     for (int first = 0; first < occlusion_.samples; first += chunk) {

@@ -47,7 +47,8 @@ class TracedVisibility : public LightVisibility {
   ShadowOptions shadows_;
   OcclusionOptions occlusion_;
   const EnvironmentView* environment_;
-  DiscLattice lattice_;
+  DiscLattice lattice_;  ///< of rays to lights
+  DiscSpiral spiral_;    ///< of rays to the environment
   const RayKernels& kernels_;
 };
 
