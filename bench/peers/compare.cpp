@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The benchmark scenes drawn by Mesa's software OpenGL and by Zoneplate, in turns, in one run: times, their ratios, how
-// far each picture is from a supersampled reference, and how far from each other. bench/peers/run builds and starts it.
+// The benchmark scenes drawn by Mesa's software OpenGL and Vulkan and by Zoneplate, in turns, in one run: times, their
+// ratios, the distance of each image from a supersampled reference, and of each peer's image from Zoneplate's.
+// bench/peers/run builds and starts it.
 #include <fmt/format.h>
 #include <sched.h>
 
@@ -12,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "mesa.h"
+#include "peer.h"
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
@@ -106,10 +107,21 @@ double psnr(const Rgba8Image& picture, const Rgba8Image& samples, int scale) {
   return metrics::psnr_of_mse(sum / (3 * 255.0 * 255.0 * static_cast<double>(picture.values().size())));
 }
 
-/// llvmpipe 22.3 does not terminate with anisotropic filtering of several samples; 25.0 does.
+/// llvmpipe and lavapipe 22.3 do not terminate with anisotropic filtering of several samples; 25.0 do.
 bool terminates(const std::string& version) {
   const std::size_t at = version.find("Mesa ");
-  return at != std::string::npos && std::atoi(version.c_str() + at + 5) >= 25;
+  return at == std::string::npos || std::atoi(version.c_str() + at + 5) >= 25;
+}
+
+struct Api {
+  const char* name;
+  std::unique_ptr<Peer> (*make)(const Scene&, const Work&);
+};
+constexpr Api apis[] = {{"llvmpipe", make_llvmpipe}, {"lavapipe", make_lavapipe}};
+
+void print_row(const Case& c, int samples, const char* name, const std::string& cells) {
+  fmt::print("{:<15}{}x  {:<10}{}\n", c.scene, samples, name, cells);
+  std::fflush(stdout);
 }
 
 void compare(const Case& c, double budget_ms, const std::string& pictures) {
@@ -125,34 +137,40 @@ void compare(const Case& c, double budget_ms, const std::string& pictures) {
   Renderer reference_renderer = renderer_of(1);
   const Rgba8Image reference = render(reference_renderer, scene.cameras.front(), large);
 
+  const auto times_cells = [](Times t) {
+    return fmt::format("{:8.1f} {:8.1f} {:8.1f}", t.least, t.median, t.processor);
+  };
+  const auto save = [&](const char* name, int samples, const Rgba8Image& picture) {
+    if (pictures.empty()) return;
+    save_bytes(fmt::format("{}/{}-{}x-{}.png", pictures, c.scene, samples, name),
+               encode_png(picture, {.has_alpha = false}));
+  };
   for (const int samples : {1, 4}) {
     work.samples = samples;
-    Mesa mesa(scene, work);
-    const bool is_drawn_by_mesa = samples == 1 || c.anisotropy == 1 || terminates(mesa.version());
-    Times theirs;
-    if (is_drawn_by_mesa) theirs = time_frames(budget_ms, [&] { mesa.frame(); });
     Renderer renderer = renderer_of(samples);
     Rgba8Image image;
     const Times ours = time_frames(budget_ms, [&] {
       renderer.recycle(std::move(image));
       image = render(renderer, scene.cameras.front(), work);
     });
-
-    const auto ms = [](Times t) { return fmt::format("{:8.1f} {:8.1f} {:8.1f}", t.least, t.median, t.processor); };
-    fmt::print("{:<15}{}x  {}  {}  ", c.scene, samples, is_drawn_by_mesa ? ms(theirs) : fmt::format("{:>26}", "-"),
-               ms(ours));
-    if (is_drawn_by_mesa) {
-      const Distance d = distance(mesa.picture(), image);
-      fmt::print("{:6.1f} {:6.1f} {:6.1f}  {:6.2f} {:6.2f}   {:.4f} {:3}", theirs.least / ours.least,
-                 theirs.median / ours.median, theirs.processor / ours.processor, psnr(mesa.picture(), reference, scale),
-                 psnr(image, reference, scale), d.mean, d.most);
+    print_row(c, samples, "zoneplate",
+              fmt::format("{}  {:>20}  {:6.2f}", times_cells(ours), "", psnr(image, reference, scale)));
+    save("zoneplate", samples, image);
+    for (const Api& api : apis) {
+      const std::unique_ptr<Peer> peer = api.make(scene, work);
+      if (samples > 1 && c.anisotropy > 1 && !terminates(peer->version())) {
+        print_row(c, samples, api.name, "does not terminate");
+        continue;
+      }
+      const Times theirs = time_frames(budget_ms, [&] { peer->frame(); });
+      const Rgba8Image picture = peer->picture();
+      const Distance d = distance(picture, image);
+      print_row(c, samples, api.name,
+                fmt::format("{}  {:6.1f} {:6.1f} {:6.1f}  {:6.2f}   {:.4f} {:3}", times_cells(theirs),
+                            theirs.least / ours.least, theirs.median / ours.median, theirs.processor / ours.processor,
+                            psnr(picture, reference, scale), d.mean, d.most));
+      save(api.name, samples, picture);
     }
-    fmt::print("\n");
-    std::fflush(stdout);
-    if (pictures.empty()) continue;
-    const std::string name = fmt::format("{}/{}-{}x", pictures, c.scene, samples);
-    if (is_drawn_by_mesa) save_bytes(name + "-mesa.png", encode_png(mesa.picture(), {.has_alpha = false}));
-    save_bytes(name + "-zoneplate.png", encode_png(image, {.has_alpha = false}));
   }
 }
 
@@ -169,14 +187,13 @@ void set_threads(int threads) {
 void run(int threads, const std::string& only, double budget_ms, const std::string& pictures) {
   set_threads(threads);
   const Case& first = cases[0];
-  const std::string version =
-      Mesa(*make_builtin_scene(first.scene), {.anisotropy = first.anisotropy, .background = first.background})
-          .version();
-  fmt::print("OpenGL {}; 1920x1080, {} thread{}\n", version, threads, threads == 1 ? "" : "s");
-  fmt::print("{:<17}{:>28}  {:>26}  {:>20}  {:>13}\n", "", "Mesa: ms a frame", "Zoneplate", "ratios", "dB of 16x");
-  const std::string times = fmt::format("{:>8} {:>8} {:>8}", "least", "median", "cpu");
-  fmt::print("{:<19}{}  {}  {:>6} {:>6} {:>6}  {:>6} {:>6}   mean, most of 255\n", "", times, times, "least", "median",
-             "cpu", "Mesa", "ours");
+  const Scene scene = *make_builtin_scene(first.scene);
+  for (const Api& api : apis)
+    fmt::print("{}: {}\n", api.name, api.make(scene, {.background = first.background})->version());
+  fmt::print("1920x1080, {} thread{}\n", threads, threads == 1 ? "" : "s");
+  fmt::print("{:<29}{:>26}  {:>20}  {:>6}   {}\n", "", "ms a frame", "ratios", "dB of", "difference from zoneplate");
+  fmt::print("{:<29}{:>8} {:>8} {:>8}  {:>6} {:>6} {:>6}  {:>6}   mean, most of 255\n", "", "least", "median", "cpu",
+             "least", "median", "cpu", "16x");
   with_threads(threads, [&] {
     for (const Case& c : cases)
       if (only.empty() || only == c.scene) compare(c, budget_ms, pictures);

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "mesa.h"
-
 #include <GL/glcorearb.h>
 #include <dlfcn.h>
 
-#include <algorithm>
 #include <vector>
 
+#include "peer.h"
+#include "uploads.h"
 #include "zoneplate/base/error.h"
 
 namespace zoneplate::peers {
@@ -125,20 +124,6 @@ struct OpenGl {
   }
 };
 
-/// The next level of a texture: rounded means of two by two texels. (Mesa's own are not rounded to the nearest.)
-Rgba8Image half_of(const Rgba8Image& image) {
-  Rgba8Image out(std::max(1, image.width() / 2), std::max(1, image.height() / 2));
-  const auto mean = [](int a, int b, int c, int d) { return static_cast<std::uint8_t>((a + b + c + d + 2) / 4); };
-  for (int y = 0; y < out.height(); ++y)
-    for (int x = 0; x < out.width(); ++x) {
-      const int right = std::min(2 * x + 1, image.width() - 1), below = std::min(2 * y + 1, image.height() - 1);
-      const Rgba8 p = image(2 * x, 2 * y), q = image(right, 2 * y), r = image(2 * x, below), s = image(right, below);
-      out(x, y) = {mean(p.r, q.r, r.r, s.r), mean(p.g, q.g, r.g, s.g), mean(p.b, q.b, r.b, s.b),
-                   mean(p.a, q.a, r.a, s.a)};
-    }
-  return out;
-}
-
 constexpr const char* vertex_text = R"(
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -188,28 +173,16 @@ void main() {
 }
 )";
 
-}  // namespace
-
-struct Mesa::State {
-  Work work;
-  std::vector<std::uint8_t> target = std::vector<std::uint8_t>(16 * 16 * 4);  // of the context; nothing is drawn there
-  Library library;
-  void (*destroy)(void*) = nullptr;
-  void* context = make_context();
-  OpenGl gl{library};
-  std::string version;
-  GLuint drawn = 0, resolved = 0;
-  GLsizei indices = 0;
-  std::vector<std::uint8_t> pixels;
-
-  State(const Scene& scene, const Work& requested) : work(requested) {
-    version = reinterpret_cast<const char*>(gl.GetString(GL_VERSION));
+class Llvmpipe : public Peer {
+ public:
+  Llvmpipe(const Scene& scene, const Work& requested) : work(requested) {
+    version_ = std::string("OpenGL ") + reinterpret_cast<const char*>(gl.GetString(GL_VERSION));
     pixels.resize(static_cast<std::size_t>(work.width) * static_cast<std::size_t>(work.height) * 4);
     make_framebuffers();
     upload(scene.meshes.at(0));
     make_program(scene);
     const Material& material = scene.materials.at(0);
-    if (material.base_color_texture.image >= 0) upload(scene.images.at(0).pixels.as<Rgba8>());
+    if (is_textured(scene)) upload(scene.images.at(0).pixels.as<Rgba8>());
     gl.Enable(GL_DEPTH_TEST);
     if (!material.double_sided) gl.Enable(GL_CULL_FACE);
     if (material.alpha_mode == AlphaMode::Blend) {
@@ -220,7 +193,44 @@ struct Mesa::State {
     gl.ClearColor(work.background.x, work.background.y, work.background.z, 1);
     if (const GLenum error = gl.GetError()) fail("error " + std::to_string(error));
   }
-  ~State() { destroy(context); }
+  ~Llvmpipe() override { destroy(context); }
+  Llvmpipe(const Llvmpipe&) = delete;
+  Llvmpipe& operator=(const Llvmpipe&) = delete;
+
+  void frame() override {
+    gl.BindFramebuffer(GL_FRAMEBUFFER, drawn);
+    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    gl.DrawElements(GL_TRIANGLES, indices, GL_UNSIGNED_INT, nullptr);
+    if (work.samples > 1) {
+      gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved);
+      gl.BlitFramebuffer(0, 0, work.width, work.height, 0, 0, work.width, work.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+      gl.BindFramebuffer(GL_FRAMEBUFFER, resolved);
+    }
+    gl.ReadPixels(0, 0, work.width, work.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+  }
+  Rgba8Image picture() const override {
+    Rgba8Image out(work.width, work.height);
+    const auto stride = static_cast<std::size_t>(out.width()) * 4;
+    for (int y = 0; y < out.height(); ++y) {
+      const std::uint8_t* row = pixels.data() + static_cast<std::size_t>(out.height() - 1 - y) * stride;
+      for (std::size_t x = 0; x < static_cast<std::size_t>(out.width()); ++x)
+        out(static_cast<int>(x), y) = {row[4 * x], row[4 * x + 1], row[4 * x + 2], row[4 * x + 3]};
+    }
+    return out;
+  }
+  const std::string& version() const override { return version_; }
+
+ private:
+  Work work;
+  std::vector<std::uint8_t> target = std::vector<std::uint8_t>(16 * 16 * 4);  // of the context; nothing is drawn there
+  Library library;
+  void (*destroy)(void*) = nullptr;
+  void* context = make_context();
+  OpenGl gl{library};
+  std::string version_;
+  GLuint drawn = 0, resolved = 0;
+  GLsizei indices = 0;
+  std::vector<std::uint8_t> pixels;
 
   void* make_context() {
     // From the interface of OSMesa: format, depth bits, profile, version.
@@ -254,14 +264,7 @@ struct Mesa::State {
   }
 
   void upload(const Mesh& mesh) {
-    // One record of eight numbers a vertex: what a program that wants speed would do.
-    std::vector<float> vertices;
-    vertices.reserve(mesh.position.size() * 8);
-    for (std::size_t i = 0; i < mesh.position.size(); ++i) {
-      const float3 p = mesh.position[i], n = mesh.normal[i];
-      const float2 uv = mesh.uv0[i];
-      vertices.insert(vertices.end(), {p.x, p.y, p.z, n.x, n.y, n.z, uv.x, uv.y});
-    }
+    const std::vector<float> vertices = interleaved_vertices(mesh);
     indices = static_cast<GLsizei>(mesh.index.size());
     GLuint array = 0, buffers[2] = {};
     gl.GenVertexArrays(1, &array);
@@ -284,11 +287,9 @@ struct Mesa::State {
     gl.GenTextures(1, &texture);
     gl.BindTexture(GL_TEXTURE_2D, texture);
     GLint number = 0;
-    for (Rgba8Image level = image;; level = half_of(level)) {
+    for (const Rgba8Image& level : mip_levels(image))
       gl.TexImage2D(GL_TEXTURE_2D, number++, GL_RGBA8, level.width(), level.height(), 0, GL_RGBA, GL_UNSIGNED_BYTE,
                     level.values().data());
-      if (level.width() == 1 && level.height() == 1) break;
-    }
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     constexpr GLenum max_anisotropy = 0x84FE;
@@ -307,61 +308,34 @@ struct Mesa::State {
   }
 
   void make_program(const Scene& scene) {
-    const Material& m = scene.materials.at(0);
     std::string head = "#version 330 core\n";
-    if (m.model != ShadingModel::Unlit) head += "#define LIT\n";
-    if (m.base_color_texture.image >= 0) head += "#define TEXTURED\n";
+    if (is_lit(scene)) head += "#define LIT\n";
+    if (is_textured(scene)) head += "#define TEXTURED\n";
     const GLuint program = gl.CreateProgram();
     compile(program, GL_VERTEX_SHADER, head + vertex_text);
     compile(program, GL_FRAGMENT_SHADER, head + fragment_text);
     gl.LinkProgram(program);
     gl.UseProgram(program);
 
-    const Camera& camera = scene.cameras.at(0);
-    const float aspect = static_cast<float>(work.width) / static_cast<float>(work.height);
-    float4x4 clip = camera.clip_from_camera(aspect) * inverse(camera.world_from_camera);
-    // Our depth is 1 near and 0 far, OpenGL's -1 and 1.
-    for (float4& column : clip.column) column.z = column.w - 2 * column.z;
-    gl.UniformMatrix4fv(gl.GetUniformLocation(program, "clip_from_world"), 1, GL_FALSE, &clip.column[0].x);
-    const auto set = [&](const char* name, float x, float y, float z, float w) {
-      gl.Uniform4f(gl.GetUniformLocation(program, name), x, y, z, w);
+    Uniforms uniforms = uniforms_of(scene, work);
+    // OpenGL's depth is -1 at the near plane.
+    for (float4& column : uniforms.clip_from_world.column) column.z = 2 * column.z - column.w;
+    gl.UniformMatrix4fv(gl.GetUniformLocation(program, "clip_from_world"), 1, GL_FALSE,
+                        &uniforms.clip_from_world.column[0].x);
+    const auto set = [&](const char* name, float4 v) {
+      gl.Uniform4f(gl.GetUniformLocation(program, name), v.x, v.y, v.z, v.w);
     };
-    const float4 eye = camera.world_from_camera.column[3];
-    set("base", m.base_color.x, m.base_color.y, m.base_color.z, m.base_color.w);
-    set("eye", eye.x, eye.y, eye.z, 1);
-    set("look", scene.ambient_light.x, m.specular.x, m.exponent, 0);
-    if (scene.lights.empty()) return;
-    const float3 light = -scene.lights[0].direction;
-    set("light", light.x, light.y, light.z, 0);
-  }
-
-  void draw() {
-    gl.BindFramebuffer(GL_FRAMEBUFFER, drawn);
-    gl.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    gl.DrawElements(GL_TRIANGLES, indices, GL_UNSIGNED_INT, nullptr);
-    if (work.samples > 1) {
-      gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved);
-      gl.BlitFramebuffer(0, 0, work.width, work.height, 0, 0, work.width, work.height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
-      gl.BindFramebuffer(GL_FRAMEBUFFER, resolved);
-    }
-    gl.ReadPixels(0, 0, work.width, work.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels.data());
+    set("base", uniforms.base);
+    set("eye", uniforms.eye);
+    set("light", uniforms.light);
+    set("look", uniforms.look);
   }
 };
 
-Mesa::Mesa(const Scene& scene, const Work& work) : state_(std::make_unique<State>(scene, work)) {}
-Mesa::~Mesa() = default;
-void Mesa::frame() { state_->draw(); }
-const std::string& Mesa::version() const { return state_->version; }
+}  // namespace
 
-Rgba8Image Mesa::picture() const {
-  Rgba8Image out(state_->work.width, state_->work.height);
-  const auto stride = static_cast<std::size_t>(out.width()) * 4;
-  for (int y = 0; y < out.height(); ++y) {
-    const std::uint8_t* row = state_->pixels.data() + static_cast<std::size_t>(out.height() - 1 - y) * stride;
-    for (std::size_t x = 0; x < static_cast<std::size_t>(out.width()); ++x)
-      out(static_cast<int>(x), y) = {row[4 * x], row[4 * x + 1], row[4 * x + 2], row[4 * x + 3]};
-  }
-  return out;
+std::unique_ptr<Peer> make_llvmpipe(const Scene& scene, const Work& work) {
+  return std::make_unique<Llvmpipe>(scene, work);
 }
 
 }  // namespace zoneplate::peers
