@@ -1,107 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "zoneplate/math/blend_lanes.h"
 #include "zoneplate/math/for_row.h"
+#include "zoneplate/upscale/fsr/accumulate_lanes.h"
 #include "zoneplate/upscale/fsr2/accumulate.h"
-#include "zoneplate/upscale/pixel_lanes.h"
 
 /// Fsr2AccumulateKernels over a lane type of math/lanes.h.
 namespace zoneplate::stages {
 
 namespace fsr2 {
 
+using namespace stages::fsr;
+
 constexpr float epsilon = 1e-3f, greatest_half = 65504;
 
+/// The four pixels of the last frame around a place.
+///
+/// A texture unit has fractions of 8 bits. Without them, history at rest would be a mean with 1e-5 of a neighbour, and
+/// lumas of the same code would not be equal.
 template <class F>
-[[gnu::always_inline]] inline F smaller_over_greater(F a, F b) {
-  const F greater = max(a, b);
-  return select(greater == F(0.0f), F(0.0f), min(a, b) / greater);
-}
+struct Nearest : Neighbours<F, 2> {
+  using Neighbours<F, 2>::column, Neighbours<F, 2>::row, Neighbours<F, 2>::right, Neighbours<F, 2>::below;
 
-template <class F>
-struct Color {
-  F c[3];
-};
-template <class F>
-[[gnu::always_inline]] inline Color<F> rgb_of(const Color<F>& y) {
-  return {{y.c[0] + y.c[1] - y.c[2], y.c[0] + y.c[2], y.c[0] - y.c[1] - y.c[2]}};
-}
-template <class F>
-[[gnu::always_inline]] inline Color<F> ycocg_of(const Color<F>& c) {
-  return {{F(0.25f) * c.c[0] + F(0.5f) * c.c[1] + F(0.25f) * c.c[2], F(0.5f) * c.c[0] - F(0.5f) * c.c[2],
-           F(-0.25f) * c.c[0] + F(0.5f) * c.c[1] - F(0.25f) * c.c[2]}};
-}
-template <class F>
-[[gnu::always_inline]] inline Color<F> scaled(const Color<F>& c, F s) {
-  return {{c.c[0] * s, c.c[1] * s, c.c[2] * s}};
-}
-template <class F>
-[[gnu::always_inline]] inline Color<F> tone_mapped(const Color<F>& c) {
-  return scaled(c, F(1.0f) / (max(max(F(0.0f), c.c[0]), max(c.c[1], c.c[2])) + F(1.0f)));
-}
-template <class F>
-[[gnu::always_inline]] inline Color<F> inverse_tone_mapped(const Color<F>& c) {
-  return scaled(c, F(1.0f) / max(F(1 / greatest_half), F(1.0f) - max(c.c[0], max(c.c[1], c.c[2]))));
-}
-
-/// The weights of four samples at -1, 0, 1 and 2, of Lanczos' kernel with two lobes at t in [0, 1), with the sum 1.
-template <class F>
-[[gnu::always_inline]] inline void lanczos_weights(F t, F (&w)[4]) {
-  constexpr float half_pi = 1.57079632679f;
-  const F s = sin(t * F(half_pi)), c = cos(t * F(half_pi)), sc2 = F(2.0f) * s * c;
-  // sin(πx) sin(πx/2) / (½ π² x²): up to the sign, the sines of all four are those of t.
-  const auto over_square = [](F sines, F x) {
-    const F value = sines / (F(2 * half_pi * half_pi) * (x * x));
-    return select(F(epsilon) > abs(x), F(1.0f), value);
-  };
-  w[0] = over_square(-sc2 * c, F(1.0f) + t), w[1] = over_square(sc2 * s, t);
-  w[2] = over_square(sc2 * c, F(1.0f) - t), w[3] = over_square(-sc2 * s, F(2.0f) - t);
-  const F scale = F(1.0f) / (w[0] + w[1] + w[2] + w[3]);
-  for (F& each : w) each = each * scale;
-}
-
-/// The approximation of the kernel of the square of a distance, at most 4.
-template <class F>
-[[gnu::always_inline]] inline F lanczos_of_square(F x2) {
-  x2 = min(x2, F(4.0f));
-  const F a = F(0.4f) * x2 - F(1.0f), b = F(0.25f) * x2 - F(1.0f);
-  return (F(25.0f / 16) * a * a - F(25.0f / 16 - 1)) * (b * b);
-}
-
-template <class F>
-[[gnu::always_inline]] inline F bilinear(const float* const (&rows)[2], typename F::Int left, typename F::Int right,
-                                         F x, F y) {
-  const F above = mixed(F::gather(rows[0], left), F::gather(rows[0], right), x);
-  return mixed(above, mixed(F::gather(rows[1], left), F::gather(rows[1], right), x), y);
-}
-
-/// Pixels around a place of the last frame: their indices, clamped to the image, and the place between them.
-template <class F, int taps>
-struct Neighbours {
-  using Int = typename F::Int;
-  Int column[taps], row[taps];  // row: the index of its first pixel
-  F right, below;
-
-  /// The first tap is `before` pixels before the pixel at or before (x, y), which are in pixels from the first centre.
-  [[gnu::always_inline]] Neighbours(const Fsr2AccumulateFrame& frame, F x, F y, int before) {
-    const F left = floor(x), top = floor(y);
-    right = x - left, below = y - top;
-    // A texture unit has fractions of 8 bits. Without them, history at rest would be a mean with 1e-5 of a neighbour,
-    // and lumas of the same code would not be equal.
-    if (taps == 2) right = in_texture_unit(right), below = in_texture_unit(below);
-    for (int t = 0; t < taps; ++t) {
-      column[t] = min(max(truncate(left) + Int(t - before), Int(0)), Int(frame.width - 1));
-      row[t] = min(max(truncate(top) + Int(t - before), Int(0)), Int(frame.height - 1)) * Int(frame.width);
-    }
+  [[gnu::always_inline]] Nearest(const Fsr2AccumulateFrame& frame, F x, F y)
+      : Neighbours<F, 2>(frame.width, frame.height, x, y, 0) {
+    right = in_texture_unit(right), below = in_texture_unit(below);
   }
   [[gnu::always_inline]] static F in_texture_unit(F fraction) {
     return floor(fraction * F(256.0f) + F(0.5f)) * F(1.0f / 256);
-  }
-  [[gnu::always_inline]] void load(const float* pixels, int c, int r, F (&out)[4]) const {
-    std::int32_t index[F::lanes];
-    (row[r] + column[c]).store(index);
-    load_pixels<F>([&](int lane) { return pixels + std::size_t{4} * static_cast<std::size_t>(index[lane]); }, out);
   }
   /// The mean of four values, which are given by row.
   [[gnu::always_inline]] F mean(F a, F b, F c, F d) const {
@@ -114,31 +40,13 @@ struct Neighbours {
   }
 };
 
-/// The history at a place of the last frame, by Lanczos' kernel, within the range of the four nearest pixels.
+/// The history at a place of the last frame.
 template <class F>
 [[gnu::always_inline]] inline void sample_history(const Fsr2AccumulateFrame& frame, F u, F v, F (&out)[4]) {
   const F width = F(static_cast<float>(frame.width)), height = F(static_cast<float>(frame.height));
   const auto place = [](F at, F size) { return max(F(0.0f), min(size, at * size - F(0.5f))); };
-  const Neighbours<F, 4> taps(frame, place(u, width), place(v, height), 1);
-  F wx[4], wy[4], least[4], most[4];
-  lanczos_weights(taps.right, wx), lanczos_weights(taps.below, wy);
-  for (int c = 0; c < 4; ++c) out[c] = F(0.0f);
-  for (int r = 0; r < 4; ++r) {
-    F sum[4] = {F(0.0f), F(0.0f), F(0.0f), F(0.0f)};
-    for (int k = 0; k < 4; ++k) {
-      F pixel[4];
-      taps.load(frame.history, k, r, pixel);
-      for (int c = 0; c < 4; ++c) sum[c] = sum[c] + wx[k] * pixel[c];
-      if ((k != 1 && k != 2) || (r != 1 && r != 2)) continue;
-      for (int c = 0; c < 4; ++c) {
-        const bool is_first = k == 1 && r == 1;
-        least[c] = is_first ? pixel[c] : min(least[c], pixel[c]),
-        most[c] = is_first ? pixel[c] : max(most[c], pixel[c]);
-      }
-    }
-    for (int c = 0; c < 4; ++c) out[c] = out[c] + wy[r] * sum[c];
-  }
-  for (int c = 0; c < 4; ++c) out[c] = min(max(out[c], least[c]), most[c]);
+  const Neighbours<F, 4> taps(frame.width, frame.height, place(u, width), place(v, height), 1);
+  sample_by_lanczos(frame.history, taps, epsilon, out);
 }
 
 /// A lock of a thin feature: what is left of its life, and the shading when it began.
@@ -231,8 +139,7 @@ template <class F>
   const F motion_x = F::gather(row.motion, motion_column), motion_y = F::gather(row.motion + 1, motion_column);
   const F px = motion_x * width, py = motion_y * height, velocity = sqrt(px * px + py * py);
   const F last_u = u + motion_x, last_v = v + motion_y;
-  const auto is_inside = [&](F x, F y) { return (x >= zero) & (one >= x) & (y >= zero) & (one >= y); };
-  const auto exists = is_inside(last_u, last_v);
+  const auto exists = is_in_image(last_u, last_v);
   const auto is_old = exists & (F(frame.is_first ? 0.0f : 1.0f) > zero);
 
   const Int clip_column = Int::load(row.clip_column + i), mask_column = Int::load(row.mask_column + i);
@@ -254,7 +161,7 @@ template <class F>
     history = ycocg_of(exposed);
     reactive = where(is_old, saturated(abs(pixel[3])));
     was_moving = where(is_old & (zero > pixel[3]), one);
-    const Neighbours<F, 2> nearest(frame, last_u * width - F(0.5f), last_v * height - F(0.5f), 0);
+    const Nearest<F> nearest(frame, last_u * width - F(0.5f), last_v * height - F(0.5f));
     lock.life = where(is_old, nearest.mean(frame.lock_life)), lock.luma = where(is_old, nearest.mean(frame.lock_luma));
     F near[2][2][4];
     for (int r = 0; r < 2; ++r)
@@ -323,11 +230,11 @@ template <class F>
     const Color<F> from = tone_mapped(rgb_of(history)), to = tone_mapped(fresh);
     Color<F> blended;
     for (int c = 0; c < 3; ++c) blended.c[c] = mixed(from.c[c], to.c[c], alpha);
-    blended = inverse_tone_mapped(blended);
+    blended = inverse_tone_mapped(blended, 1 / greatest_half);
     for (int c = 0; c < 3; ++c) out.c[c] = select(is_old, blended.c[c], fresh.c[c]);
   }
 
-  const auto stays_inside = is_inside(u - motion_x, v - motion_y);
+  const auto stays_inside = is_in_image(u - motion_x, v - motion_y);
   const F life = where(stays_inside, max(zero, lock.life - weight * F(frame.lock_decrease)));
   F factor = min(F(0.99f), reactive);
   factor = max(factor, mixed(factor, F(0.4f), saturated(velocity)));

@@ -1,20 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "zoneplate/image/rgb.h"
-#include "zoneplate/math/vec.h"
+#include "zoneplate/upscale/fsr/passes.h"
 
 namespace zoneplate::upscale {
-
-/// One frame for FSR 2: an image of fewer pixels than the output, jittered, with its depth and motion.
-struct Fsr2Frame {
-  LinearImage color;     ///< scene-linear; alpha is not used
-  Plane<float> depth;    ///< distance along the view axis; at most Fsr2::far
-  Plane<float2> motion;  ///< in pixels of this frame: position now minus the last one, without jitter
-  float2 jitter;         ///< the frame's pixels are sampled at their centres minus this
-  float corner = 1;      ///< length of the vector from the camera to the image's corner at depth 1
-  bool is_first = true;  ///< after a cut: the history is dropped
-};
 
 struct Fsr2Options {
   bool sharpens = false;
@@ -29,10 +18,9 @@ struct Fsr2Options {
 /// What the passes of one frame make, for tests.
 struct Fsr2Passes {
   float exposure = 1;
-  Plane<float> luminance;        ///< logarithms, for blocks of 32 × 32 pixels
-  Plane<float> dilated_depth;    ///< the nearest of 3 × 3 pixels
-  Plane<float2> dilated_motion;  ///< its motion: to the last frame, in widths and heights of the image
-  Plane<float> previous_depth;   ///< where the frame's surfaces were in the last frame
+  Plane<float> luminance;  ///< logarithms, for blocks of 32 × 32 pixels
+  fsr::Dilated dilated;
+  Plane<float> previous_depth;  ///< where the frame's surfaces were in the last frame
   Plane<float> lock_luma;
   DisplayImage prepared;      ///< Y, Co, Cg of the exposed colours, and in place of alpha the depth clip
   Plane<float> accumulation;  ///< mask of divergent motion, with which history counts less
@@ -46,25 +34,18 @@ struct Fsr2Passes {
 ///           for history and approximated for the frame, without reactive masks.
 class Fsr2 {
  public:
-  static constexpr float far = 1e7f;  ///< the depth of empty pixels
-
   Fsr2(int width, int height, const Fsr2Options& options) : width_(width), height_(height), options_(options) {}
 
   /// The output after one more frame: scene-linear, opaque, of the size given to the constructor.
   ///
   /// Requires  frames of one size, at most the output's, until the next one that is first.
-  LinearImage accumulate(const Fsr2Frame& frame);
+  LinearImage accumulate(const FsrFrame& frame);
 
   /// The intermediate results of the last frame.
   const Fsr2Passes& passes() const { return passes_; }
-  /// The length of the sequence of jitters for a frame and an output of these widths: 8 × the squared ratio, at
-  /// least 1.
-  static int phases(int frame_width, int width);
-  /// Element `index` of the sequence, rounded to 1/256 pixel: in [-½, ½].
-  static float2 jitter(int index, int phases);
 
  private:
-  void rectify_and_blend(const Fsr2Frame& frame);
+  void rectify_and_blend(const FsrFrame& frame);
 
   int width_, height_;
   Fsr2Options options_;

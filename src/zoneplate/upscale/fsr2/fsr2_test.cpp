@@ -15,13 +15,13 @@ constexpr int frame_width = 48, frame_height = 36;
 using Pattern = std::function<float(float x, float y)>;  // of positions in widths of the image
 
 /// A frame of grey light at the jittered positions, on a plane at depth 5, that moves by `motion` frame pixels a frame.
-Fsr2Frame frame_of(const Pattern& light, int index, int phases, float2 motion = {0, 0}) {
-  Fsr2Frame frame{.color = LinearImage(frame_width, frame_height),
-                  .depth = Plane<float>(frame_width, frame_height, 5.0f),
-                  .motion = Plane<float2>(frame_width, frame_height, motion),
-                  .jitter = Fsr2::jitter(index, phases),
-                  .corner = 1.2f,
-                  .is_first = index == 0};
+FsrFrame frame_of(const Pattern& light, int index, int phases, float2 motion = {0, 0}) {
+  FsrFrame frame{.color = LinearImage(frame_width, frame_height),
+                 .depth = Plane<float>(frame_width, frame_height, 5.0f),
+                 .motion = Plane<float2>(frame_width, frame_height, motion),
+                 .jitter = fsr_jitter(index, phases),
+                 .corner = 1.2f,
+                 .is_first = index == 0};
   for (int y = 0; y < frame_height; ++y)
     for (int x = 0; x < frame_width; ++x) {
       const auto n = static_cast<float>(index);
@@ -55,7 +55,7 @@ double error_of(const LinearImage& image, const Pattern& light) {
 }
 
 LinearImage after(int frames, const Pattern& light, float2 motion = {0, 0}, const Fsr2Options& options = {}) {
-  const int phases = Fsr2::phases(frame_width, 2 * frame_width);
+  const int phases = fsr_phases(frame_width, 2 * frame_width);
   Fsr2 fsr2(2 * frame_width, 2 * frame_height, options);
   LinearImage image;
   for (int i = 0; i < frames; ++i) image = fsr2.accumulate(frame_of(light, i, phases, motion));
@@ -63,26 +63,26 @@ LinearImage after(int frames, const Pattern& light, float2 motion = {0, 0}, cons
 }
 
 TEST(Fsr2, PhasesOfThePresets) {
-  EXPECT_EQ(Fsr2::phases(1280, 1920), 18);
-  EXPECT_EQ(Fsr2::phases(1129, 1920), 23);
-  EXPECT_EQ(Fsr2::phases(960, 1920), 32);
-  EXPECT_EQ(Fsr2::phases(640, 1920), 72);
+  EXPECT_EQ(fsr_phases(1280, 1920), 18);
+  EXPECT_EQ(fsr_phases(1129, 1920), 23);
+  EXPECT_EQ(fsr_phases(960, 1920), 32);
+  EXPECT_EQ(fsr_phases(640, 1920), 72);
   // Halton 2, 3 from element 1, around 0.
-  EXPECT_EQ(Fsr2::jitter(0, 18).x, 0);
-  EXPECT_NEAR(Fsr2::jitter(0, 18).y, 1.0 / 3 - 0.5, 1.0 / 512);
-  EXPECT_EQ(Fsr2::jitter(18, 18).x, Fsr2::jitter(0, 18).x);
+  EXPECT_EQ(fsr_jitter(0, 18).x, 0);
+  EXPECT_NEAR(fsr_jitter(0, 18).y, 1.0 / 3 - 0.5, 1.0 / 512);
+  EXPECT_EQ(fsr_jitter(18, 18).x, fsr_jitter(0, 18).x);
 }
 
 /// A frame of small squares that move to the left by a pixel per frame, in whole numbers.
-Fsr2Frame squares(int index, int phases) {
+FsrFrame squares(int index, int phases) {
   constexpr int width = 96, height = 64;
   constexpr float aspect = 1.5f, tan_half_fov = 0.5f;
-  Fsr2Frame frame{.color = LinearImage(width, height),
-                  .depth = Plane<float>(width, height),
-                  .motion = Plane<float2>(width, height, {index > 0 ? -1.0f : 0.0f, 0}),
-                  .jitter = Fsr2::jitter(index, phases),
-                  .corner = std::sqrt(1 + tan_half_fov * tan_half_fov * (1 + aspect * aspect)),
-                  .is_first = index == 0};
+  FsrFrame frame{.color = LinearImage(width, height),
+                 .depth = Plane<float>(width, height),
+                 .motion = Plane<float2>(width, height, {index > 0 ? -1.0f : 0.0f, 0}),
+                 .jitter = fsr_jitter(index, phases),
+                 .corner = std::sqrt(1 + tan_half_fov * tan_half_fov * (1 + aspect * aspect)),
+                 .is_first = index == 0};
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const int moved = x + index;
@@ -106,7 +106,7 @@ TEST(Fsr2, AgreesWithFiguresOfTheShaders) {
                            {2, 0.33452788, 28719.901451, 18522.889802, 1976},
                            {4, 0.33408850, 28237.680115, 16506.998490, 1981},
                            {5, 0.33392799, 27846.983252, 14816.733194, 1966}}) {
-    const int phases = Fsr2::phases(96, 192);
+    const int phases = fsr_phases(96, 192);
     Fsr2 fsr2(192, 128, {});
     LinearImage image;
     for (int i = 0; i < f.frames; ++i) image = fsr2.accumulate(squares(i, phases));
@@ -153,10 +153,10 @@ TEST(Fsr2, ConstantLightStays) {
 TEST(Fsr2, ExposureOfMidGrey) {
   const int phases = 32;
   Fsr2 fsr2(128, 128, {});
-  Fsr2Frame frame{.color = LinearImage(64, 64, Linear{0.18f, 0.18f, 0.18f, 1}),
-                  .depth = Plane<float>(64, 64, 1.0f),
-                  .motion = Plane<float2>(64, 64),
-                  .jitter = Fsr2::jitter(0, phases)};
+  FsrFrame frame{.color = LinearImage(64, 64, Linear{0.18f, 0.18f, 0.18f, 1}),
+                 .depth = Plane<float>(64, 64, 1.0f),
+                 .motion = Plane<float2>(64, 64),
+                 .jitter = fsr_jitter(0, phases)};
   fsr2.accumulate(frame);
   EXPECT_NEAR(fsr2.passes().exposure, 1 / (9.6 * 0.18), 1e-4);
 }
@@ -164,7 +164,7 @@ TEST(Fsr2, ExposureOfMidGrey) {
 TEST(Fsr2, LinesAndDotsAreLockedAndSurfacesAreNot) {
   const int phases = 32;
   const auto locks = [&](const std::function<bool(int, int)>& is_light) {
-    Fsr2Frame frame = frame_of([](float, float) { return 0.2f; }, 0, phases);
+    FsrFrame frame = frame_of([](float, float) { return 0.2f; }, 0, phases);
     frame.jitter = {0, 0};
     for (int y = 0; y < frame_height; ++y)
       for (int x = 0; x < frame_width; ++x)
@@ -186,7 +186,7 @@ TEST(Fsr2, LinesAndDotsAreLockedAndSurfacesAreNot) {
 TEST(Fsr2, SurfacesThatWereHiddenAreClipped) {
   // A square at depth 1 before a wall at depth 5 moves by 4 pixels to the right and uncovers the wall.
   const auto scene = [&](int index) {
-    Fsr2Frame frame = frame_of([](float, float) { return 0.2f; }, index, 32);
+    FsrFrame frame = frame_of([](float, float) { return 0.2f; }, index, 32);
     for (int y = 12; y < 24; ++y)
       for (int x = 12 + 4 * index; x < 24 + 4 * index; ++x) {
         frame.depth(x, y) = 1, frame.color(x, y) = {0.8f, 0.8f, 0.8f, 1};
