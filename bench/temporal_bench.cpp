@@ -68,7 +68,7 @@ int main(int argc, char** argv) {
   for (const std::string method :
        {"taa", "taa:preset=karis", "taa:preset=inside", "taa:preset=salvi", "taa:preset=three", "taa:preset=playcanvas",
         "taa:preset=bevy", "oracle-taa", "smaa:mode=t2x", "bilinear:scale=2", "lanczos:scale=2", "sgsr1:scale=2",
-        "nis:scale=2", "fsr1:scale=2", "fsr2:scale=2", "sgsr2:scale=2", "taau:scale=2"})
+        "nis:scale=2", "fsr1:scale=2", "fsr2:scale=2", "fsr3:scale=2", "sgsr2:scale=2", "taau:scale=2"})
     benchmark::RegisterBenchmark(method.c_str(), [method](benchmark::State& s) { zoneplate::measure(s, method); })
         ->Iterations(6)
         ->Unit(benchmark::kMillisecond);

@@ -165,7 +165,7 @@ std::string sequence_method(const FilterArgs& args) {
   if (has_data && !is_temporal && !has_history)
     throw Error(ErrorKind::Usage,
                 "--motion, --depth and --jitter are for methods with history: --aa taa or --upscale "
-                "fsr2, taau or sgsr2");
+                "fsr2, fsr3, taau or sgsr2");
   return is_temporal ? args.upscaler : has_history ? args.method : "";
 }
 
@@ -198,9 +198,8 @@ Syntax make_syntax(FilterArgs& args) {
           "value;\n"
           "images with alpha are filtered premultiplied.\n"
           "\n"
-          "Methods with history (taa, fsr2, taau, sgsr2) filter the frames of a sequence in order, as one shot without "
-          "a cut. Each "
-          "frame\n"
+          "Methods with history (taa, fsr2, fsr3, taau, sgsr2) filter the frames of a sequence in order, as one shot "
+          "without a cut. Each frame\n"
           "has one sample per pixel, jittered: --jitter is a text file with one line per frame, the sample's offset "
           "from\n"
           "the pixel's centre in pixels, +x right, +y down. Motion is the position now minus the one in the last "

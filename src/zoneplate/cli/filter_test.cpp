@@ -228,7 +228,7 @@ TEST_P(FilterUpscaler, TreatsFramesOfAnotherRendererAsOwnOnes) {
 }
 INSTANTIATE_TEST_SUITE_P(All, FilterUpscaler,
                          ::testing::Values(TemporalUpscaler{"fsr2", 70}, TemporalUpscaler{"taau", 70},
-                                           TemporalUpscaler{"sgsr2", 70}),
+                                           TemporalUpscaler{"sgsr2", 70}, TemporalUpscaler{"fsr3", 70}),
                          [](const auto& one) { return std::string(one.param.name); });
 
 TEST_F(FilterVerb, TemporalMethodsFilterTheFramesOfRender) {

@@ -99,13 +99,14 @@ double rms(const Rgba8Image& a, const Rgba8Image& b) {
 TEST(OracleTaau, BoundsTheOthers) {
   const Rgba8Image reference = still("ssaa:n=8", 1);
   const double oracle = rms(still("oracle-taau:scale=2", 24), reference);
-  for (const char* method : {"taau:scale=2", "sgsr2:scale=2", "fsr2:scale=2"})
+  for (const char* method : {"taau:scale=2", "sgsr2:scale=2", "fsr2:scale=2", "fsr3:scale=2"})
     EXPECT_LT(oracle, 0.6 * rms(still(method, 24), reference)) << method;
   EXPECT_LT(rms(still("oracle-taau:scale=1.6", 24), reference), 1.1 * oracle);
 }
 
 TEST(OracleTaau, ACropHasTheBitsOfTheWholeImage) {
-  for (const char* method : {"oracle-taau:scale=2", "oracle-taau:scale=1", "taau:scale=1.7", "sgsr2:scale=2"}) {
+  for (const char* method :
+       {"oracle-taau:scale=2", "oracle-taau:scale=1", "taau:scale=1.7", "sgsr2:scale=2", "fsr3:scale=1.7"}) {
     const Rgba8Image whole = still(method, 3), part = still(method, 3, Crop{30, 20, 41, 27});
     ASSERT_EQ(part.width(), 41);
     for (int y = 0; y < part.height(); ++y)
