@@ -27,6 +27,23 @@ void resize(Plane<T>& plane, int width, int height) {
   if (plane.width() != width || plane.height() != height) plane = Plane<T>(width, height);
 }
 
+/// Continues a row of a bordered plane beyond its sides.
+template <class T>
+void extend_row(std::span<T> row) {
+  std::fill_n(row.begin(), border, row[border]);
+  std::fill_n(row.end() - border, border, row[row.size() - border - 1]);
+}
+
+/// Continues a bordered plane above its first row and below its last one.
+template <class T>
+void extend_rows(Plane<T>& plane) {
+  const int last = plane.height() - border - 1;
+  for (int k = 0; k < border; ++k) {
+    std::ranges::copy(plane.row(border), plane.row(k).begin());
+    std::ranges::copy(plane.row(last), plane.row(last + 1 + k).begin());
+  }
+}
+
 /// Makes a plane of value(x, y), which continues beyond its sides.
 template <class T, class Value>
 void fill_bordered(Plane<T>& out, int width, int height, const Value& value) {
@@ -34,13 +51,9 @@ void fill_bordered(Plane<T>& out, int width, int height, const Value& value) {
   for_each_row(height, [&](int y) {
     const std::span<T> row = out.row(y + border);
     for (int x = 0; x < width; ++x) row[static_cast<std::size_t>(x + border)] = value(x, y);
-    std::fill_n(row.begin(), border, row[border]);
-    std::fill_n(row.end() - border, border, row[row.size() - border - 1]);
+    extend_row(row);
   });
-  for (int k = 0; k < border; ++k) {
-    std::ranges::copy(out.row(border), out.row(k).begin());
-    std::ranges::copy(out.row(height + border - 1), out.row(height + border + k).begin());
-  }
+  extend_rows(out);
 }
 
 /// Pixel 0 of a row of a bordered plane.
@@ -113,13 +126,9 @@ void TemporalAccumulation::take_current(const Frame& frame) {
     const std::span<Linear> row = out.color.row(y + border);
     TemporalKernels::of().encode(&frame.color(0, y).r, options_.parts.is_compressed, &row[border].r,
                                  static_cast<std::size_t>(width));
-    std::fill_n(row.begin(), border, row[border]);
-    std::fill_n(row.end() - border, border, row[row.size() - border - 1]);
+    extend_row(row);
   });
-  for (int k = 0; k < border; ++k) {
-    std::ranges::copy(out.color.row(border), out.color.row(k).begin());
-    std::ranges::copy(out.color.row(height + border - 1), out.color.row(height + border + k).begin());
-  }
+  extend_rows(out.color);
 
   const auto fill = [&](Plane<float>& plane, const auto& value) { fill_bordered(plane, width, height, value); };
   fill(out.nearness, [&](int x, int y) { return frame.reversed_depth(x, y); });
@@ -166,6 +175,54 @@ void TemporalAccumulation::find_restless(const ObjectMotions& objects) {
                         .past_surface = past_surface_.values().data(),
                         .object_motion = {objects.x.data(), objects.y.data()}};
     TemporalKernels::of().find_unrest(row, &current_.restless(0, y), static_cast<std::size_t>(width));
+  });
+}
+
+/// 1 where the light differs from that of the history, as far as TemporalKernels::find_relit finds it, and around such
+/// pixels; 0 elsewhere.
+///
+/// Pixels that had both lights in their history, and those at the border of a shadow, are found by their neighbours.
+void TemporalAccumulation::find_relit() {
+  constexpr int radius = 4;
+  const int width = history_.width(), height = history_.height();
+  resize(current_.relit, width, height);
+  if (options_.parts.rectification == TemporalParts::Rectification::None) {
+    std::ranges::fill(current_.relit.values(), 0.0f);  // all history is kept
+    return;
+  }
+  const auto pixels = static_cast<std::size_t>(width);
+  const TemporalKernels& kernels = TemporalKernels::of();
+  Bordered& changes = current_.changes;
+  resize(changes, width + 2 * border, height + 2 * border), resize(current_.wide_relit, width, height);
+  for_each_row(height, [&](int y) {
+    const ChangeRow row{.color = &current_.color(border, y + border).r,
+                        .restless = &current_.restless(0, y),
+                        .history = &history_(0, y).r,
+                        .frames = &frames_(0, y),
+                        .squares = &squares_(0, y)};
+    kernels.find_changes(row, &changes(border, y + border), pixels);
+    extend_row(changes.row(y + border));
+  });
+  extend_rows(changes);
+  std::vector<char> is_relit(static_cast<std::size_t>(height));  // by row
+  for_each_row(height, [&](int y) {
+    const std::span<float> row = current_.relit.row(y), wide = current_.wide_relit.row(y);
+    kernels.find_relit(&changes(border, y + border), changes.width(), row.data(), pixels);
+    if (std::ranges::find(row, 1.0f) == row.end()) return;
+    is_relit[static_cast<std::size_t>(y)] = 1;
+    int last = -radius - 1;
+    for (int x = -radius; x < width; ++x) {
+      if (x + radius < width && row[static_cast<std::size_t>(x + radius)] > 0) last = x + radius;
+      if (x >= 0) wide[static_cast<std::size_t>(x)] = x - last <= radius ? 1.0f : 0.0f;
+    }
+  });
+  for_each_row(height, [&](int y) {
+    const std::span<float> row = current_.relit.row(y);
+    std::ranges::fill(row, 0.0f);
+    for (int k = std::max(y - radius, 0); k <= std::min(y + radius, height - 1); ++k)
+      if (is_relit[static_cast<std::size_t>(k)])
+        std::ranges::transform(row, current_.wide_relit.row(k), row.begin(),
+                               [](float a, float b) { return std::max(a, b); });
   });
 }
 
@@ -232,6 +289,7 @@ LinearImage TemporalAccumulation::blended(Frame& frame) {
   }
   const std::vector<float> column = columns(width);
   const bool keeps_squares = options_.parts.trusts_rest && !context_.is_first;
+  if (keeps_squares) find_relit();
   resize(next_history_, width, height), resize(next_frames_, width, height);
   if (keeps_squares) resize(next_squares_, width, height);
   const auto stride = static_cast<std::ptrdiff_t>(width + 2 * border);
@@ -246,6 +304,7 @@ LinearImage TemporalAccumulation::blended(Frame& frame) {
                           .last_depth = or_nearness(current.last_depth),
                           .last_nearness = or_nearness(current.last_nearness),
                           .restless = keeps_squares ? &current.restless(0, y) : nullptr,
+                          .relit = keeps_squares ? &current.relit(0, y) : nullptr,
                           .stride = stride,
                           .column = column.data(),
                           .y = y,

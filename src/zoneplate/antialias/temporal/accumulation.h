@@ -25,8 +25,8 @@ class TemporalAccumulation : public Resolver {
   struct Current {
     LinearImage color;
     Plane<float2> point_motion;
-    Bordered nearness, motion[2], surface, last_depth, last_nearness;
-    Plane<float> restless;
+    Bordered nearness, motion[2], surface, last_depth, last_nearness, changes;
+    Plane<float> restless, relit, wide_relit;
   };
   SamplePosition sample() const;
   bool tests_surfaces() const;
@@ -37,6 +37,7 @@ class TemporalAccumulation : public Resolver {
   };
   ObjectMotions object_motions(const Frame& frame) const;
   void find_restless(const ObjectMotions& objects);
+  void find_relit();
   void begin_history(const Frame& frame);
   void keep_surfaces(const Frame& frame);
   LinearImage blended(Frame& frame);

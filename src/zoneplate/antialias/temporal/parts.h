@@ -47,9 +47,11 @@ struct TemporalParts {
   bool keeps_current_alpha = false;  ///< alpha is that of the current frame
   bool has_kernel = false;           ///< the current colour is the mean of 3 × 3 colours with the weights `kernel`
   float kernel[9] = {};              ///< by row; their sum is 1
-  /// The number of frames that the history counts as where a surface has left: its remains at the edges fade soon.
+  /// The number of frames that the history counts as where a surface has left, or the light has changed: what remains
+  /// fades soon.
   static constexpr float left_frames = 2;
-  static constexpr float fast = 128;  ///< pixels per frame
+  static constexpr float known_frames = 3;  ///< in a history whose spread is that of its samples
+  static constexpr float fast = 128;        ///< pixels per frame
 };
 
 }  // namespace zoneplate::antialias

@@ -25,6 +25,7 @@ struct TemporalRow {
   const float* last_nearness;  ///< its reversed depth in the last frame
   const float*
       restless;  ///< 0 where the 3 × 3 surfaces move as one, as those of the last frame did; 2 where one has left
+  const float* relit;  ///< 1 where the light has changed, 0 elsewhere
   std::ptrdiff_t stride;
   const float* column;  ///< 0, 1, 2, ...
   int y;
@@ -52,6 +53,13 @@ struct UnrestRow {
   const float* object_motion[2];  ///< means by the object's number plus one; infinite without a pixel in this frame
 };
 
+/// One row of a frame with the history of the same pixels, for TemporalKernels::find_changes.
+struct ChangeRow {
+  const float* color;  ///< four floats a pixel, as in TemporalRow
+  const float* restless;
+  const float *history, *frames, *squares;
+};
+
 struct TemporalKernels : PerIsa<TemporalKernels> {
   /// Colours without NaN, negative and unbounded values; and compressed: the straight colour c becomes
   /// c / (1 + max(r, g, b)), premultiplied again.
@@ -64,6 +72,15 @@ struct TemporalKernels : PerIsa<TemporalKernels> {
   /// 1 where a surface moves, or the 3 × 3 surfaces do not move as one, 2 where a surface of the last frame moves
   /// otherwise, 0 elsewhere. An object of the last frame is taken to have moved by its mean motion.
   void (*find_unrest)(const UnrestRow& row, float* unrest, std::size_t n);
+  /// 1 where the luma of a pixel at rest is greater than the spread of its history allows, -1 where it is less,
+  /// 0 elsewhere.
+  void (*find_changes)(const ChangeRow& row, float* changes, std::size_t n);
+  /// 1 where at least seven of 3 × 3 changes are 1, or seven are -1, beyond those of the other sign, and 0 elsewhere:
+  /// the light has changed.
+  ///
+  /// The samples of a still scene change along edges and in details of a pixel's width; an edge at rest crosses three
+  /// of 3 × 3 pixels, or five if it is diagonal. The rows of `changes` are `stride` apart; it has a border of a pixel.
+  void (*find_relit)(const float* changes, std::ptrdiff_t stride, float* relit, std::size_t n);
   /// Resolves n pixels of a row: filters the current colours, reprojects, validates and rectifies the history, and
   /// blends both.
   ///

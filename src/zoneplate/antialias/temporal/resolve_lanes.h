@@ -10,6 +10,7 @@
 /// The kernels of antialias/temporal/resolve.h over the lane types of math/lanes.h.
 namespace zoneplate::stages {
 
+using antialias::ChangeRow;
 using antialias::TemporalKernels;
 
 /// True where the history belongs to the followed surface, as far as the parts test it.
@@ -31,19 +32,46 @@ template <class F>
   return source.is_inside & ((nearest - farthest > edge) | (threshold >= before - surface.last_nearness));
 }
 
-/// True where all surfaces around move as one and the current luma is a plausible sample of those in the history.
+/// The statistics of luma in a history.
 ///
 /// Samples on an edge vary between both of its sides: one side of sixteen differs from the mean by 3.9 standard
 /// deviations.
 template <class F>
-[[gnu::always_inline]] inline typename F::Bool is_steady(const TemporalRow& row, const Source<F>& source,
-                                                         const Rgba<F>& current, const Rgba<F>& past, F square,
-                                                         F frames, std::ptrdiff_t i) {
-  const F zero(0.0f), most(4.0f), noise(0.02f), least_noise(0.002f), young(8.0f);
-  const F mean = luma_of(past), difference = abs(luma_of(current) - mean);
-  const F deviation = sqrt(max(square - mean * mean, zero));
-  return source.is_inside & (F::load(row.restless + i) == zero) &
-         ((young > frames) | (most * deviation + noise * mean + least_noise > difference));
+struct History {
+  F mean, variance;
+  /// The greatest difference from the mean that a sample of the same light has.
+  [[gnu::always_inline]] F spread() const { return F(4.0f) * sqrt(variance) + F(0.02f) * mean + F(0.002f); }
+};
+
+template <class Full, class One>
+[[gnu::flatten]] void find_changes(const ChangeRow& row, float* changes, std::size_t n) {
+  for_row<Full, One>(n, [&]<class F>(std::size_t at) {
+    const auto i = static_cast<std::ptrdiff_t>(at);
+    const F zero(0.0f), one(1.0f);
+    const F luma = luma_of(Rgba<F>::load(row.color + 4 * i)), mean = luma_of(Rgba<F>::load(row.history + 4 * i));
+    const History<F> past{mean, max(F::load(row.squares + i) - mean * mean, zero)};
+    const F difference = luma - mean;
+    const auto is_known =
+        (F::load(row.restless + i) == zero) & (F::load(row.frames + i) >= F(TemporalParts::known_frames));
+    const F sign = select(difference > zero, one, -one);
+    where(is_known & (abs(difference) > past.spread()), sign).store(changes + i);
+  });
+}
+
+/// The sum of 3 x 3 values around value i.
+template <class F>
+[[gnu::always_inline]] inline F sum_around(const float* values, std::ptrdiff_t stride, std::ptrdiff_t i) {
+  F sum(0.0f);
+  for (int k = 0; k < 9; ++k) sum = sum + F::load(values + i + k % 3 - 1 + (k / 3 - 1) * stride);
+  return sum;
+}
+
+template <class Full, class One>
+[[gnu::flatten]] void find_relit(const float* changes, std::ptrdiff_t stride, float* relit, std::size_t n) {
+  for_row<Full, One>(n, [&]<class F>(std::size_t at) {
+    const F sum = sum_around<F>(changes, stride, static_cast<std::ptrdiff_t>(at));
+    where(abs(sum) > F(6.5f), F(1.0f)).store(relit + at);
+  });
 }
 
 template <class Full, class One>
@@ -63,14 +91,27 @@ template <class Full, class One>
     const PastPixels<F> nearest_past = nearest_pixels(row, source, i);
     auto valid = is_valid(row, parts, surface, source, nearest_past, i);
     F square(0.0f);
+    auto relit = one > one;
     if (parts.trusts_rest) {
       square = nearest_past.value(row.squares, 0, 0);
       const F frames = nearest_past.value(row.frames, 0, 0);
-      const auto is_trusted = is_steady(row, source, current, past, square, frames, i);
+      const F zero(0.0f), luma = luma_of(current), mean = luma_of(past);
+      const History<F> earlier{mean, max(square - mean * mean, zero)};
+      const auto is_steady = source.is_inside & (F::load(row.restless + i) == zero);
+      relit = is_steady & (F::load(row.relit + i) > F(0.5f));
+      const auto is_plausible = ((F(8.0f) > frames) | (earlier.spread() > abs(luma - mean)));
+      const auto is_trusted = is_steady & is_plausible & (F(0.5f) > where(relit, one));
       history = select(is_trusted, past, history);
       valid = valid | is_trusted;
+      // The squares of another light would let any later change pass as spread.
+      const F allowed = luma_of(history);
+      square = select(relit, allowed * allowed, square);
     }
-    const Share<F> share = valid_share(row, parts, source, nearest_past, current, history, i);
+    Share<F> share = valid_share(row, parts, source, nearest_past, current, history, i);
+    if (parts.trusts_rest) {
+      share.weight = select(relit, max(share.weight, F(1 / TemporalParts::left_frames)), share.weight);
+      share.frames = select(relit, min(share.frames, F(TemporalParts::left_frames)), share.frames);
+    }
     const F weight = weighted(share.weight, current, history, parts.weighting);
     Rgba<F> result = select(valid, history + (current - history) * weight, current);
     if (parts.trusts_rest) {
@@ -91,6 +132,8 @@ constexpr TemporalKernels temporal() {
   return {.encode = &encode_temporal<Full, One>,
           .decode = &decode_temporal<Full, One>,
           .find_unrest = &find_unrest<Full, One>,
+          .find_changes = &find_changes<Full, One>,
+          .find_relit = &find_relit<Full, One>,
           .resolve = &resolve_temporal<Full, One>,
           .sharpen = &sharpen_temporal<Full, One>};
 }

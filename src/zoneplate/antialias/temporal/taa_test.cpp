@@ -107,6 +107,20 @@ TEST(Taa, WithoutRectificationAStillSceneIsTheWeightedMeanOfItsFrames) {
   EXPECT_GT(greatest_difference(mean, single[0]), 0.1f);
 }
 
+// An edge at rest under a light that is switched every twelve frames, as in the scene light-switch.
+TEST(Taa, ASwitchedLightLeavesNoHistory) {
+  MovingScene moving;
+  const auto light_switch = [](int frame) {
+    return *make_builtin_scene("light-switch:time=" + std::to_string(frame / 12 * 0.5 + 0.01));
+  };
+  moving.scene = light_switch;
+  moving.camera = [](int) { return flat_camera(1); };
+  constexpr int frames = 40;
+  const LinearImage reference = last_frame({moving.scene, moving.camera}, "converged:samples=64", frames);
+  const double error = rms(last_frame(moving, "taa", frames), reference);
+  EXPECT_LE(error, rms(last_frame(moving, "taa:rest=test", frames), reference));
+}
+
 // A wall that fills the image, seen by a camera that moves by fractions of a pixel.
 TEST(Taa, AConstantColourIsAFixedPoint) {
   MovingScene wall = square_before_wall([](int) { return float2{0, 0}; });
