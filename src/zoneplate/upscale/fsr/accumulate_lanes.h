@@ -75,7 +75,8 @@ template <class F>
   return mixed(above, mixed(F::gather(rows[1], left), F::gather(rows[1], right), x), y);
 }
 
-/// Pixels around a place of an image: their indices, clamped to the image, and the place between them.
+/// Pixels around a place of an image: their indices, clamped to the image without its margin, and the place between
+/// them.
 template <class F, int taps>
 struct Neighbours {
   using Int = typename F::Int;
@@ -83,12 +84,16 @@ struct Neighbours {
   F right, below;
 
   /// The first tap is `before` pixels before the pixel at or before (x, y), which are in pixels from the first centre.
-  [[gnu::always_inline]] Neighbours(int width, int height, F x, F y, int before) {
+  [[gnu::always_inline]] Neighbours(int width, int height, F x, F y, int before, int margin = 0) {
     const F left = floor(x), top = floor(y);
     right = x - left, below = y - top;
+    const auto clamped = [margin](Int i, int size) {
+      const int first = margin < size ? margin : size - 1, last = size - 1 - margin;
+      return min(max(i, Int(first)), Int(last > first ? last : first));
+    };
     for (int t = 0; t < taps; ++t) {
-      column[t] = min(max(truncate(left) + Int(t - before), Int(0)), Int(width - 1));
-      row[t] = min(max(truncate(top) + Int(t - before), Int(0)), Int(height - 1)) * Int(width);
+      column[t] = clamped(truncate(left) + Int(t - before), width);
+      row[t] = clamped(truncate(top) + Int(t - before), height) * Int(width);
     }
   }
   [[gnu::always_inline]] void load(const float* pixels, int c, int r, F (&out)[4]) const {

@@ -10,13 +10,13 @@ namespace zoneplate::stages {
 
 namespace fsr3 {
 
-/// The colour and the lock at a place of the last frame.
+/// The colour and the lock at a place of the last frame, whose outermost pixels are not read.
 template <class F>
 [[gnu::always_inline]] inline void sample_history(const Fsr3AccumulateFrame& frame, F u, F v, F (&out)[4]) {
   const F px = u * F(static_cast<float>(frame.width)) - F(0.5f);
   const F py = v * F(static_cast<float>(frame.height)) - F(0.5f);
   const auto inside = [](F at, int size) { return max(F(0.0f), min(F(static_cast<float>(size - 1)), at)); };
-  Neighbours<F, 4> taps(frame.width, frame.height, inside(px, frame.width), inside(py, frame.height), 1);
+  Neighbours<F, 4> taps(frame.width, frame.height, inside(px, frame.width), inside(py, frame.height), 1, 1);
   taps.right = px - floor(px), taps.below = py - floor(py);  // of the place itself, also beyond the outermost centres
   sample_by_lanczos(frame.history, taps, epsilon, out);
 }

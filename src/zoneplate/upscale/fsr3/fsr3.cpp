@@ -9,8 +9,9 @@
 //
 // Without reactive masks, as an engine that gives none. Weaknesses: automatic exposure treats frames darker than 1 as
 // if they had the luminance 1 and follows the top left of the frame, as AMD's does; constants are in metres and in
-// pixels of 3840 × 2160; near surfaces, up to 15 m away, have less tolerance for thin features; each pixel has one
-// depth and one motion, so that surfaces behind transparent ones smear.
+// pixels of 3840 × 2160; history is never read from the outermost pixels, which repeat a part of their neighbours; near
+// surfaces, up to 15 m away, have less tolerance for thin features; each pixel has one depth and one motion, so that
+// surfaces behind transparent ones smear.
 //
 // A crop renders the whole image, since motion may bring any pixel into it.
 //
@@ -51,8 +52,7 @@ Upscaler fsr3() {
                                                                               .tests_shading = is_on("shading"),
                                                                               .velocity_factor = number("velocity"),
                                                                               .exposure = number("exposure")});
-          },
-          .is_specification_only = true};
+          }};
 }
 
 }  // namespace zoneplate::upscale

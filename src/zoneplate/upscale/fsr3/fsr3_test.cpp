@@ -29,6 +29,52 @@ LinearImage after(int frames, const Pattern& light, float2 motion = {0, 0}, cons
 
 float grey(float, float) { return 0.2f; }
 
+/// Small squares of many colours that move to the left by a pixel per frame; light brightens a part from frame 6 on.
+FsrFrame colored_squares(int index) {
+  FsrFrame frame = squares(index, phases);
+  for (int y = 0; y < frame.color.height(); ++y)
+    for (int x = 0; x < frame.color.width(); ++x) {
+      Linear& c = frame.color(x, y);
+      const int moved = x + index;
+      c.b = static_cast<float>((moved * 5 + y * 11 + moved / 7 * 3) % 32) / 32 + 0.25f;
+      if (index >= 6 && x < 40) c = {1.5f * c.r, 1.5f * c.g, 1.5f * c.b, 1};
+    }
+  return frame;
+}
+
+// Figures of AMD's own shaders, of which 32-bit floats replaced the 16-bit storage, run by lavapipe. In all 32 frames
+// of other sequences, still and moving, at four ratios, the outputs agreed by 80 dB and more.
+TEST(Fsr3, AgreesWithFiguresOfTheShaders) {
+  struct Figures {
+    int frames;
+    double exposure, sum, square;
+    int locks;
+    double shading, accumulation;
+  };
+  for (const Figures& f : {Figures{1, 0.03895938, 35198.984068, 20307.496208, 177, 1523.96079, 0},
+                           {2, 0.03959781, 35121.020839, 20327.171838, 177, 0, 2026.66673},
+                           {5, 0.04151034, 35096.430684, 20504.279275, 176, 0, 6016},
+                           {7, 0.04278140, 37709.868341, 24077.748712, 178, 8.80392, 5980.35295},
+                           {9, 0.04404780, 39932.486675, 27129.208384, 178, 0.22353, 6015.12941}}) {
+    Fsr3 fsr3(192, 128, {});
+    LinearImage image;
+    for (int i = 0; i < f.frames; ++i) image = fsr3.accumulate(colored_squares(i));
+    double sum = 0, square = 0, shading = 0, accumulation = 0;
+    int locks = 0;
+    for (const Linear& c : image.values())
+      for (const float v : {c.r, c.g, c.b}) sum += double{v}, square += double{v} * double{v};
+    for (const float v : fsr3.passes().new_locks.values()) locks += v > 0;
+    for (const float v : fsr3.passes().shading_change.values()) shading += double{v};
+    for (const Display& mask : fsr3.passes().masks.values()) accumulation += double{mask.a};
+    EXPECT_NEAR(fsr3.passes().exposure, f.exposure, 2e-7) << f.frames;
+    EXPECT_NEAR(sum, f.sum, 5e-3) << f.frames;
+    EXPECT_NEAR(square, f.square, 5e-3) << f.frames;
+    EXPECT_EQ(locks, f.locks) << f.frames;
+    EXPECT_NEAR(shading, f.shading, 1e-4) << f.frames;
+    EXPECT_NEAR(accumulation, f.accumulation, 1e-3) << f.frames;
+  }
+}
+
 TEST(Fsr3, AStillImageConverges) {
   const auto fsr2 = [](int frames) { return error_of(after<Fsr2, Fsr2Options>(frames, edge, {0, 0}, {}), edge); };
   const auto fsr3 = [](int frames) { return error_of(after(frames, edge), edge); };

@@ -48,8 +48,8 @@ template <class F>
   }
 }
 
-/// The least relative difference that merging two ascending lists meets in five steps, with its sign; 0 if it meets two
-/// equal values.
+/// The least relative difference that five steps of a merge of two ascending lists meet, with its sign; 0 if they meet
+/// two equal values. A step leaves the smaller value behind, and in `last` also one that the next of `now` exceeds.
 template <class F>
 [[gnu::always_inline]] inline F least_difference(F (&now)[5], F (&last)[5]) {
   F least = F(greatest_half);
@@ -60,10 +60,9 @@ template <class F>
     const F relative = F(1.0f) - min(now[0], last[0]) / max(now[0], last[0]);
     least = select(abs(least) > relative, select(difference > F(0.0f), relative, -relative), least);
     const auto is_less = now[0] < last[0];
-    for (int k = 0; k + 1 < 5 - step; ++k) {
-      now[k] = select(is_less, now[k + 1], now[k]);
-      last[k] = select(is_less, last[k], last[k + 1]);
-    }
+    for (int k = 0; k < 4 - step; ++k) now[k] = select(is_less, now[k + 1], now[k]);
+    const auto exceeds = now[0] >= last[0];
+    for (int k = 0; k < 4 - step; ++k) last[k] = select(exceeds, last[k + 1], last[k]);
   }
   return select(is_equal, F(0.0f), least);
 }
