@@ -2,6 +2,7 @@
 #include "zoneplate/upscale/jittered_frame.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "zoneplate/antialias/temporal/camera_motion.h"
@@ -10,6 +11,30 @@
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::upscale {
+namespace {
+
+/// The scene-linear colour that becomes `light` on the display, or one that comes near to it, where the curve does not
+/// reach it.
+float3 scene_light(float3 light, const DisplayOptions& display) {
+  const ToneMapping mapping = display.raw ? ToneMapping::None : display.mapping;
+  const float scale = 1 / display.exposure;
+  if (mapping == ToneMapping::None) return light * scale;
+  if (mapping == ToneMapping::Neutral) return invert_neutral(light) * scale;
+  // The curves rise with each channel and mix channels little: half of the ratio, as a logarithm, is a stable step.
+  constexpr float least = 1e-6f, most = 1024;
+  float3 color = light;
+  for (int step = 0; step < 200; ++step) {
+    const float3 mapped = tone_map(color, mapping);
+    const auto nearer = [&](float value, float is, float to) {
+      return std::clamp(std::max(value, least) * std::sqrt((to + least) / (is + least)), 0.0f, most);
+    };
+    color = {nearer(color.x, mapped.x, light.x), nearer(color.y, mapped.y, light.y),
+             nearer(color.z, mapped.z, light.z)};
+  }
+  return color * scale;
+}
+
+}  // namespace
 
 ImageExtent frame_size(const FrameContext& context, double scale) {
   if (const auto& given = context.given) return {given->width, given->height, std::nullopt};
@@ -24,9 +49,10 @@ LinearImage over_background(LinearImage image, const DisplayOptions& display, st
   if (display.is_transparent)
     throw Error(ErrorKind::Usage,
                 std::string(name) + " makes opaque images, and a transparent background is requested");
-  const auto light = [&](float code) { return (display.raw ? code : decode_srgb(code)) / display.exposure; };
+  const auto light = [&](float code) { return display.raw ? code : decode_srgb(code); };
   const float4 b = display.background;
-  const Linear background{light(b.x) * b.w, light(b.y) * b.w, light(b.z) * b.w, b.w};
+  const float3 color = scene_light({light(b.x), light(b.y), light(b.z)}, display);
+  const Linear background{color.x * b.w, color.y * b.w, color.z * b.w, b.w};
   for (Linear& c : image.values()) c = c + background * (1 - c.a);
   return image;
 }

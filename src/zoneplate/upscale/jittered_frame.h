@@ -15,7 +15,8 @@ ImageExtent frame_size(const FrameContext& context, double scale);
 /// Where the frame is sampled in its pixels: as the context's own frame is, or at `planned`.
 SamplePosition sample_of(const FrameContext& context, SamplePosition planned);
 
-/// The colours over the background, which the display transform would composite later.
+/// The colours over the background, which the display transform would composite after tone mapping: over the colour
+/// that tone mapping turns into the background.
 ///
 /// Errors    ErrorKind::Usage if the display options request a transparent background; `name` is the upscaler's.
 LinearImage over_background(LinearImage image, const DisplayOptions& display, std::string_view name);
