@@ -15,7 +15,7 @@ namespace {
 
 using namespace fsr;
 
-constexpr float epsilon = 6.1e-5f, greatest_half = 65504;
+constexpr float greatest_half = fsr3_greatest_half;
 constexpr int tile = 64;  // pixels along a side of the squares that the mean luminance has as a last full level
 
 /// The mean of the square of the greatest power of two within the longer side, from the top left. Edge pixels continue
@@ -187,7 +187,7 @@ void Fsr3::prepare(const FsrFrame& frame) {
   log_luminance_ = std::max(0.0f, log_luminance_ + (mean_from_top_left(logarithms) - log_luminance_) * rate);
   passes_.exposure = options_.exposure > 0 ? options_.exposure : automatic_exposure(log_luminance_);
 
-  const float least_weight = 10 * epsilon;
+  const float least_weight = 10 * fsr3_epsilon;
   passes_.dilated = dilate(frame);
   passes_.previous_depth = previous_depth(passes_.dilated, least_weight, [](float2 motion, float depth) {
     const float far = saturated(std::min(depth, greatest_half) / 100);

@@ -9,9 +9,9 @@ namespace zoneplate::stages::fsr3 {
 
 using namespace stages::fsr;
 
-constexpr float epsilon = 6.1e-5f, greatest_half = 65504;  // epsilon: the least normal half float, as AMD writes it
-constexpr float least_weight = 10 * epsilon;               // of a bilinear sample of depth
-constexpr float frame_share = 1.0f / 3;                    // of a full history, which a frame adds
+constexpr float epsilon = fsr3_epsilon, greatest_half = fsr3_greatest_half;
+constexpr float least_weight = 10 * epsilon;  // of a bilinear sample of depth
+constexpr float frame_share = 1.0f / 3;       // of a full history, which a frame adds
 
 /// The length of a motion, in pixels of an output of 3840 × 2160, whatever the output's size is.
 template <class F>

@@ -8,6 +8,9 @@
 
 namespace zoneplate {
 
+/// The least normal half float, as AMD writes it, and the greatest one.
+inline constexpr float fsr3_epsilon = 6.1e-5f, fsr3_greatest_half = 65504;
+
 /// Pixels of a plane between which a value is interpolated, for one row of pixels.
 struct Fsr3Between {
   const float* rows[2];
