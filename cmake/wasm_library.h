@@ -46,12 +46,12 @@ inline from_chars_result from_chars(const char* first, const char* last, double&
   return {first + (end - text.c_str()), errc()};
 }
 
-/// There is one thread.
+/// Every store has the strictest order.
 template <class T>
 class atomic_ref {
  public:
   explicit atomic_ref(T& value) : value_(value) {}
-  void store(T value, memory_order) const { value_ = value; }
+  void store(T value, memory_order) const { __atomic_store_n(&value_, value, __ATOMIC_SEQ_CST); }
 
  private:
   T& value_;
@@ -69,6 +69,10 @@ constexpr auto find(Range&& range, const T& value, Part part = {}) {
 template <class Range, class Out, class Change>
 constexpr void transform(Range&& range, Out out, Change change) {
   for (auto&& x : range) *out++ = std::invoke(change, x);
+}
+template <class A, class B, class Out, class Change>
+constexpr void transform(A&& a, B&& b, Out out, Change change) {
+  std::transform(std::begin(a), std::end(a), std::begin(b), out, change);
 }
 template <class Range, class Condition>
 constexpr bool any_of(Range&& range, Condition condition) {
