@@ -91,6 +91,17 @@ DisplayImage filter_encoded(DisplayImage image, Mixing mixing, const EncodedFilt
   return image;
 }
 
+Display mixed(const Display& a, const Display& b, float weight, Mixing mixing) {
+  if (a == b) return a;
+  const float of_a = a.a * (1 - weight), of_b = b.a * weight, alpha = of_a + of_b;
+  if (!(alpha > 0)) return {0, 0, 0, 0};
+  const auto channel = [&](float p, float q) {
+    if (mixing == Mixing::Encoded) return (p * of_a + q * of_b) / alpha;
+    return encode_srgb((decode_srgb(p) * of_a + decode_srgb(q) * of_b) / alpha);
+  };
+  return {channel(a.r, b.r), channel(a.g, b.g), channel(a.b, b.b), alpha};
+}
+
 Linear decode_pixel(Rgba8 codes) {
   return {decode_srgb8(codes.r), decode_srgb8(codes.g), decode_srgb8(codes.b), unorm8_value[codes.a]};
 }

@@ -25,6 +25,9 @@ using EncodedFilter = std::function<Rgba8Image(const Rgba8Image&)>;
 /// Exact     a pixel whose 8-bit values the filter does not change keeps its bits; any other becomes value / 255.
 DisplayImage filter_encoded(DisplayImage image, Mixing mixing, const EncodedFilter& filter);
 
+/// The display-referred pixels a and b, premultiplied and weighted by 1 - weight and weight.
+Display mixed(const Display& a, const Display& b, float weight, Mixing mixing);
+
 /// `v` rounded to an integer, for v in [0, 255].
 inline std::uint8_t round_unorm8(float v) { return static_cast<std::uint8_t>(v + 0.5f); }
 

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "zoneplate/antialias/post/encoded.h"
+#include "zoneplate/antialias/post/smaa/smaa.h"
 #include "zoneplate/antialias/temporal/camera_motion.h"
 #include "zoneplate/antialias/temporal/resolve.h"
 #include "zoneplate/base/parallel.h"
@@ -57,6 +59,9 @@ void fill_bordered(Plane<T>& out, int width, int height, const Value& value) {
 }
 
 /// Pixel 0 of a row of a bordered plane.
+float* pixels_of(Plane<float>& plane, int y) { return plane.row(y + border).data() + border; }
+
+/// The same; null for an empty plane.
 const float* begin_of(const Plane<float>& plane, int y) {
   return plane.empty() ? nullptr : plane.row(y + border).data() + border;
 }
@@ -115,6 +120,7 @@ Request TemporalAccumulation::request(const FrameContext& context) {
   request.planes.object_id = true;
   request.planes.motion = !options_.follows_camera;
   request.planes.last_position = tests_surfaces();
+  request.is_display_referred = options_.smooths_new_pixels;
   return request;
 }
 
@@ -130,33 +136,39 @@ void TemporalAccumulation::take_current(const Frame& frame) {
   });
   extend_rows(out.color);
 
-  const auto fill = [&](Plane<float>& plane, const auto& value) { fill_bordered(plane, width, height, value); };
-  fill(out.nearness, [&](int x, int y) { return frame.reversed_depth(x, y); });
-  fill(out.surface, [&](int x, int y) { return number_of(frame.object_id(x, y)); });
   const CameraMotion camera(context_.camera, context_.last_camera, width, height);
-  const SamplePosition jitter = sample();
-  Plane<float2>& motion = out.point_motion;
-  resize(motion, width, height);
-  for_each_row(height, [&](int y) {
-    for (int x = 0; x < width; ++x) {
-      const bool is_surface = frame.object_id(x, y) != Frame::no_id;
-      motion(x, y) = is_surface && !options_.follows_camera
-                         ? frame.motion(x, y)
-                         : camera.at(x + jitter.x / 256.0, y + jitter.y / 256.0, frame.depth(x, y));
-    }
-  });
-  fill(out.motion[0], [&](int x, int y) { return motion(x, y).x; });
-  fill(out.motion[1], [&](int x, int y) { return motion(x, y).y; });
-  if (options_.parts.trusts_rest && !context_.is_first) find_restless(object_motions(frame));
-  if (!tests_surfaces()) return;
   const LastDepths last(context_.last_camera, static_cast<float>(width) / static_cast<float>(height));
-  const auto distance = [&](int x, int y) {
-    return frame.object_id(x, y) == Frame::no_id ? std::numeric_limits<float>::infinity()
-                                                 : last.distance(frame.last_position(x, y));
-  };
-  fill(out.last_depth, distance);
-  if (options_.parts.rejection == TemporalParts::Rejection::Edge)
-    fill(out.last_nearness, [&](int x, int y) { return last.nearness(distance(x, y)); });
+  const SamplePosition jitter = sample();
+  const bool tests_surfaces = options_.parts.rejection != TemporalParts::Rejection::None;
+  const bool tests_nearness = options_.parts.rejection == TemporalParts::Rejection::Edge;
+  std::vector<Bordered*> planes{&out.nearness, &out.surface, &out.motion[0], &out.motion[1]};
+  if (tests_surfaces) planes.push_back(&out.last_depth);
+  if (tests_nearness) planes.push_back(&out.last_nearness);
+  for (Bordered* plane : planes) resize(*plane, width + 2 * border, height + 2 * border);
+  // All planes of a row together: what a pixel's planes are made of is read once.
+  for_each_row(height, [&](int y) {
+    float* const nearness = pixels_of(out.nearness, y);
+    float* const surface = pixels_of(out.surface, y);
+    float *const motion_x = pixels_of(out.motion[0], y), *const motion_y = pixels_of(out.motion[1], y);
+    float* const last_depth = tests_surfaces ? pixels_of(out.last_depth, y) : nullptr;
+    float* const last_nearness = tests_nearness ? pixels_of(out.last_nearness, y) : nullptr;
+    for (int x = 0; x < width; ++x) {
+      const std::uint32_t id = frame.object_id(x, y);
+      const bool is_surface = id != Frame::no_id;
+      nearness[x] = frame.reversed_depth(x, y);
+      surface[x] = number_of(id);
+      const float2 motion = is_surface && !options_.follows_camera
+                                ? frame.motion(x, y)
+                                : camera.at(x + jitter.x / 256.0, y + jitter.y / 256.0, frame.depth(x, y));
+      motion_x[x] = motion.x, motion_y[x] = motion.y;
+      if (!tests_surfaces) continue;
+      last_depth[x] = is_surface ? last.distance(frame.last_position(x, y)) : std::numeric_limits<float>::infinity();
+      if (tests_nearness) last_nearness[x] = last.nearness(last_depth[x]);
+    }
+    for (Bordered* plane : planes) extend_row(plane->row(y + border));
+  });
+  for (Bordered* plane : planes) extend_rows(*plane);
+  if (options_.parts.trusts_rest && !context_.is_first) find_restless(object_motions(frame));
 }
 
 /// Where history may contain colours that have moved elsewhere: TemporalKernels::find_unrest.
@@ -236,17 +248,18 @@ TemporalAccumulation::ObjectMotions TemporalAccumulation::object_motions(const F
     int pixels = 0;
   };
   std::vector<Sum> sums(static_cast<std::size_t>(most) + 2);
-  const std::span<const std::uint32_t> ids = frame.object_id.values();
-  for (std::size_t i = 0; i < ids.size();) {
-    // The sum stays in registers along the pixels of one object.
-    const std::uint32_t id = ids[i];
-    Sum& object = sums[static_cast<std::size_t>(number_of(id) + 1)];
-    Sum sum = object;
-    for (; i < ids.size() && ids[i] == id; ++i) {
-      const float2 m = current_.point_motion.values()[i];
-      sum.x += static_cast<double>(m.x), sum.y += static_cast<double>(m.y), ++sum.pixels;
+  for (int y = 0; y < frame.object_id.height(); ++y) {
+    const std::span<const std::uint32_t> ids = frame.object_id.row(y);
+    const float *const motion_x = begin_of(current_.motion[0], y), *const motion_y = begin_of(current_.motion[1], y);
+    for (std::size_t i = 0; i < ids.size();) {
+      // The sum stays in registers along the pixels of one object.
+      const std::uint32_t id = ids[i];
+      Sum& object = sums[static_cast<std::size_t>(number_of(id) + 1)];
+      Sum sum = object;
+      for (; i < ids.size() && ids[i] == id; ++i)
+        sum.x += static_cast<double>(motion_x[i]), sum.y += static_cast<double>(motion_y[i]), ++sum.pixels;
+      object = sum;
     }
-    object = sum;
   }
   constexpr float infinity = std::numeric_limits<float>::infinity();
   ObjectMotions out;
@@ -350,6 +363,21 @@ LinearImage TemporalAccumulation::resolve(Frame& frame) {
   LinearImage out = blended(frame);
   if (tests_surfaces() || options_.parts.trusts_rest) keep_surfaces(frame);
   return options_.sharpening > 0 ? sharpened(std::move(out)) : out;
+}
+
+DisplayImage TemporalAccumulation::post_process(DisplayImage image, const Frame&) {
+  if (!options_.smooths_new_pixels) return image;
+  DisplayImage smooth =
+      filter_encoded(image, Mixing::Linear, [](const Rgba8Image& i) { return apply_smaa(i, nullptr, {}); });
+  // A pixel of n frames is the mean of n samples: SMAA stands for those that it lacks.
+  for_each_row(image.height(), [&](int y) {
+    for (int x = 0; x < image.width(); ++x) {
+      const float frames = frames_(x, y);
+      if (frames < TemporalParts::known_frames)
+        image(x, y) = mixed(image(x, y), smooth(x, y), 1 / (frames * frames), Mixing::Linear);
+    }
+  });
+  return image;
 }
 
 }  // namespace zoneplate::antialias

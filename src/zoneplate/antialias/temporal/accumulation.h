@@ -17,6 +17,8 @@ class TemporalAccumulation : public Resolver {
   Request request(const FrameContext& context) override;
   /// The resolved image of the frame of the last request.
   LinearImage resolve(Frame& frame) override;
+  /// The image, in which pixels without history are filtered by SMAA if the options say so.
+  DisplayImage post_process(DisplayImage image, const Frame& frame) override;
 
  private:
   /// A plane that continues beyond the image by TemporalRow::border pixels, with its outermost values.
@@ -24,7 +26,6 @@ class TemporalAccumulation : public Resolver {
   /// The planes of this frame; those that no part reads are empty, or of earlier frames.
   struct Current {
     LinearImage color;
-    Plane<float2> point_motion;
     Bordered nearness, motion[2], surface, last_depth, last_nearness, changes;
     Plane<float> restless, relit, wide_relit;
   };

@@ -25,6 +25,7 @@ struct TemporalOptions {
   bool follows_camera = false;  ///< motion is that of a scene at rest, from depths and cameras
   float bias = 0;               ///< mip levels that textures are blurrier than for one sample per pixel
   float sharpening = 0;
+  bool smooths_new_pixels = false;  ///< those without history, by SMAA
   int settling_frames = 64;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -119,6 +120,33 @@ TEST(Taa, ASwitchedLightLeavesNoHistory) {
   const LinearImage reference = last_frame({moving.scene, moving.camera}, "converged:samples=64", frames);
   const double error = rms(last_frame(moving, "taa", frames), reference);
   EXPECT_LE(error, rms(last_frame(moving, "taa:rest=test", frames), reference));
+}
+
+TEST(Taa, NewPixelsMayBeSmoothedBySmaa) {
+  const MovingScene moving = still(*make_builtin_scene("thin-diagonal"));
+  const auto frames = [&](const std::string& method) {
+    const PreparedScene prepared(moving.scene(0));
+    Renderer renderer(prepared, make_resolver(methods(), method));
+    RenderSettings settings = moving.settings();
+    settings.form = ImageForm::Display16;
+    std::vector<Plane<Rgba16>> out;
+    for (int i = 0; i < 4; ++i) out.push_back(renderer.render(moving.camera(i), settings).display16);
+    return out;
+  };
+  const auto error = [](const Plane<Rgba16>& a, const Plane<Rgba16>& b) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.values().size(); ++i) {
+      const int difference = int{a.values()[i].g} - int{b.values()[i].g};
+      sum += static_cast<double>(difference) * difference;
+    }
+    return std::sqrt(sum);
+  };
+  const auto samples = frames("taa"), smoothed = frames("taa:new=smaa");
+  const auto reference = frames("converged:samples=64")[0];
+  EXPECT_LT(error(smoothed[0], reference), 0.8 * error(samples[0], reference));
+  EXPECT_LT(error(smoothed[1], reference), error(samples[1], reference));
+  EXPECT_TRUE(std::ranges::equal(smoothed[3].values(), samples[3].values()));
+  EXPECT_THROW(frames("taa:new=smaa,blend=fixed"), Error);
 }
 
 // A wall that fills the image, seen by a camera that moves by fractions of a pixel.

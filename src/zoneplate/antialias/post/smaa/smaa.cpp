@@ -145,18 +145,6 @@ class Smaa : public Resolver {
   Predication predication_;
 };
 
-/// The display-referred pixels a and b, premultiplied and weighted by 1 - weight and weight.
-Display mixed(const Display& a, const Display& b, float weight, Mixing mixing) {
-  if (a == b) return a;
-  const float of_a = a.a * (1 - weight), of_b = b.a * weight, alpha = of_a + of_b;
-  if (!(alpha > 0)) return {0, 0, 0, 0};
-  const auto channel = [&](float p, float q) {
-    if (mixing == Mixing::Encoded) return (p * of_a + q * of_b) / alpha;
-    return encode_srgb((decode_srgb(p) * of_a + decode_srgb(q) * of_b) / alpha);
-  };
-  return {channel(a.r, b.r), channel(a.g, b.g), channel(a.b, b.b), alpha};
-}
-
 /// A sample of a frame, and the areas under lines for its position (SmaaOptions::slots).
 struct Subsample {
   SamplePosition position;
