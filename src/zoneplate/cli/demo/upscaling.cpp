@@ -17,11 +17,12 @@ namespace zoneplate::cli {
 namespace {
 
 constexpr int factor = 8;
+constexpr std::size_t columns = 5;
 
 struct Step {
   const char *method, *words;
 };
-constexpr std::array<Step, 7> steps = {
+constexpr std::array<Step, 9> steps = {
     {{"smaa+bilinear:scale=2", "The mean of four pixels: soft, and diagonals show the grid of the small image."},
      {"smaa+bicubic:scale=2", "Negative weights sharpen edges, with pale and dark seams beside them."},
      {"smaa+lanczos:scale=2", "Six pixels along each axis: sharper, with more seams."},
@@ -29,7 +30,9 @@ constexpr std::array<Step, 7> steps = {
      {"smaa+nis:scale=2", "Filters along four directions, and sharpening of luma."},
      {"smaa+fsr1:scale=2",
       "A kernel that is turned and stretched along the edge, clamped to its neighbours; sharpened."},
-     {"fsr2:scale=2", "32 jittered frames of that size, accumulated: details of one sample per pixel and more."}}};
+     {"taau:scale=2", "32 jittered frames of that size, accumulated where history agrees with its neighbours."},
+     {"fsr2:scale=2", "The same frames; details that history has and a frame lacks are locked."},
+     {"fsr3:scale=2", "The same frames; history is kept where its luma is stable, and is softer at first."}}};
 
 struct Shot {
   DisplayImage image;
@@ -40,7 +43,7 @@ Shot shot(const PreparedScene& scene, const Camera& camera, const std::string& m
   Renderer renderer(scene, upscale::make_method(method));
   RenderSettings settings{.options = {.width = side, .height = height}, .form = ImageForm::Display16};
   settings.options.display.background = default_background;
-  const int frames = method.starts_with("fsr2") ? 32 : 1;
+  const int frames = method.starts_with("fsr2") || method.starts_with("fsr3") || method.starts_with("taau") ? 32 : 1;
   RenderedImage image;
   for (int i = 0; i < frames; ++i) image = renderer.render(camera, settings);
   DisplayImage out(side, height);
@@ -65,8 +68,8 @@ Lesson make(const DemoSize& size, const Settings&) {
   Figure figure{.title = "Upscaling: images of 2 × 2 pixels for each shaded one", .rows = {{}, {}, {}, {}}};
   const auto add = [&](std::size_t i, const Shot& each, std::string caption, std::string crop_caption) {
     const Rgba8Image picture = quantize8(each.image);
-    figure.rows[i / 4 * 2].push_back({marked(picture, x, y, factor, side), std::move(caption)});
-    figure.rows[i / 4 * 2 + 1].push_back({crop_of(picture, x, y, factor, side), std::move(crop_caption)});
+    figure.rows[i / columns * 2].push_back({marked(picture, x, y, factor, side), std::move(caption)});
+    figure.rows[i / columns * 2 + 1].push_back({crop_of(picture, x, y, factor, side), std::move(crop_caption)});
   };
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const Shot each = shot(prepared, camera, steps[i].method, side, height);
@@ -74,17 +77,19 @@ Lesson make(const DemoSize& size, const Settings&) {
     add(i, each, fmt::format("{}\n{}", steps[i].method, steps[i].words),
         fmt::format("{} shaded samples a frame, error {}\u00a0%.", counted(each.shaded), number(100 * error, 2)));
   }
-  add(7, reference, "ssaa:n=8\nThe reference.", fmt::format("{} shaded samples.", counted(reference.shaded)));
+  add(steps.size(), reference, "ssaa:n=8\nThe reference.",
+      fmt::format("{} shaded samples.", counted(reference.shaded)));
   figure.text =
       "The frames mark the regions below, enlarged 8 times. Error: root mean square difference from the reference, of "
       "sRGB values, white being 100 %. Filters of one image guess what lies between its pixels: they keep edges sharp, "
-      "and cannot bring back a highlight that no sample has hit. A temporal method samples another place of each pixel "
-      "in every frame. The filters are defined for antialiased images; here smaa precedes them.";
+      "and cannot bring back a highlight that no sample has hit. The temporal methods, taau, fsr2 and fsr3, sample "
+      "another "
+      "place of each pixel in every frame. The filters are defined for antialiased images; here smaa precedes them.";
   return {.frames = {figure}};
 }
 
 }  // namespace
 
-Demo demo_upscaling() { return {"upscaling", "seven upscalers of images with a quarter of the pixels", make}; }
+Demo demo_upscaling() { return {"upscaling", "nine upscalers of images with a quarter of the pixels", make}; }
 
 }  // namespace zoneplate::cli
