@@ -6,7 +6,7 @@ file(CREATE_LINK ${nlohmann_headers}/nlohmann ${CMAKE_CURRENT_BINARY_DIR}/header
 
 # files.cpp takes the place of the sources that need libraries or child processes.
 set(readers ${all_sources})
-list(FILTER readers INCLUDE REGEX "^src/zoneplate/formats/(gltf|import|json|obj|ply|stl)/|report/json\\.cpp$")
+list(FILTER readers INCLUDE REGEX "^src/zoneplate/formats/(gltf|import|json|obj|ply|stl)/|codec/hdr\\.cpp$|report/json\\.cpp$")
 list(FILTER readers EXCLUDE REGEX "_test\\.cpp$|/(draco|image_file|scene_bytes)\\.cpp$")
 
 # The lessons of `zoneplate demo`. Functions of these sources that need more are not linked, since nothing calls them;
@@ -29,3 +29,8 @@ target_link_libraries(zoneplate_playground PRIVATE zoneplate_playground_flags)
 target_precompile_headers(zoneplate_playground PRIVATE ${common_headers})
 target_link_options(zoneplate_playground PRIVATE -O2 --no-entry -sMODULARIZE -sEXPORT_ES6 -sENVIRONMENT=worker -sEXIT_RUNTIME=0
                     -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=ccall,FS)
+# With threads (cmake/wasm_threads.cmake), the workers of all of them are there before the first call: a browser starts
+# none while a function runs. No more threads are started than there are workers.
+if(CMAKE_CXX_FLAGS MATCHES "-pthread")
+  target_link_options(zoneplate_playground PRIVATE -sEXPORTED_RUNTIME_METHODS=ccall,FS,wasmMemory -sPTHREAD_POOL_SIZE=Module.threads-1 -sPTHREAD_POOL_SIZE_STRICT=2)
+endif()

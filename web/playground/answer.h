@@ -5,18 +5,22 @@
 #include <span>
 #include <string>
 
+#include "zoneplate/base/parallel.h"
 #include "zoneplate/base/spec.h"
 #include "zoneplate/report/json.h"
 
 namespace zoneplate {
 
-/// Calls `body`, which returns a JSON value, and returns its text, or {"error": ...}. The text is valid until the next
-/// call.
+/// The number of threads that the page gives the module: 1 without -pthread.
+int threads_of_page();
+
+/// Calls `body`, which returns a JSON value and may use these threads, and returns its text, or {"error": ...}. The
+/// text is valid until the next call.
 template <class Body>
 const char* answer(const Body& body) {
   static std::string text;
   try {
-    text = Json(body()).text();
+    with_threads(threads_of_page(), [&] { text = Json(body()).text(); });
   } catch (const std::exception& error) {
     text = Json(Json::Object{{"error", error.what()}}).text();
   }

@@ -4,12 +4,15 @@
 #include <emscripten/emscripten.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/codec/hdr.h"
 #include "zoneplate/formats/gltf/draco.h"
 #include "zoneplate/formats/import/image_file.h"
 #include "zoneplate/formats/meshopt/meshopt.h"
@@ -62,7 +65,19 @@ FileBytes& FileBytes::operator=(FileBytes&& other) noexcept {
 }
 void FileBytes::forget(const void*, std::size_t) const {}
 
+/// Why the page does not decode an image that the program does; empty for others.
+static std::string_view reason_of(std::span<const std::uint8_t> bytes) {
+  const std::string_view start(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 8));
+  if (start == "\xABKTX 20\xBB")
+    return "KTX2 textures are read by the program, not by this page: with their decoders, the module would be larger "
+           "than 1.5 MB";
+  if (start.starts_with("\x76\x2f\x31\x01")) return "OpenEXR images are read by the program, not by this page";
+  return "";
+}
+
 std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes) {
+  if (is_hdr(bytes)) return find_hdr_size(bytes);
+  if (!reason_of(bytes).empty()) return std::nullopt;
   const int image = find_image(bytes.data(), bytes.size());
   if (image < 0 || image_value(image, 0) == 0) return std::nullopt;
   return int2{image_value(image, 0), image_value(image, 1)};
@@ -70,9 +85,9 @@ std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes) {
 
 std::uint64_t decoded_image_memory(std::span<const std::uint8_t> bytes) {
   const std::optional<int2> size = find_image_size(bytes);
-  return size
-             ? std::uint64_t{sizeof(Rgba16)} * static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y)
-             : 0;
+  return size ? std::uint64_t{is_hdr(bytes) ? sizeof(float4) : sizeof(Rgba16)} * static_cast<std::uint64_t>(size->x) *
+                    static_cast<std::uint64_t>(size->y)
+              : 0;
 }
 std::uint64_t image_working_memory(std::span<const std::uint8_t>) { return 0; }
 
@@ -84,6 +99,9 @@ static Plane<Texel> image_of(int image) {
 }
 
 TexelImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  if (const std::string_view reason = reason_of(bytes); !reason.empty())
+    throw Error(ErrorKind::Input, fmt::format("{}: {}", name, reason));
+  if (is_hdr(bytes)) return decode_hdr_rgba(bytes, name, max_pixels);
   const std::optional<int2> size = find_image_size(bytes);
   if (!size) throw Error(ErrorKind::Input, name + ": the browser does not decode this image");
   if (static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y) > max_pixels)

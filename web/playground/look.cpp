@@ -22,6 +22,7 @@ std::span<const Param> look_params() {
   static constexpr std::string_view shadows[] = {"none", "map", "hard", "soft"};
   static constexpr std::string_view occlusions[] = {"none", "rays"};
   static constexpr std::string_view grounds[] = {"none", "shadow"};
+  static constexpr std::string_view backgrounds[] = {"colour", "environment"};
   static constexpr std::string_view curves[] = {"default", "none", "aces", "neutral", "agx", "filmic"};
   static const Param params[] = {
       {.name = "visibility",
@@ -46,6 +47,7 @@ std::span<const Param> look_params() {
        .names = shadows},
       {.name = "ambient-occlusion", .meaning = "what hides the environment's light: 32 rays", .names = occlusions},
       {.name = "ground", .meaning = "a plane that displays the shadows on it; requires shadows", .names = grounds},
+      {.name = "background", .meaning = "of the image: one colour, or the light's own image", .names = backgrounds},
       {.name = "tone-mapping",
        .meaning = "curve from light to the display; default: neutral in the studio, else none",
        .names = curves},
@@ -69,6 +71,7 @@ void set_look(std::string_view text, RenderOptions& options) {
   options.ground = settings.integer("ground") == 0 ? GroundKind::None : GroundKind::Shadow;
   if (options.ground == GroundKind::Shadow && !has_visibility(options))
     throw Error(ErrorKind::Usage, "ground=shadow requires shadows or ambient-occlusion");
+  if (settings.integer("background") == 1) options.background.emplace();
   if (const int curve = settings.integer("tone-mapping"); curve > 0)
     options.display.mapping = static_cast<ToneMapping>(curve - 1);
   options.display.exposure = exp2(static_cast<float>(settings.number("exposure")));

@@ -1,6 +1,6 @@
 // The page: a scene, two methods, and their images side by side.
 import { Chooser } from './chooser.js';
-import { Renderer } from './renderer.js';
+import { mostThreads, Renderer } from './renderer.js';
 import { element, list } from './report/dom.js';
 import { addPicture, sizeOf } from './report/picture.js';
 import { Sequence } from './report/sequence.js';
@@ -28,6 +28,7 @@ function fail(text) {
 }
 
 let model; // { name, files } of a model that was dropped
+let environment = ''; // the name of the file that lights the scene, if any
 let about, loaded, choosers, sceneChooser, figure;
 const number = (text) => (text === '' ? NaN : Number(text));
 const sizeNow = () => state.size.split('x').map(Number);
@@ -139,13 +140,32 @@ async function chooseScene(scene) {
 /// Displays a model: the first of the files that is one.
 async function chooseFiles(list) {
   const files = await Promise.all([...list].map(async (file) => ({ path: file.webkitRelativePath || file.name, bytes: new Uint8Array(await file.arrayBuffer()) })));
-  const first = files.findIndex(({ path }) => /\.(glb|gltf|obj|ply|stl)$/i.test(path));
-  if (first < 0) return fail('None of these files is a model: the page reads .glb, .gltf, .obj, .ply and .stl, with the files that belong to them.');
+  const first = files.findIndex(({ path }) => /\.(glb|gltf|obj|ply|stl)$/i.test(path)), light = files.find(({ path }) => /\.hdr$/i.test(path));
+  if (first < 0 && light) return chooseEnvironment(light);
+  if (first < 0) return fail('None of these files is a model or an environment: the page reads .glb, .gltf, .obj, .ply and .stl, with the files that belong to them, and .hdr.');
   const last = model;
   model = { name: files[first].path, files: [files[first], ...files.filter((_, i) => i !== first)] };
   if (await load(model.name)) return set({ scene: model.name, azimuth: '', elevation: '', angle: '', frame: '', pixel: '' });
   model = last;
   return undefined;
+}
+
+/// Lights the scene by the image of a file, filtered by a renderer of its own; without one, by the scene's own light.
+async function chooseEnvironment(file) {
+  app.dataset.done = 'false';
+  const renderer = file && new Renderer();
+  if (file) filtering.textContent = `The light of ${file.path} is being filtered, which takes up to a minute …`;
+  try {
+    const { data } = file ? await renderer.ask('prepare', file) : { data: new Uint8Array() };
+    for (const side of sides) await side.renderer.ask('environment', data);
+    environment = file?.path ?? '';
+    if (await load(state.scene)) set({});
+  } catch (failure) {
+    fail(failure.message);
+  }
+  renderer?.worker.terminate();
+  filtering.textContent = environment ? `Lit by ${environment}.` : '';
+  ownLight.hidden = !environment;
 }
 
 // ---- the camera and frames
@@ -217,7 +237,8 @@ function onStage() {
 const lessonPanel = new LessonPanel(() => choosers, (next) => go({ ...defaults, ...next }));
 
 const sizeList = list('Size', sizes.map((size) => size.replace('x', ' × ')), (i) => set({ size: sizes[i], pixel: '' }));
-const sceneFacts = element('p');
+const sceneFacts = element('p'), filtering = element('p', { role: 'status' });
+const ownLight = element('button', { type: 'button', hidden: true, onclick: () => chooseEnvironment(null) }, 'The scene’s own light');
 const commands = element('code');
 function showControls() {
   if (!about || state.demo) return;
@@ -234,7 +255,7 @@ function showControls() {
   still.setAttribute('aria-pressed', state.frame === '');
   const row = sceneChooser.rows.find(({ name }) => name === state.scene.split(':')[0]);
   sceneFacts.textContent = [row?.complaint, `${about.triangles.toLocaleString('en')} triangles.`, ...about.warnings].filter(Boolean).join(' ');
-  commands.textContent = sides.map(({ key, hasHistory }) => commandOf(state, about, { method: state[key], look: state[`look${key}`], hasHistory, output: `${key}.png` })).join('\n');
+  commands.textContent = sides.map(({ key, hasHistory }) => commandOf(state, about, { method: state[key], look: state[`look${key}`], hasHistory, output: `${key}.png`, environment })).join('\n');
 }
 
 const keys = [
@@ -252,7 +273,7 @@ function setTheme(theme) {
 }
 setTheme('auto');
 
-const files = element('input', { type: 'file', multiple: true, hidden: true, 'aria-label': 'Files of a model', accept: '.glb,.gltf,.obj,.ply,.stl,.mtl,.bin,image/*',
+const files = element('input', { type: 'file', multiple: true, hidden: true, 'aria-label': 'Files of a model, or an environment', accept: '.glb,.gltf,.obj,.ply,.stl,.mtl,.bin,.hdr,image/*',
   onchange: () => chooseFiles(files.files) });
 for (const type of ['dragover', 'dragleave', 'drop']) {
   document.addEventListener(type, (event) => {
@@ -275,14 +296,14 @@ function build(catalogue) {
   const card = (title, ...parts) => element('section', { class: 'card', 'aria-label': title.at(-1).textContent ?? title.at(-1) }, element('h2', {}, title), ...parts);
   app.replaceChildren(
     element('header', {}, element('div', {}, element('h1', {}, 'Zoneplate playground'),
-      element('p', {}, 'The renderer runs in this page. Its images have the same bytes as those of the program.')),
+      element('p', {}, `The renderer runs in this page, by ${mostThreads === 1 ? 'one thread' : `${mostThreads} threads`} an image. Its images have the same bytes as those of the program.`)),
     element('div', { class: 'corner' }, lessonPanel.list, element('nav', { class: 'link-list', 'aria-label': 'Site' }, element('a', { href: '../index.html' }, 'Documentation'),
       element('a', { href: '../lessons/index.html' }, 'Lessons'), element('a', { href: '../gallery/index.html' }, 'Gallery')),
     element('button', { type: 'button', onclick: () => help.showModal() }, 'Keys'), themeButton)),
     error,
     element('div', { class: 'controls' },
       card(['Scene'], sceneChooser.node, sceneFacts, element('div', { class: 'row' },
-        element('button', { type: 'button', title: 'Or drop the files on the page', onclick: () => files.click() }, 'Open a model …'), files)),
+        element('button', { type: 'button', title: 'Or drop the files on the page', onclick: () => files.click() }, 'Open a model or .hdr …'), ownLight, files), filtering),
       ...sides.map(({ key }) => card([element('span', { class: 'mark' }, key.toUpperCase()), `Method ${key.toUpperCase()}`], choosers[key].node, choosers[`look${key}`].node)),
       card(['Camera'], element('div', { class: 'field' }, element('label', {}, 'Size'), sizeList), ...Object.values(lens).map((part) => part.node),
         element('div', { class: 'row' }, element('button', { type: 'button', onclick: () => set({ azimuth: '', elevation: '', angle: '' }) }, 'Reset the camera')))),

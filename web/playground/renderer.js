@@ -1,8 +1,12 @@
 // A renderer in a worker.
 
+/// The number of threads of a renderer: those of the machine, where the page is cross-origin isolated. Pages have two
+/// renderers, which often work one after the other.
+export const mostThreads = globalThis.crossOriginIsolated ? Math.min(navigator.hardwareConcurrency, 16) : 1;
+
 export class Renderer {
-  constructor() {
-    this.worker = new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
+  constructor(threads = mostThreads) {
+    this.worker = new Worker(new URL(`./worker.js?threads=${threads}`, import.meta.url), { type: 'module' });
     this.waiting = new Map(), this.count = 0;
     this.worker.onmessage = ({ data: { id, result, error } }) => {
       const { done, fail } = this.waiting.get(id);

@@ -8,6 +8,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "answer.h"
 #include "figures.h"
@@ -15,12 +17,15 @@
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/codec/hdr.h"
 #include "zoneplate/formats/gltf/gltf.h"
+#include "zoneplate/formats/import/image_file.h"
 #include "zoneplate/formats/obj/obj.h"
 #include "zoneplate/formats/ply/ply.h"
 #include "zoneplate/formats/stl/stl.h"
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/os/file.h"
 #include "zoneplate/render/lighting.h"
 #include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/render/renderer.h"
@@ -29,10 +34,21 @@
 #include "zoneplate/report/json.h"
 #include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/scene/builtin/make.h"
+#include "zoneplate/shade/environment/layout.h"
 #include "zoneplate/shade/environment/prepared_environment.h"
 #include "zoneplate/upscale/upscaler.h"
 
+// clang-format off
+EM_JS(int, count_threads, (), { return Module.threads ?? 1; });
+// clang-format on
+
 namespace zoneplate {
+
+int threads_of_page() {
+  static const int threads = count_threads();
+  return threads;
+}
+
 namespace {
 
 constexpr double frame_rate = 24;
@@ -68,10 +84,20 @@ Json::Object catalogue() {
           {"look", Json::Array{Json::Object{{"name", "look"}, {"summary", ""}, {"params", params_of(look_params())}}}}};
 }
 
+/// What `body` returns, on one thread: files and decoded images are those of the module's first thread.
+template <class Body>
+auto on_one_thread(const Body& body) {
+  std::optional<decltype(body())> out;
+  with_threads(1, [&] { out.emplace(body()); });
+  return std::move(*out);
+}
+
 /// A scene, its camera, and the image of one method.
 class Session {
  public:
   void set_studio(std::span<const std::uint8_t> bytes);
+  Json::Object prepare_environment(const std::string& file);
+  void set_environment(std::span<const std::uint8_t> bytes);
   void set_builtin(const std::string& text);
   void set_model(const std::string& file);
   void set_view(const View& view, int width, int height);
@@ -87,7 +113,9 @@ class Session {
   void set_scene(Scene made, const std::string& name, std::optional<SceneLoader> loader);
   Camera still_camera() const;
 
-  std::shared_ptr<const PreparedEnvironment> studio_;  ///< null: made when a scene needs it
+  std::shared_ptr<const PreparedEnvironment> studio_;       ///< null: made when a scene needs it
+  std::shared_ptr<const PreparedEnvironment> environment_;  ///< of a file, in place of that of any scene; or null
+  std::vector<std::uint8_t> prepared_;                      ///< of the last prepare_environment
   std::string name_;
   bool has_own_camera_ = false, moves_ = false;
   std::optional<PreparedScene> still_;
@@ -113,9 +141,32 @@ void Session::set_studio(std::span<const std::uint8_t> bytes) {
   studio_ = std::make_shared<const PreparedEnvironment>(std::move(*found));
 }
 
+LoadLimits page_limits() { return {.memory = std::uint64_t{1} << 30}; }
+
+/// Filters the image of a file, and returns where the bytes of the environment are, for `set_environment`.
+Json::Object Session::prepare_environment(const std::string& file) {
+  const CubeImage cube = on_one_thread([&] {
+    const FileBytes bytes(file, page_limits().memory);
+    if (!is_hdr(bytes.bytes())) throw Error(ErrorKind::Input, file + ": is no Radiance image (.hdr)");
+    const TexelImage image = decode_image(bytes.bytes(), file, page_limits().pixels);
+    return cube_of(image, layout_of(image.width(), image.height()));
+  });
+  prepared_ = PreparedEnvironment(cube).bytes();
+  return {{"at", std::uint64_t{reinterpret_cast<std::uintptr_t>(prepared_.data())}},
+          {"size", std::uint64_t{prepared_.size()}}};
+}
+
+/// Takes a prepared environment for the scenes that are set from now on; without bytes they have their own light.
+void Session::set_environment(std::span<const std::uint8_t> bytes) {
+  environment_ = nullptr;
+  if (std::optional<PreparedEnvironment> found = PreparedEnvironment::from_bytes(bytes))
+    environment_ = std::make_shared<const PreparedEnvironment>(std::move(*found));
+}
+
 /// The scene under the lights that the command `render` gives it.
 Scene Session::lit(Scene scene) {
   LightingOptions options;
+  if (environment_) options.environment = Environment{.color = {1, 1, 1}, .map = environment_};
   if (studio_) options.studio = [this] { return studio_; };
   Lighting lighting = make_lighting(scene, options);
   scene.lights = std::move(lighting.lights);
@@ -158,25 +209,30 @@ void Session::set_builtin(const std::string& text) {
 
 /// Takes a model of the working directory of the module's memory.
 void Session::set_model(const std::string& file) {
-  const LoadLimits limits{.memory = std::uint64_t{1} << 30};
+  const LoadLimits limits = page_limits();
   std::string extension = file.substr(std::min(file.rfind('.'), file.size()));
   for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
   Scene made;
   std::optional<SceneLoader> loader;
   if (extension == ".glb" || extension == ".gltf") {
-    const auto model = std::make_shared<GltfModel>(file, limits);
-    made = model->scene({});
+    const auto model = on_one_thread([&] { return std::make_shared<GltfModel>(file, limits); });
+    const auto scene_at = [model](const SceneChoice& choice, GltfModel::Images images) {
+      return on_one_thread([&] { return model->scene(choice, images); });
+    };
+    made = scene_at({}, GltfModel::Images::With);
     if (!made.animations.empty())
-      loader = {[this, model](double seconds) { return lit(model->scene({.animation = 0, .time = seconds})); },
-                [model](double seconds) {
-                  return model->scene({.animation = 0, .time = seconds}, GltfModel::Images::Without);
+      loader = {[this, scene_at](double seconds) {
+                  return lit(scene_at({.animation = 0, .time = seconds}, GltfModel::Images::With));
+                },
+                [scene_at](double seconds) {
+                  return scene_at({.animation = 0, .time = seconds}, GltfModel::Images::Without);
                 }};
   } else if (extension == ".obj") {
-    made = load_obj(file, limits);
+    made = on_one_thread([&] { return load_obj(file, limits); });
   } else if (extension == ".ply") {
-    made = load_ply(file, limits);
+    made = on_one_thread([&] { return load_ply(file, limits); });
   } else if (extension == ".stl") {
-    made = load_stl(file, limits);
+    made = on_one_thread([&] { return load_stl(file, limits); });
   } else {
     throw Error(ErrorKind::Usage, file + ": the page reads .glb, .gltf, .obj, .ply and .stl");
   }
@@ -336,6 +392,17 @@ EMSCRIPTEN_KEEPALIVE Session* make_session() { return new Session; }
 EMSCRIPTEN_KEEPALIVE const char* set_studio(Session* session, const std::uint8_t* bytes, std::size_t size) {
   return answer([&] {
     session->set_studio({bytes, size});
+    return Json::Object{};
+  });
+}
+
+EMSCRIPTEN_KEEPALIVE const char* prepare_environment(Session* session, const char* file) {
+  return answer([&] { return session->prepare_environment(file); });
+}
+
+EMSCRIPTEN_KEEPALIVE const char* set_environment(Session* session, const std::uint8_t* bytes, std::size_t size) {
+  return answer([&] {
+    session->set_environment({bytes, size});
     return Json::Object{};
   });
 }

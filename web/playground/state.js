@@ -24,10 +24,10 @@ export function hashOf(state) {
 /// The command of the native program that draws the same lesson.
 export const demoCommandOf = ({ demo, panel }) => `./zoneplate demo ${demo} --panel ${panel || defaultPanel} -o ${demo.split(':')[0]}.png`;
 
-/// The command of the native program that makes the same image, by a method with or without history.
-export function commandOf(state, about, { method, look, hasHistory, output }) {
+/// The command of the native program that makes the same image, by a method with or without history, in the light of a file.
+export function commandOf(state, about, { method, look, hasHistory, output, environment = '' }) {
   const [width, height] = state.size.split('x'), isFrame = state.frame !== '', isTurned = isFrame && !about.moves;
-  const options = [['camera-azimuth-angle', state.azimuth], ['camera-elevation-angle', state.elevation], ['camera-view-angle', state.angle],
+  const options = [['camera-azimuth-angle', state.azimuth], ['camera-elevation-angle', state.elevation], ['camera-view-angle', state.angle], ['hdri-file', environment],
     ['turntable', isTurned ? about.frames : ''], ['camera-index', isTurned && about.has_own_camera ? 0 : ''], ['frame-start', state.frame], ['frame-end', state.frame],
     ...look.split(',').filter(Boolean).map((item) => item.split('=')),
     ['warm-up', isFrame && hasHistory && state.frame !== '0' ? Math.min(32, state.frame) : '']];

@@ -1,18 +1,28 @@
-// One instance of the renderer, in a thread of its own. Requests { id, name, args } get replies { id, result } or { id, error }.
+// One instance of the renderer, in a worker of its own. Requests { id, name, args } get replies { id, result } or { id, error }.
+// The address of the worker states how many threads render: more than one need a page that is cross-origin isolated.
 import { decodeImage } from './images.js';
-import makeModule from './zoneplate_playground.js';
+
+const threads = Number(new URL(import.meta.url).searchParams.get('threads'));
 
 const studio = fetch(new URL('./studio.env', import.meta.url)).then((answer) => (answer.ok ? answer.arrayBuffer() : Promise.reject(new Error('studio.env is missing'))));
-const ready = makeModule().then((module) => ({ module, session: module.ccall('make_session', 'number', [], []) }));
+const ready = import(`./${threads > 1 ? 'threads/' : ''}zoneplate_playground.js`).then(({ default: makeModule }) => makeModule({ threads }))
+  .then((module) => ({ module, session: module.ccall('make_session', 'number', [], []) }));
+/// The bytes of a module's memory; with threads it may have grown in any of them, and only `wasmMemory` is of its size.
+const memoryOf = ({ wasmMemory, HEAPU8 }) => new Uint8Array((wasmMemory ?? HEAPU8).buffer);
 let models = 0;
 const isLit = setStudio();
 isLit.catch(() => {}); // the first scene reports it
 
 /// Gives the session the prepared light of scenes without lights.
 async function setStudio() {
-  const { module } = await ready, bytes = new Uint8Array(await studio), at = module._malloc(bytes.length);
-  module.HEAPU8.set(bytes, at);
-  await call('set_studio', ['number', 'number'], [at, bytes.length]);
+  await give('set_studio', new Uint8Array(await studio));
+}
+
+/// Calls a function of session.cpp that takes bytes.
+async function give(name, bytes) {
+  const { module } = await ready, at = module._malloc(bytes.length);
+  memoryOf(module).set(bytes, at);
+  await call(name, ['number', 'number'], [at, bytes.length]);
   module._free(at);
 }
 
@@ -61,11 +71,23 @@ const requests = {
       module.images.push(...await Promise.all(module.missing.map(decodeImage)));
     }
   },
+  /// The light of an image, filtered for all scenes: bytes for the request `environment`.
+  async prepare({ path, bytes }) {
+    const { module } = await ready, place = `/${path.split('/').pop()}`;
+    module.FS.writeFile(place, bytes);
+    const { at, size } = await call('prepare_environment', ['string'], [place]);
+    return { data: memoryOf(module).slice(at, at + size) };
+  },
+  /// The light of the scenes that are chosen from now on; without bytes they have their own.
+  async environment(data) {
+    await give('set_environment', data);
+    return {};
+  },
   /// A lesson as a scene of a viewer, and its images.
   async figure(text, panel) {
     await (font ??= setFont());
-    const { scene, images } = await call('draw_figure', ['string', 'number'], [text, panel]), { HEAPU8 } = (await ready).module;
-    return { scene, images: images.map(({ at, width, height }) => ({ width, height, data: HEAPU8.slice(at, at + 4 * width * height) })) };
+    const { scene, images } = await call('draw_figure', ['string', 'number'], [text, panel]), memory = memoryOf((await ready).module);
+    return { scene, images: images.map(({ at, width, height }) => ({ width, height, data: memory.slice(at, at + 4 * width * height) })) };
   },
   samples: (x, y) => call('samples_of', ['number', 'number'], [x, y]),
   async render({ width, height, azimuth = NaN, elevation = NaN, viewAngle = NaN, method, look = 'look', frame = -1 }) {
@@ -73,7 +95,7 @@ const requests = {
     const counts = await call('render_frame', ['string', 'string', 'number'], [method, look, frame]);
     const { module, session } = await ready;
     const at = module.ccall('pixels_of', 'number', ['number'], [session]);
-    return { ...counts, data: module.HEAPU8.slice(at, at + 4 * counts.width * counts.height) };
+    return { ...counts, data: memoryOf(module).slice(at, at + 4 * counts.width * counts.height) };
   },
 };
 

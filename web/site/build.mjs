@@ -1,8 +1,9 @@
 // Makes the site: one folder of the documents, the lessons, the gallery, the API reference and the playground.
 //
-//   node web/site/build.mjs PROGRAM PLAYGROUND API FOLDER
+//   node web/site/build.mjs PROGRAM PLAYGROUND THREADS API FOLDER
 //
-// PROGRAM is the native program, PLAYGROUND the folder with zoneplate_playground.js and .wasm, API that of Doxygen's pages.
+// PROGRAM is the native program, PLAYGROUND the folder with zoneplate_playground.js and .wasm, THREADS that of the same with
+// threads, API that of Doxygen's pages.
 import { execFileSync } from 'node:child_process';
 import fs from 'node:fs';
 import os from 'node:os';
@@ -15,7 +16,7 @@ import { rendered, sectionsOf } from './markdown.mjs';
 
 const root = path.resolve(path.dirname(fileURLToPath(import.meta.url)), '../..');
 const font = '/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf';
-const [program, playground, api, out] = process.argv.slice(2).map((argument) => path.resolve(argument));
+const [program, playground, threads, api, out] = process.argv.slice(2).map((argument) => path.resolve(argument));
 const at = (...parts) => path.join(out, ...parts);
 const run = (...args) => execFileSync(program, args, { cwd: out, encoding: 'utf8', stdio: ['ignore', 'pipe', 'pipe'] });
 const index = [];
@@ -101,7 +102,12 @@ function copyPlayground() {
     fs.copyFileSync(path.join(root, 'web/playground', name), at('playground', name));
   for (const name of fs.readdirSync(path.join(root, 'web/report')).filter((file) => /\.(js|css)$/.test(file)))
     fs.copyFileSync(path.join(root, 'web/report', name), at('playground/report', name));
-  for (const name of ['zoneplate_playground.js', 'zoneplate_playground.wasm']) fs.copyFileSync(path.join(playground, name), at('playground', name));
+  fs.mkdirSync(at('playground/threads'));
+  for (const name of ['zoneplate_playground.js', 'zoneplate_playground.wasm']) {
+    fs.copyFileSync(path.join(playground, name), at('playground', name));
+    fs.copyFileSync(path.join(threads, name), at('playground/threads', name));
+  }
+  fs.copyFileSync(path.join(threads, 'zoneplate_playground.worker.js'), at('playground/threads/zoneplate_playground.worker.js'));
   // The font of drawings in lessons, with its licence.
   fs.copyFileSync(font, at('playground/DejaVuSans.ttf'));
   fs.copyFileSync('/usr/share/doc/fonts-dejavu-core/copyright', at('playground/DejaVuSans.txt'));

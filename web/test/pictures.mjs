@@ -29,6 +29,12 @@ export function writePng(path, width, height, color) {
   fs.writeFileSync(path, Buffer.concat([Buffer.from('\x89PNG\r\n\x1a\n', 'latin1'), chunk('IHDR', head), chunk('IDAT', zlib.deflateSync(rows)), chunk('IEND', Buffer.alloc(0))]));
 }
 
+/// Writes an uncompressed Radiance image; `rgbe(x, y)` gives three mantissas and the exponent.
+export function writeHdr(path, width, height, rgbe) {
+  const rows = Array.from({ length: height }, (_, y) => Array.from({ length: width }, (__, x) => rgbe(x, y))).flat(2);
+  fs.writeFileSync(path, Buffer.concat([Buffer.from(`#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y ${height} +X ${width}\n`), Buffer.from(rows)]));
+}
+
 /// Writes an uncompressed OpenEXR file of half floats; `bits(x, y)` gives those of blue, green and red.
 export function writeExr(path, width, height, bits) {
   const text = (s) => Buffer.from(s + '\0', 'latin1'), int = (...v) => Buffer.concat(v.map((n) => { const b = Buffer.alloc(4); b.writeInt32LE(n); return b; }));

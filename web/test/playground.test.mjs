@@ -11,24 +11,29 @@ import { after, before, test } from 'node:test';
 import zlib from 'node:zlib';
 import { Browser } from './browser.mjs';
 import { writeModels } from './models.mjs';
-import { readPage } from './pictures.mjs';
+import { readPage, writeHdr } from './pictures.mjs';
 import { serve } from './server.mjs';
 
 const program = path.resolve(process.env.ZONEPLATE ?? 'build/check/zoneplate');
 const site = path.resolve(process.env.SITE ?? 'build/web/site');
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'zoneplate-playground-'));
+const nativeImages = new Map();
 /// The bytes that the program writes for an image, four for each pixel.
 function nativeImage(scene, method, size, ...options) {
-  execFileSync(program, ['render', scene, '-o', 'image.rgba', '--size', size.join(), '--aa', method, '--quiet', ...options], { cwd: folder });
-  return fs.readFileSync(path.join(folder, 'image.rgba'));
+  const args = ['render', scene, '-o', 'image.rgba', '--size', size.join(), '--aa', method, '--quiet', ...options], key = args.join(' ');
+  if (!nativeImages.has(key)) {
+    execFileSync(program, args, { cwd: folder });
+    nativeImages.set(key, fs.readFileSync(path.join(folder, 'image.rgba')));
+  }
+  return nativeImages.get(key);
 }
 
-let browser, server;
+let browser, server, isolatedServer;
 const opened = [];
-async function open(hash = '', options = {}) {
-  const page = await browser.page(options);
+async function open(hash = '', from = server) {
+  const page = await browser.page();
   opened.push({ page, hash });
-  await page.open(`${server.address}/playground/index.html${hash}`);
+  await page.open(`${from.address}/playground/index.html${hash}`);
   await done(page);
   return page;
 }
@@ -36,11 +41,12 @@ const done = async (page) => { await page.until('document.getElementById("app").
 /// The address, which follows within a third of a second.
 const hashOf = async (page) => { await new Promise((wait) => setTimeout(wait, 400)); return page.evaluate('decodeURIComponent(location.hash)'); };
 
-before(async () => { browser = new Browser(), server = await serve(site); });
+before(async () => { browser = new Browser(), server = await serve(site), isolatedServer = await serve(site, { isIsolated: true }); });
 after(async () => {
   for (const { page, hash } of opened) assert.deepEqual(page.problems, [], `problems of the page ${hash}`);
   await browser.close();
   await server.close();
+  await isolatedServer.close();
   fs.rmSync(folder, { recursive: true, force: true });
 });
 
@@ -71,6 +77,38 @@ test('ten scenes have the same bytes as those of the program, by every method', 
   }
 });
 
+test('threads render the same bytes, where the page is cross-origin isolated', async (t) => {
+  await open('#size=320x180');
+  const page = await open('#size=320x180', isolatedServer), [width, height] = [128, 72];
+  const modules = (paths) => [...new Set(paths.filter((name) => name.endsWith('.wasm')))];
+  assert.equal(await page.evaluate('crossOriginIsolated'), true);
+  assert.deepEqual(modules(isolatedServer.paths), ['/playground/threads/zoneplate_playground.wasm']);
+  assert.deepEqual(modules(server.paths), ['/playground/zoneplate_playground.wasm']);
+  const { methods, upscalers } = await page.evaluate(async () => new (await import('./renderer.js')).Renderer().ask('catalogue'));
+  const restart = (threads) => page.evaluate(async (count) => { window.testRenderer?.worker.terminate(), window.testScene = undefined, window.testRenderer = new (await import('./renderer.js')).Renderer(count); }, threads);
+  for (const threads of [2, 7]) {
+    await restart(threads);
+    for (const scene of ['teapot', 'foliage', 'passing-fence']) {
+      const jobs = [...methods, ...(threads === 2 ? upscalers : [])].map(({ name }) => ({ scene, width, height, method: name }));
+      const images = await renderAll(page, jobs);
+      jobs.forEach(({ method }, i) => assert.ok(Buffer.from(images[i].bytes, 'base64').equals(nativeImage(scene, method, [width, height])), `${scene} by ${method}, ${threads} threads`));
+    }
+    const lessons = ['sampling', 'shadows', 'texture-filters', 'upscaling'], drawn = await drawLessons(page, lessons, 64), native = await nativeLessons(lessons, 64, drawn);
+    drawn.forEach((scene, i) => assert.deepEqual(withoutPlots(scene), withoutPlots(native[i]), `${scene.name}, ${threads} threads`));
+  }
+  const times = {};
+  for (const threads of [1, 2]) {
+    await restart(threads);
+    for (const method of ['msaa:n=4', 'ssaa:n=4']) {
+      const all = (await renderAll(page, Array(12).fill({ scene: 'teapot', width: 640, height: 360, method }))).map(({ ms }) => ms).sort((a, b) => a - b);
+      (times[method] ??= []).push(all[0]);
+      t.diagnostic(`teapot, 640 × 360, ${method}, ${threads} threads: ${all[0].toFixed(1)} ms, median ${all[6].toFixed(1)} ms`);
+    }
+  }
+  // Machines of one processor gain nothing, and a busy one little.
+  for (const [method, [one, two]] of Object.entries(times)) assert.ok(two < 1.3 * one, `${method}: ${one} ms by one thread, ${two} ms by two`);
+});
+
 test('a camera has the same bytes as that of the program', async () => {
   const page = await open(), job = { scene: 'teapot', width: 160, height: 90, method: 'msaa:n=4', azimuth: 75.5, elevation: -12.25, viewAngle: 18 };
   const [{ bytes }] = await renderAll(page, [job]);
@@ -98,7 +136,7 @@ test('every option of rendering has the same bytes as that of the program', asyn
   const cases = [['cyclic', 'visibility=painter'], ['crossing', 'edge-rule=inside'], ['teapot', 'shading-frequency=flat'], ['teapot', 'shading-frequency=gouraud'],
     ...['nearest', 'trilinear', 'ewa', 'probes', 'sat', 'catmull-rom'].map((filter) => ['tiles', `texture-filter=${filter}`]), ['checkerboard', 'anisotropy=8'],
     ...['geometric', 'full'].map((kind) => ['metal', `specular-aa=${kind}`]), ...['map', 'hard', 'soft'].map((kind) => ['teapot', `shadows=${kind},ground=shadow`]),
-    ['teapot', 'ambient-occlusion=rays'], ...['aces', 'neutral', 'agx', 'filmic'].map((curve) => ['sun-roof', `tone-mapping=${curve},exposure=-1.5`])];
+    ['teapot', 'ambient-occlusion=rays'], ['teapot', 'background=environment'], ...['aces', 'neutral', 'agx', 'filmic'].map((curve) => ['sun-roof', `tone-mapping=${curve},exposure=-1.5`])];
   const images = await renderAll(page, cases.map(([scene, look]) => ({ scene, width, height, method: 'msaa:n=4', look: `look:${look}` })));
   cases.forEach(([scene, look], i) => {
     const options = look.split(',').flatMap((item) => [`--${item.split('=')[0]}`, item.split('=')[1]]);
@@ -219,14 +257,59 @@ test('models of every format have the same bytes as those of the program', async
   }
 });
 
-test('files are opened from the disk, and one that is no model is refused', async () => {
+/// Opens files as a user chooses them.
+const choose = (page, names) => page.evaluate(async (list) => {
+  const transfer = new DataTransfer(), input = document.querySelector('input[type="file"]');
+  for (const { name, text } of list) transfer.items.add(new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], name));
+  document.getElementById('app').dataset.done = 'false';
+  input.files = transfer.files, input.dispatchEvent(new Event('change'));
+}, names.map((name) => ({ name, text: fs.readFileSync(path.join(folder, name)).toString('base64') })));
+
+test('a Radiance image lights the scene with the same bytes as in the program, until it is removed', async () => {
+  for (const from of [server, isolatedServer]) {
+    const page = await open('#scene=metal&size=320x180&a=none&b=msaa:n=4', from);
+    writeHdr(path.join(folder, 'sky.hdr'), 64, 32, (x, y) => (Math.hypot(x - 20, y - 8) < 2 ? [200, 190, 180, 136] : y < 16 ? [90, 120, 160 + 2 * y, 128] : [60, 50, 2 * x, 127]));
+    const shown = () => page.evaluate(() => [...document.querySelectorAll('.command code')].map((code) => code.textContent).join());
+    const imageOf = (look) => page.evaluate(async (text, list) => {
+      const { Renderer } = await import('./renderer.js'), renderer = new Renderer(), bytes = Uint8Array.from(atob(list), (c) => c.charCodeAt(0));
+      await renderer.ask('environment', (await renderer.ask('prepare', { path: 'sky.hdr', bytes })).data);
+      await renderer.ask('builtin', 'metal');
+      const { data } = await renderer.ask('render', { width: 64, height: 48, method: 'msaa:n=4', look: text });
+      renderer.worker.terminate();
+      return btoa(String.fromCharCode(...data));
+    }, look, fs.readFileSync(path.join(folder, 'sky.hdr')).toString('base64'));
+    const options = ['--hdri-file', 'sky.hdr', '--no-cache'];
+    assert.ok(Buffer.from(await imageOf('look'), 'base64').equals(nativeImage('metal', 'msaa:n=4', [64, 48], ...options)));
+    assert.ok(Buffer.from(await imageOf('look:background=environment'), 'base64').equals(nativeImage('metal', 'msaa:n=4', [64, 48], ...options, '--background', 'environment')));
+    const before = await page.shot();
+    await choose(page, ['sky.hdr']);
+    await done(page);
+    assert.match(await shown(), /--hdri-file sky\.hdr/);
+    assert.match(await page.evaluate('document.querySelector(".card [role=status]").textContent'), /^Lit by sky\.hdr/);
+    const lit = await page.shot();
+    assert.ok(!Buffer.from(lit.data).equals(Buffer.from(before.data)));
+    await page.evaluate(() => { document.getElementById('app').dataset.done = 'false', [...document.querySelectorAll('button')].find((button) => button.textContent === 'The scene’s own light').click(); });
+    await done(page);
+    assert.doesNotMatch(await shown(), /hdri/);
+  }
+});
+
+test('an image that the page does not decode is named with the reason', async () => {
   const page = await open('#size=320x180');
-  const drop = (names) => page.evaluate(async (list) => {
-    const transfer = new DataTransfer(), input = document.querySelector('input[type="file"]');
-    for (const { name, text } of list) transfer.items.add(new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], name));
-    document.getElementById('app').dataset.done = 'false';
-    input.files = transfer.files, input.dispatchEvent(new Event('change'));
-  }, names.map((name) => ({ name, text: fs.readFileSync(path.join(folder, name)).toString('base64') })));
+  writeModels(folder);
+  const model = JSON.parse(fs.readFileSync(path.join(folder, 'square.gltf'), 'utf8'));
+  for (const [name, bytes, reason] of [['face.ktx2', [0xab, 0x4b, 0x54, 0x58, 0x20, 0x32, 0x30, 0xbb, 13, 10, 26, 10], /face\.ktx2': KTX2 textures are read by the program, not by this page: .* 1\.5 MB/],
+    ['face.exr', [0x76, 0x2f, 0x31, 1, 2, 0, 0, 0], /face\.exr': OpenEXR images are read by the program/]]) {
+    fs.writeFileSync(path.join(folder, name), Buffer.from(bytes));
+    fs.writeFileSync(path.join(folder, 'other.gltf'), JSON.stringify({ ...model, images: [{ uri: name }] }));
+    await choose(page, ['other.gltf', 'square.bin', name]);
+    await done(page);
+    assert.match(await page.evaluate('document.querySelector(".card").textContent'), reason);
+  }
+});
+
+test('files are opened from the disk, and one that is no model is refused', async () => {
+  const page = await open('#size=320x180'), drop = (names) => choose(page, names);
   writeModels(folder);
   await drop(['face.png', 'square.mtl', 'square.obj']);
   await done(page);
@@ -243,10 +326,12 @@ test('a frame of the teapot takes at most 60 ms', async (t) => {
   assert.ok(times[0] <= 60, `${times[0]} ms`);
 });
 
-test('the program of the page has at most 1.5 MB after gzip', (t) => {
-  const size = zlib.gzipSync(fs.readFileSync(path.join(site, 'playground/zoneplate_playground.wasm')), { level: 9 }).length;
-  t.diagnostic(`${size} bytes`);
-  assert.ok(size <= 1.5e6, `${size} bytes`);
+test('each module of the page has at most 1.5 MB after gzip', (t) => {
+  for (const name of ['zoneplate_playground.wasm', 'threads/zoneplate_playground.wasm']) {
+    const size = zlib.gzipSync(fs.readFileSync(path.join(site, 'playground', name)), { level: 9 }).length;
+    t.diagnostic(`${name}: ${size} bytes`);
+    assert.ok(size <= 1.5e6, `${name}: ${size} bytes`);
+  }
 });
 
 test('the address restores what is displayed', async () => {
