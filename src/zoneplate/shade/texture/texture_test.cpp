@@ -332,7 +332,8 @@ TEST(Texture, SharperFiltersKeepWavesThatFitAndRemoveOthers) {
 
 TEST(Texture, KeepsTheCoverageOfAnAlphaTest) {
   Rgba8Image image = noise(64, 64, 7);
-  for (Rgba8& p : image.values()) p.a = p.a > 200 ? 255 : p.a / 4;  // a fifth passes, scattered
+  // A fifth of the texels pass, scattered.
+  for (Rgba8& p : image.values()) p.a = static_cast<std::uint8_t>(p.a > 200 ? 255 : p.a / 4);
   const auto coverage = [&](const Texture& texture, int level) {
     const TextureView& view = texture.view();
     int passing = 0;
