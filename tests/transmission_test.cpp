@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/math/transform.h"
@@ -159,6 +160,39 @@ TEST(Transmission, GlassShowsBlendedSurfacesBehindIt) {
     add_square(scene, 4, z, veil);
     EXPECT_EQ(picture(scene)(width / 2 - 5, height / 2), (Linear{0.5f, 0, 0.25f, 1})) << z;
   }
+}
+
+TEST(Transmission, GlassIsSeenThroughGlass) {
+  MaterialLayers clear{.ior = 1, .transmission = 1};
+  clear.specular = 0;
+  const auto tinted = [&](float4 color) {
+    Material m = glass(clear);
+    m.base_color = color;
+    return m;
+  };
+  Scene scene;
+  add_square(scene, 4, -2, glowing({1, 1, 1}));
+  add_square(scene, 4, -1, tinted({1, 0.5f, 1, 1}));
+  add_square(scene, 4, 0, tinted({0.5f, 1, 1, 1}));
+  EXPECT_EQ(picture(scene)(width / 2, height / 2), (Linear{0.5f, 0.5f, 1, 1}));
+  // In any order in the file, and with others beside: each instance refracts the image of its own layer.
+  std::swap(scene.instances[1], scene.instances[2]);
+  EXPECT_EQ(picture(scene)(width / 2, height / 2), (Linear{0.5f, 0.5f, 1, 1}));
+  add_square(scene, 4, 1, tinted({0.25f, 1, 0.5f, 1}));
+  EXPECT_EQ(picture(scene)(width / 2, height / 2), (Linear{0.125f, 0.5f, 0.5f, 1}));
+}
+
+TEST(Transmission, ManyPanesAreSeenAsFourLayers) {
+  MaterialLayers clear{.ior = 1, .transmission = 1};
+  clear.specular = 0;
+  Material grey = glass(clear);
+  grey.base_color = {0.5f, 0.5f, 0.5f, 1};
+  Scene scene;
+  add_square(scene, 4, -2, glowing({1, 1, 1}));
+  // The last two panes are the nearest to each other, and do not see each other.
+  for (const float z : {-1.5f, -1.0f, -0.5f, 0.0f, 0.4f}) add_square(scene, 4, z, grey);
+  const float seen = picture(scene)(width / 2, height / 2).r;
+  EXPECT_EQ(seen, 0.0625f);
 }
 
 TEST(Transmission, AVolumeRefracts) {

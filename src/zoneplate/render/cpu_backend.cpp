@@ -19,48 +19,16 @@
 #include "zoneplate/render/geometry_fragments.h"
 #include "zoneplate/render/motion.h"
 #include "zoneplate/render/prepared_scene.h"
+#include "zoneplate/render/scene_fragments.h"
 #include "zoneplate/render/scene_shadows.h"
-#include "zoneplate/shade/backdrop/backdrop.h"
+#include "zoneplate/render/transmission.h"
 #include "zoneplate/shade/cast/ground.h"
 #include "zoneplate/shade/environment/prepared_environment.h"
-#include "zoneplate/shade/surface/layered_plan.h"
 #include "zoneplate/shade/surface/surface.h"
 #include "zoneplate/signal/samples.h"
 
 namespace zoneplate {
 namespace {
-
-/// Adapts the scene's materials to FragmentShader. The material after them is that of the ground.
-class SceneFragmentShader : public FragmentShader {
- public:
-  SceneFragmentShader(const PreparedScene& scene, const ViewUniforms& view, const Ground* ground)
-      : scene_(scene.scene()), surfaces_(scene_, view, scene.textures(), scene.vertices()), ground_(ground) {}
-
-  void shade(const FragmentBatch& batch, OutputMask outputs, FragmentOutputs& out) const override {
-    if (is_ground(batch.material)) return ground_->shade(batch, out);
-    surfaces_.shade(batch, outputs, out);
-  }
-  float alpha(const FragmentBatch& batch, float* out) const override {
-    surfaces_.alpha(batch, out);
-    return scene_.materials[static_cast<std::size_t>(batch.material)].alpha_cutoff;
-  }
-  float brightest() const override { return surfaces_.brightest(); }
-  bool needs_derivatives(int material) const override {
-    return is_ground(material) ? ground_->needs_derivatives() : surfaces_.needs_derivatives(material);
-  }
-  VertexMemory vertex_memory(std::uint32_t instance, int material) const override {
-    if (is_ground(material)) return {};
-    const std::span<const float> record = surfaces_.vertex_record(instance, material);
-    return {reinterpret_cast<const std::byte*>(record.data()), record.size_bytes()};
-  }
-
- private:
-  bool is_ground(int material) const { return static_cast<std::size_t>(material) == scene_.materials.size(); }
-
-  const Scene& scene_;
-  SurfaceShader surfaces_;
-  const Ground* ground_;
-};
 
 /// Clip space looks x = m00 X + m02 Z, w = -Z: through the pixel's (x, y) goes the direction ((x + m02) / m00, ...,
 /// -1).
@@ -101,60 +69,6 @@ ViewUniforms view_uniforms_of(const Lighting& lighting, float3 up, const Camera&
   s.anisotropy = options.anisotropy;
   s.texture_filter = options.texture_filter, s.specular_aa = options.specular_aa;
   return s;
-}
-
-/// How far a draw extends along the view direction.
-struct DepthRange {
-  float near = std::numeric_limits<float>::infinity(), far = -near;
-};
-DepthRange depth_range(const Scene& scene, const Draw& draw, const ViewUniforms& view) {
-  DepthRange range;
-  const Instance& instance = scene.instances[draw.instance];
-  for (const float3& p : scene.meshes[static_cast<std::size_t>(instance.mesh)].position) {
-    const float3 at = xyz(instance.world_from_object * float4{p.x, p.y, p.z, 1});
-    const float depth = dot(at - view.eye, view.view_direction);
-    range.near = std::min(range.near, depth), range.far = std::max(range.far, depth);
-  }
-  return range;
-}
-
-/// The image of what is behind transmissive surfaces, which they refract; none where no draw transmits. It holds the
-/// opaque and alpha-tested scene, the ground, and the blended draws that lie wholly behind all transmissive ones;
-/// transmissive surfaces do not see each other.
-///
-/// The whole image is drawn, with four samples a pixel, so that a crop shows the same and silhouettes behind glass are
-/// smooth under every method.
-std::optional<Backdrop> make_backdrop(const PreparedScene& prepared, const ViewUniforms& view,
-                                      std::span<const Draw> draws, const Ground* ground,
-                                      const float4x4& clip_from_world, const RasterRules& rules,
-                                      const RenderOptions& options, RasterMemory& memory) {
-  const std::vector<Material>& materials = prepared.scene().materials;
-  const auto transmits = [&](const Draw& draw) {
-    const auto material = static_cast<std::size_t>(draw.material);
-    return material < materials.size() && is_transmissive(materials[material]);
-  };
-  if (std::none_of(draws.begin(), draws.end(), transmits)) return std::nullopt;
-  const Scene& scene = prepared.scene();
-  const auto is_ground = [&](const Draw& draw) { return static_cast<std::size_t>(draw.material) == materials.size(); };
-  const bool has_blended =
-      std::ranges::any_of(draws, [](const Draw& draw) { return draw.alpha_mode == AlphaMode::Blend; });
-  float far = -std::numeric_limits<float>::infinity();
-  for (const Draw& draw : draws)
-    if (has_blended && transmits(draw)) far = std::max(far, depth_range(scene, draw, view).far);
-  std::vector<Draw> behind;
-  std::copy_if(draws.begin(), draws.end(), std::back_inserter(behind), [&](const Draw& draw) {
-    if (is_ground(draw)) return true;
-    if (transmits(draw)) return false;
-    return draw.alpha_mode != AlphaMode::Blend || depth_range(scene, draw, view).near >= far;
-  });
-  LinearImage image(options.width, options.height, Linear{0, 0, 0, 0});
-  Target target;
-  target.viewport = {options.width, options.height};
-  target.width = options.width, target.height = options.height;
-  target.samples = standard_pattern(4);
-  target.color = &image;
-  rasterize(behind, SceneFragmentShader(prepared, view, ground), rules, target, &memory);
-  return Backdrop(image, clip_from_world);
 }
 
 /// Reuses the memory of an earlier image if it has the same size, since tiles write all of it.

@@ -2,6 +2,7 @@
 #include "zoneplate/shade/backdrop/backdrop.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstring>
 
@@ -43,17 +44,33 @@ Backdrop::Backdrop(const LinearImage& image, const float4x4& clip_from_world) {
     ++view_.levels;
     if (w == 1 && h == 1) break;
   }
+  texels_per_image_ = total;
   for (std::size_t c = 0; c < 4; ++c) {
     const float4 column = clip_from_world.column[c];
     const float values[4] = {column.x, column.y, column.z, column.w};
     std::copy_n(values, 4, view_.clip_from_world + 4 * c);
   }
-  growing("image behind transmissive surfaces", [&] { texels_.resize(static_cast<std::size_t>(total) * channels); });
+  append(image);
+}
+
+void Backdrop::add(const LinearImage& image, std::span<const std::uint32_t> instances, std::size_t instances_of_scene) {
+  assert(image.width() == view_.width[0] && image.height() == view_.height[0]);
+  assert(static_cast<std::int64_t>(texels_.size() / channels) + texels_per_image_ <= INT32_MAX);
+  const auto first = static_cast<std::int32_t>(texels_.size() / channels);
+  append(image);
+  growing("instances before transmissive surfaces", [&] { first_texel_.resize(instances_of_scene, 0); });
+  for (const std::uint32_t i : instances) first_texel_[i] = first;
+}
+
+void Backdrop::append(const LinearImage& image) {
+  const std::size_t first = texels_.size();
+  growing("image behind transmissive surfaces",
+          [&] { texels_.resize(first + static_cast<std::size_t>(texels_per_image_) * channels); });
   static_assert(sizeof(Linear) == channels * sizeof(float));
-  std::memcpy(texels_.data(), image.values().data(), image.values().size_bytes());
+  std::memcpy(texels_.data() + first, image.values().data(), image.values().size_bytes());
   for (int k = 1; k < view_.levels; ++k) {
     const auto at = [&](int level) {
-      return texels_.data() + static_cast<std::size_t>(view_.offset[level]) * channels;
+      return texels_.data() + first + static_cast<std::size_t>(view_.offset[level]) * channels;
     };
     const int width = view_.width[k - 1], height = view_.height[k - 1];
     parallel_ranges(static_cast<std::size_t>(view_.height[k]), rows_per_range, [&](std::size_t begin, std::size_t end) {
@@ -69,6 +86,7 @@ Backdrop::Backdrop(const LinearImage& image, const float4x4& clip_from_world) {
 BackdropView Backdrop::view() const {
   BackdropView view = view_;
   view.texels = texels_.data();
+  if (!first_texel_.empty()) view.first_texel = first_texel_.data();
   return view;
 }
 

@@ -1,31 +1,48 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 
 #include "zoneplate/math/lanes_vector.h"
+#include "zoneplate/raster/types/batch.h"
 #include "zoneplate/shade/backdrop/backdrop_view.h"
 
 /// Look-ups in the image behind transmissive surfaces, over the lane types of math/lanes.h.
 namespace zoneplate {
 
-/// Places in the image, in pixels from its top-left corner.
+/// Places in images, in pixels from the top-left corner.
 template <class F>
 struct ImagePlace {
   F x, y;
+  typename F::Int first;  ///< where the image begins, in texels
 };
+
+/// Where the images begin that fragments i, i + 1, ... of a batch refract.
+template <class F>
+[[gnu::always_inline]] inline typename F::Int first_texels(const BackdropView& b, const FragmentBatch& batch, int i) {
+  using Int = typename F::Int;
+  if (b.first_texel == nullptr) return Int(0);
+  alignas(64) std::int32_t first[F::lanes];
+  for (int lane = 0; lane < F::lanes; ++lane) {
+    // Entries from padded() on are undefined.
+    const int entry = std::min(i + lane, batch.padded() - 1);
+    first[lane] = b.first_texel[batch.instance[batch.leader(static_cast<std::size_t>(entry))]];
+  }
+  return Int::load(first);
+}
 
 /// Where points of the world are seen. Points behind the eye have some place.
 template <class F>
-[[gnu::always_inline]] inline ImagePlace<F> image_place(const BackdropView& b, Vector<F> p) {
+[[gnu::always_inline]] inline ImagePlace<F> image_place(const BackdropView& b, Vector<F> p, typename F::Int first) {
   const auto row = [&](int r) {
     const float* m = b.clip_from_world + r;
     return F(m[0]) * p.x + F(m[4]) * p.y + F(m[8]) * p.z + F(m[12]);
   };
   const F half(0.5f), inverse = half / max(row(3), F(1e-6f));
   return {(row(0) * inverse + half) * F(static_cast<float>(b.width[0])),
-          (half - row(1) * inverse) * F(static_cast<float>(b.height[0]))};
+          (half - row(1) * inverse) * F(static_cast<float>(b.height[0])), first};
 }
 
 /// Colours of the image, premultiplied, and their alpha.
@@ -56,7 +73,7 @@ template <class F>
   const Int left = truncate(x), top = truncate(y);
   const F across = x - F::from(left), down = y - F::from(top);
   const Int right = min(left + one, width - one), bottom = min(top + one, height - one);
-  const Int first = Int::gather(b.offset, level);
+  const Int first = at.first + Int::gather(b.offset, level);
 
   F texel[4][4];
   const auto load = [&](Int column, Int row, F(&out)[4]) {
@@ -97,13 +114,13 @@ template <class F>
 [[gnu::always_inline]] inline BackdropColor<F> backdrop_texels(const BackdropView& b, ImagePlace<F> at,
                                                                typename F::Int level) {
   const F scale = exp2(-F::from(level)), half(0.5f);
-  const ImagePlace<F> centre{at.x * scale - half, at.y * scale - half};
+  const ImagePlace<F> centre{at.x * scale - half, at.y * scale - half, at.first};
   const auto is_sharp = F::from(level) < half;
   const BackdropColor<F> sharp = bilinear_texels(b, centre, level);
   if (all(is_sharp)) return sharp;
   const SplinePair<F> x(centre.x), y(centre.y);
   const auto tap = [&](int i, int j) {
-    return bilinear_texels(b, ImagePlace<F>{x.place[i], y.place[j]}, level) * x.weight[i];
+    return bilinear_texels(b, ImagePlace<F>{x.place[i], y.place[j], at.first}, level) * x.weight[i];
   };
   const BackdropColor<F> smooth = (tap(0, 0) + tap(1, 0)) * y.weight[0] + (tap(0, 1) + tap(1, 1)) * y.weight[1];
   return {select(is_sharp, sharp.color, smooth.color), select(is_sharp, sharp.alpha, smooth.alpha)};

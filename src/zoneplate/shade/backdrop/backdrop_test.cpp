@@ -60,7 +60,7 @@ TEST(Backdrop, BlurredLevelsAreLookedUpByTheCubicBSpline) {
     double expected = 0;
     for (int j = -3; j < 12; ++j)
       for (int i = -3; i < 12; ++i) expected += texel(i, j) * weight(x - i) * weight(y - j);
-    const BackdropColor<F> found = backdrop_texels<F>(view, {px, py}, scalar::Int(1));
+    const BackdropColor<F> found = backdrop_texels<F>(view, {px, py, scalar::Int(0)}, scalar::Int(1));
     EXPECT_NEAR(found.color.x.v, expected, 1e-3) << px << " " << py;
     EXPECT_NEAR(found.alpha.v, 1, 1e-6);
   }

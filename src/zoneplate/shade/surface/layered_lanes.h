@@ -269,6 +269,7 @@ template <class F, class Radiance>
                                                             const FragmentBatch& batch, const ShadingState& p, int i) {
   using Int = typename F::Int;
   const F one(1.0f), roughness = surface.through_roughness;
+  const Int first = s.backdrop != nullptr ? first_texels<F>(*s.backdrop, batch, i) : Int(0);
   const auto behind = [&](Vector<F> direction, ImagePlace<F> at) {
     const Vector<F> light =
         s.has_background_color ? Vector<F>::all(s.background) : around.specular(direction, roughness);
@@ -281,14 +282,15 @@ template <class F, class Radiance>
   if (!u.has_volume) {
     const Vector<F> direction{-surface.v.x, -surface.v.y, -surface.v.z};
     if (s.backdrop != nullptr && !s.has_pixels)
-      return behind(direction, image_place(*s.backdrop, Vector<F>::load(p.position, i)));
+      return behind(direction, image_place(*s.backdrop, Vector<F>::load(p.position, i), first));
     const F pixel(1.0f / 256);
-    return behind(direction, {F::from(Int::load(batch.x + i)) * pixel, F::from(Int::load(batch.y + i)) * pixel});
+    return behind(direction, {F::from(Int::load(batch.x + i)) * pixel, F::from(Int::load(batch.y + i)) * pixel, first});
   }
   const auto along = [&](float ior) {
     const Vector<F> direction = refracted(surface.n, surface.v, surface.nv, F(1 / ior));
-    if (s.backdrop == nullptr) return behind(direction, {one, one});
-    return behind(direction, image_place(*s.backdrop, Vector<F>::load(p.position, i) + direction * surface.thickness));
+    if (s.backdrop == nullptr) return behind(direction, {one, one, first});
+    const Vector<F> exit = Vector<F>::load(p.position, i) + direction * surface.thickness;
+    return behind(direction, image_place(*s.backdrop, exit, first));
   };
   const LightThrough<F> green = along(u.ior);
   if (!(u.half_spread > 0)) return {green.color * surface.absorbed, green.beyond, green.open};
