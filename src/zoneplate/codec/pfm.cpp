@@ -80,6 +80,12 @@ bool is_pfm(std::span<const std::uint8_t> bytes) {
   return bytes.size() > 2 && bytes[0] == 'P' && (bytes[1] == 'F' || bytes[1] == 'f') && is_space(bytes[2]);
 }
 
+std::optional<int2> find_pfm_size(std::span<const std::uint8_t> bytes) {
+  const std::optional<Header> header = parse_header(bytes);
+  if (!header) return std::nullopt;
+  return int2{header->width, header->height};
+}
+
 LinearImage decode_pfm(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
   const auto fail = [&](const std::string& cause) -> Error { return {ErrorKind::Input, name + ": PFM: " + cause}; };
   const std::optional<Header> header = parse_header(bytes);

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "zoneplate/image/rgb.h"
+#include "zoneplate/math/vec.h"
 
 namespace zoneplate {
 
@@ -17,6 +19,9 @@ std::vector<std::uint8_t> encode_pfm(const Plane<float>& image);
 
 /// True for the first bytes of a portable float map.
 bool is_pfm(std::span<const std::uint8_t> bytes);
+
+/// Width and height as the header states them; nothing for other bytes.
+std::optional<int2> find_pfm_size(std::span<const std::uint8_t> bytes);
 
 /// Decodes a portable float map, colour ("PF") or grey ("Pf"), in either byte order.
 ///

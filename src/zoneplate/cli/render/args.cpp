@@ -437,7 +437,8 @@ std::vector<Option> scene_options(RenderArgs& a) {
          a.environment_color = a.is_in_studio ? std::nullopt : std::optional(linear_color(text));
        }},
       {"--hdri-file", "FILE",
-       "Image-based light, instead of the default lights: .hdr, .exr, .png, .jpg or .webp; {face} in the name stands "
+       "Image-based light, instead of the default lights: .hdr, .exr, .pfm, .png, .jpg or .webp; {face} in the name "
+       "stands "
        "for px, nx, py, ny, pz and nz, the six squares of a cube map",
        group, false, [&](auto& text) { a.hdri_file = text; }},
       choice_option("--hdri-layout", "NAME",

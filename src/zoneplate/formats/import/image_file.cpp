@@ -13,6 +13,7 @@
 #include "zoneplate/codec/hdr.h"
 #include "zoneplate/codec/jpeg.h"
 #include "zoneplate/codec/ktx2/ktx2.h"
+#include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/webp_still.h"
 
@@ -58,6 +59,13 @@ Plane<float4> decode_exr_light(std::span<const std::uint8_t> bytes, const std::s
   return image;
 }
 
+Plane<float4> decode_pfm_light(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  const LinearImage decoded = decode_pfm(bytes, name, max_pixels);
+  Plane<float4> image(decoded.width(), decoded.height());
+  std::ranges::transform(decoded.values(), image.values().begin(), straight);
+  return image;
+}
+
 TexelImage decode_png_texels(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
   PngImage image = decode_png_as_stored(bytes, name, max_pixels);
   if (image.pixels16.empty()) return std::move(image.pixels);
@@ -75,6 +83,7 @@ std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes) {
   if (is_hdr(bytes)) return find_hdr_size(bytes);
   if (is_exr(bytes)) return find_exr_size(bytes);
   if (is_ktx2(bytes)) return find_ktx2_size(bytes);
+  if (is_pfm(bytes)) return find_pfm_size(bytes);
   if (is_png(bytes) && bytes.size() >= 24) return int2{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4)};
   return std::nullopt;
 }
@@ -82,9 +91,9 @@ std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes) {
 std::uint64_t decoded_image_memory(std::span<const std::uint8_t> bytes) {
   const std::optional<int2> size = find_image_size(bytes);
   if (!size) return 0;
-  const std::uint64_t texel = is_hdr(bytes) || is_exr(bytes)        ? sizeof(float4)
-                              : is_png(bytes) && has_16_bits(bytes) ? sizeof(Rgba16)
-                                                                    : sizeof(Rgba8);
+  const std::uint64_t texel = is_hdr(bytes) || is_exr(bytes) || is_pfm(bytes) ? sizeof(float4)
+                              : is_png(bytes) && has_16_bits(bytes)           ? sizeof(Rgba16)
+                                                                              : sizeof(Rgba8);
   return static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y) * texel;
 }
 
@@ -94,6 +103,7 @@ std::uint64_t image_working_memory(std::span<const std::uint8_t> bytes) {
   const std::uint64_t pixels = static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y);
   if (is_exr(bytes)) return exr_working_memory(bytes);
   if (is_ktx2(bytes)) return ktx2_working_memory(bytes);
+  if (is_pfm(bytes)) return pixels * sizeof(Linear);
   // Every pixel once more, and its alpha.
   if (is_webp(bytes)) return 5 * pixels;
   if (!is_jpeg(bytes)) return 0;
@@ -109,8 +119,9 @@ TexelImage decode_image(std::span<const std::uint8_t> bytes, const std::string& 
   if (is_exr(bytes)) return decode_exr_light(bytes, name, max_pixels / 4);
   if (is_png(bytes)) return decode_png_texels(bytes, name, max_pixels);
   if (is_ktx2(bytes)) return decode_ktx2(bytes, name, max_pixels);
-  throw Error(ErrorKind::Input,
-              name + ": is " + std::string(known_format(bytes)) + " image, expected PNG, JPEG, WebP, HDR, EXR or KTX2");
+  if (is_pfm(bytes)) return decode_pfm_light(bytes, name, max_pixels);
+  throw Error(ErrorKind::Input, name + ": is " + std::string(known_format(bytes)) +
+                                    " image, expected PNG, JPEG, WebP, HDR, EXR, PFM or KTX2");
 }
 
 std::optional<std::string> size_warning(const TextureImage& image) {

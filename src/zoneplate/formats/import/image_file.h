@@ -11,7 +11,7 @@
 
 namespace zoneplate {
 
-/// Width and height as the header of a PNG, JPEG, WebP, HDR, EXR or KTX2 states them; nothing for other bytes.
+/// Width and height as the header of a PNG, JPEG, WebP, HDR, EXR, PFM or KTX2 states them; nothing for other bytes.
 std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes);
 
 /// The size of the decoded image in bytes, from its header; 0 if find_image_size returns nothing.
@@ -20,7 +20,7 @@ std::uint64_t decoded_image_memory(std::span<const std::uint8_t> bytes);
 /// The maximum of the bytes that decoding allocates in addition to the image.
 std::uint64_t image_working_memory(std::span<const std::uint8_t> bytes);
 
-/// Decodes the image of a texture, PNG, JPEG, WebP, HDR, EXR or KTX2 by its first bytes, regardless of its name.
+/// Decodes the image of a texture, PNG, JPEG, WebP, HDR, EXR, PFM or KTX2 by its first bytes, regardless of its name.
 ///
 /// Texels keep the format of the file: 8 bits, 16 bits of a 16-bit PNG, and linear floats of HDR and EXR. Colours of an
 /// EXR are divided by alpha where alpha is above 0. An EXR may have a quarter of `max_pixels`, because decoding takes

@@ -9,6 +9,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/jpeg_encode.h"
+#include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/webp_still.h"
 
@@ -120,6 +121,19 @@ TEST(ImageFile, LightWithoutAlphaStaysAsItIs) {
   EXPECT_EQ(decode_image(exr, "tex", 4), Plane<float4>(1, 1, float4{3, 3, 3, 0}));
 }
 
+TEST(ImageFile, PfmIsLight) {
+  LinearImage image(2, 1, Linear{3, 0.5f, 0.25f, 1});
+  image(1, 0) = {1e-3f, 7000, 2, 1};
+  const Bytes bytes = encode_pfm(image);
+  EXPECT_EQ(find_image_size(bytes), (int2{2, 1}));
+  EXPECT_EQ(decoded_image_memory(bytes), 2 * sizeof(float4));
+  Plane<float4> expected(2, 1, float4{3, 0.5f, 0.25f, 1});
+  expected(1, 0) = {1e-3f, 7000, 2, 1};
+  EXPECT_EQ(decode_image(bytes, "tex", 2), expected);
+  EXPECT_THROW(decode_image(bytes, "tex", 1), Error);
+  EXPECT_THROW(decode_image(std::span(bytes).first(bytes.size() - 1), "tex", 2), Error);
+}
+
 TEST(ImageFile, WarnsOfWhatIsDrawnSmaller) {
   EXPECT_EQ(size_warning({"a", Rgba8Image(32768, 2)}), std::nullopt);
   EXPECT_EQ(size_warning({"a", Rgba8Image(2, 32769)}),
@@ -130,9 +144,9 @@ TEST(ImageFile, OtherFormatsAreNamed) {
   const auto bytes = [](const std::string& text) { return Bytes(text.begin(), text.end()); };
   EXPECT_EQ(error_of(bytes("RIFF....WEBPVP8 ")), "tex: not a sound WebP file");
   EXPECT_EQ(error_of(bytes("\xabKTX 11\xbb\r\n\x1a\n")),
-            "tex: is a KTX 1 image, expected PNG, JPEG, WebP, HDR, EXR or KTX2");
-  EXPECT_EQ(error_of(bytes("GIF89a")), "tex: is a GIF image, expected PNG, JPEG, WebP, HDR, EXR or KTX2");
-  EXPECT_EQ(error_of({}), "tex: is no known image, expected PNG, JPEG, WebP, HDR, EXR or KTX2");
+            "tex: is a KTX 1 image, expected PNG, JPEG, WebP, HDR, EXR, PFM or KTX2");
+  EXPECT_EQ(error_of(bytes("GIF89a")), "tex: is a GIF image, expected PNG, JPEG, WebP, HDR, EXR, PFM or KTX2");
+  EXPECT_EQ(error_of({}), "tex: is no known image, expected PNG, JPEG, WebP, HDR, EXR, PFM or KTX2");
   EXPECT_NE(error_of(bytes("\x89PNG\r\n\x1a\n")), "no error");
   EXPECT_NE(error_of(bytes("\xff\xd8\xff")), "no error");
 }
