@@ -12,7 +12,8 @@
 
 namespace zoneplate::ktx2 {
 
-/// The block-compressed formats of graphics cards, 4 × 4 texels a block, with unsigned normalized values.
+/// The block-compressed formats of graphics cards, 4 × 4 texels a block, with unsigned normalized values
+/// (BC6H, of floats: bc6h.h).
 enum class BlockFormat {
   Bc1,       ///< colours, 8 bytes
   Bc1Alpha,  ///< the same; texels may be transparent

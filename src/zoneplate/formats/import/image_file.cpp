@@ -91,9 +91,10 @@ std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes) {
 std::uint64_t decoded_image_memory(std::span<const std::uint8_t> bytes) {
   const std::optional<int2> size = find_image_size(bytes);
   if (!size) return 0;
-  const std::uint64_t texel = is_hdr(bytes) || is_exr(bytes) || is_pfm(bytes) ? sizeof(float4)
-                              : is_png(bytes) && has_16_bits(bytes)           ? sizeof(Rgba16)
-                                                                              : sizeof(Rgba8);
+  const std::uint64_t texel = is_ktx2(bytes)                                    ? ktx2_texel_memory(bytes)
+                              : is_hdr(bytes) || is_exr(bytes) || is_pfm(bytes) ? sizeof(float4)
+                              : is_png(bytes) && has_16_bits(bytes)             ? sizeof(Rgba16)
+                                                                                : sizeof(Rgba8);
   return static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y) * texel;
 }
 
