@@ -143,7 +143,7 @@ Lesson make(const DemoSize& size, const Settings&) {
   using Kind = SpecularAntialiasing;
   const int side = size.panel;
   Figure figure{.title = "Normal map aliasing: highlights smaller than a pixel"};
-  Table table{{"scene", "--specular-aa", "error", "flicker", "energy"}, {}};
+  Table table{{"scene", "--specular-aa", "error", "flicker", "mean luminance"}, {}};
   const std::pair<Kind, const char*> of_sea[] = {
       {Kind::None, "none\nEach pixel is shaded with one normal: multisampling smooths edges, not highlights."},
       {Kind::Toksvig, "toksvig\nShorter mean normals mean wider lobes."},
@@ -156,12 +156,10 @@ Lesson make(const DemoSize& size, const Settings&) {
   figure.text = fmt::format(
       "All images but the references with 8 coverage samples a pixel. The frames mark the regions that are enlarged "
       "{0} "
-      "times; the metal is rendered at half the size and enlarged twice. Errors: root mean square of the "
-      "difference in luminance, of linear light clamped to white; flicker: the same between two images, the camera "
-      "turned by half a pixel; energy: the "
-      "mean "
-      "luminance over that of the reference. Sources: Toksvig, Mipmapping Normal Maps, 2005; Olano and Baker, LEAN "
-      "Mapping, 2010; Tokuyoshi and Kaplanyan, 2021.",
+      "times; the metal is rendered at half the size and enlarged twice. Errors: root mean square of the difference in "
+      "luminance, of linear light clamped to white; flicker: the same between two images, the camera turned by half a "
+      "pixel. Sources: Toksvig, Mipmapping Normal Maps, 2005; Olano and Baker, LEAN Mapping, 2010; Tokuyoshi and "
+      "Kaplanyan, 2021.",
       factor);
   return {.frames = {figure}, .tables = {table}};
 }

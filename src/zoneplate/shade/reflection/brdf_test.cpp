@@ -236,5 +236,36 @@ TEST(Brdf, HighlightsFollowTheirDefinitions) {
   EXPECT_EQ(blinn_phong<F>(-0.5, make_exponent(3)).v, 0.0);
 }
 
+/// The light of a sphere that pixels at steps of 1 / `pixels_per_radius` add up, shaded at their centres, by lobes that
+/// the turn of the normal within a pixel of side `turn` widens.
+double light_of_a_sphere(double pixels_per_radius, double turn, V l) {
+  const double roughness = 0.2, variance = 1.0 / 12, most = 0.09;
+  const V h = normalize(l + up);
+  double sum = 0;
+  const int half = static_cast<int>(pixels_per_radius) + 1;
+  for (int j = -half; j < half; ++j)
+    for (int i = -half; i < half; ++i) {
+      const double x = (i + 0.5) / pixels_per_radius, y = (j + 0.5) / pixels_per_radius, square = 1 - x * x - y * y;
+      if (square < 1e-4) continue;
+      const double z = std::sqrt(square);
+      const V n{x, y, z}, dx = V{1.0, 0.0, -x / z} * F(turn), dy = V{0.0, 1.0, -y / z} * F(turn);
+      const double spread = variance * (dot(dx, dx).v + dot(dy, dy).v);
+      const F scale = std::sqrt(2 * variance * (spread > most ? most / spread : 1));
+      const double nl = dot(n, l).v;
+      if (nl > 0) sum += TurningLobe<F>(n, up, dx * scale, dy * scale, roughness).peak(l, h, nl).v * nl;
+    }
+  return sum / (pixels_per_radius * pixels_per_radius);
+}
+
+TEST(Brdf, TurningLobesKeepTheLightOfCurvedSurfaces) {
+  for (const V l : {normalize(V{-0.6, 0.8, 0.9}), normalize(V{0.9, 0.5, 0.4})})
+    for (const double radius : {3.0, 6.0, 12.0}) {
+      // The pixels' positions are those of every offset; without a turn, the lobes are those of the material.
+      const double exact = light_of_a_sphere(400, 0, l), widened = light_of_a_sphere(400, 1 / radius, l);
+      // GGX alone would add up to 10 to 24 % too much at radii of 6 and 3 pixels.
+      EXPECT_NEAR(widened / exact, 1, 0.09) << radius;
+    }
+}
+
 }  // namespace
 }  // namespace zoneplate

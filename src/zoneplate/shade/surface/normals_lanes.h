@@ -14,7 +14,7 @@ template <class F>
 void find_normal_variance(const FragmentBatch& batch, const TriangleVertices& vertices,
                           const InstanceTransform* transforms, ShadingState& p) {
   constexpr float variance = 1.0f / 12;  // of a coordinate in a pixel
-  constexpr float most = 0.18f;          // beyond, silhouettes would become matte
+  constexpr float most = 0.09f;          // beyond, silhouettes would become matte
   for (int c = 0; c < 3; ++c) {
     fill_repeated(batch, p.count, p.normal_dx[c]);
     fill_repeated(batch, p.count, p.normal_dy[c]);

@@ -100,7 +100,7 @@ struct SurfaceKernels : PerIsa<SurfaceKernels> {
   /// Source: glTF 2.0, 3.9.3.
   void (*bend_normals)(const FragmentBatch& batch, const float* const texel[4], float scale, ShadingState& state);
   /// The variance of the interpolated normal within a pixel, added up over both axes: min((|∂n/∂x|² + |∂n/∂y|²) / 12,
-  /// 0.18) for unit normals n in world space; normal_dx and normal_dy become the vectors a and b of TurningLobe, which
+  /// 0.09) for unit normals n in world space; normal_dx and normal_dy become the vectors a and b of TurningLobe, which
   /// hold twice that variance. Before find_normals or transform_normals.
   /// Source    Tokuyoshi and Kaplanyan, Stable Geometric Specular Antialiasing with Projected-Space NDF Filtering, JCGT
   ///           10(2), 2021, but with the variance 1 / 12 of a box pixel in place of a Gaussian's 1 / 2π.
