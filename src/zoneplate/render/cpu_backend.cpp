@@ -16,6 +16,7 @@
 #include "zoneplate/render/custom_draw.h"
 #include "zoneplate/render/draw_list.h"
 #include "zoneplate/render/edge_distances.h"
+#include "zoneplate/render/environment_background.h"
 #include "zoneplate/render/geometry_fragments.h"
 #include "zoneplate/render/motion.h"
 #include "zoneplate/render/prepared_scene.h"
@@ -119,13 +120,13 @@ DepthRange depth_range(const Scene& scene, const Draw& draw, const ViewUniforms&
 }
 
 /// The image of what is behind transmissive surfaces, which they refract; none where no draw transmits. It holds the
-/// opaque and alpha-tested scene, the ground, and the blended draws that lie wholly behind all transmissive ones;
-/// transmissive surfaces do not see each other.
+/// opaque and alpha-tested scene, the ground, the blended draws that lie wholly behind all transmissive ones, and the
+/// environment if that is the background; transmissive surfaces do not see each other.
 ///
 /// The whole image is drawn, with four samples a pixel, so that a crop shows the same and silhouettes behind glass are
 /// smooth under every method.
 std::optional<Backdrop> make_backdrop(const PreparedScene& prepared, const ViewUniforms& view,
-                                      std::span<const Draw> draws, const Ground* ground,
+                                      std::span<const Draw> draws, const Ground* ground, const Camera& camera,
                                       const float4x4& clip_from_world, const RasterRules& rules,
                                       const RenderOptions& options, RasterMemory& memory) {
   const std::vector<Material>& materials = prepared.scene().materials;
@@ -154,6 +155,11 @@ std::optional<Backdrop> make_backdrop(const PreparedScene& prepared, const ViewU
   target.samples = standard_pattern(4);
   target.color = &image;
   rasterize(behind, SceneFragmentShader(prepared, view, ground), rules, target, &memory);
+  if (options.background) {
+    RenderOptions whole = options;
+    whole.crop.reset();
+    draw_environment(prepared.lighting().environment, scene.up, camera, whole, image);
+  }
   return Backdrop(image, clip_from_world);
 }
 
@@ -312,7 +318,8 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
   const Ground* const shadow_catcher = ground ? &*ground : nullptr;
   std::optional<Backdrop> backdrop;
   if (request.content == Content::Colour)
-    backdrop = make_backdrop(prepared, view, draws.draws, shadow_catcher, clip_from_world, rules, options, memory_);
+    backdrop =
+        make_backdrop(prepared, view, draws.draws, shadow_catcher, camera, clip_from_world, rules, options, memory_);
   if (backdrop) view.backdrop = backdrop->view();
   // Transmissive surfaces refract all of the light behind them.
   view.component = options.light_component;
