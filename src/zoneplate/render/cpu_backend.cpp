@@ -226,7 +226,8 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
   const Ground* const shadow_catcher = ground ? &*ground : nullptr;
   std::optional<Backdrop> backdrop;
   if (request.content == Content::Colour)
-    backdrop = make_backdrop(prepared, view, draws.draws, shadow_catcher, clip_from_world, rules, options, memory_);
+    backdrop =
+        make_backdrop(prepared, view, draws.draws, shadow_catcher, camera, clip_from_world, rules, options, memory_);
   if (backdrop) view.backdrop = backdrop->view();
   // Transmissive surfaces refract all of the light behind them.
   view.component = options.light_component;

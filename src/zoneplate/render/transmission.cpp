@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "zoneplate/render/environment_background.h"
 #include "zoneplate/render/scene_fragments.h"
 #include "zoneplate/shade/surface/layered_plan.h"
 #include "zoneplate/signal/samples.h"
@@ -66,8 +67,8 @@ std::vector<Layer> layers_of(std::span<const Draw> draws, std::span<const DepthR
 }  // namespace
 
 std::optional<Backdrop> make_backdrop(const PreparedScene& prepared, ViewUniforms view, std::span<const Draw> draws,
-                                      const Ground* ground, const float4x4& clip_from_world, const RasterRules& rules,
-                                      const RenderOptions& options, RasterMemory& memory) {
+                                      const Ground* ground, const Camera& camera, const float4x4& clip_from_world,
+                                      const RasterRules& rules, const RenderOptions& options, RasterMemory& memory) {
   const Scene& scene = prepared.scene();
   const std::vector<Material>& materials = scene.materials;
   const auto is_ground = [&](const Draw& draw) { return static_cast<std::size_t>(draw.material) == materials.size(); };
@@ -111,6 +112,11 @@ std::optional<Backdrop> make_backdrop(const PreparedScene& prepared, ViewUniform
     }
     std::ranges::fill(image.values(), Linear{0, 0, 0, 0});
     rasterize(behind, SceneFragmentShader(prepared, view, ground), rules, target, &memory);
+    if (options.background) {
+      RenderOptions whole = options;
+      whole.crop.reset();
+      draw_environment(prepared.lighting().environment, scene.up, camera, whole, image);
+    }
     if (!backdrop) {
       backdrop.emplace(image, clip_from_world);
     } else {

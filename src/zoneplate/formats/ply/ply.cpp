@@ -115,14 +115,23 @@ void choose_primitives(const Found& found, Mesh& mesh, PlyFaces& faces, ImportBu
   std::iota(mesh.index.begin(), mesh.index.end(), 0u);
 }
 
-void add_material(const PlyHeader& header, const std::string& folder, const Mesh& mesh, Scene& scene,
-                  ImportBudget& budget) {
+/// Whether all vertices have one opaque grey. MeshLab stores its default, (192, 192, 192), in files of meshes without
+/// colours.
+bool is_uniform_grey(const std::vector<float4>& colors) {
+  const float4 first = colors.empty() ? float4{} : colors.front();
+  return first.x == first.y && first.x == first.z && first.w == 1 &&
+         std::all_of(colors.begin(), colors.end(), [&](float4 c) { return c == first; });
+}
+
+void add_material(const PlyHeader& header, const std::string& folder, Mesh& mesh, Scene& scene, ImportBudget& budget) {
   scene.materials.push_back(plain_material("default"));
   Material& material = scene.materials.back();
   if (!header.texture.empty() && !mesh.uv0.empty()) {
     ModelFolder files(folder, budget, scene);
     material.base_color_texture.image = files.image("", header.texture);
     material.is_default = false;
+    // A texture is not darkened by such a grey.
+    if (material.base_color_texture.image >= 0 && is_uniform_grey(mesh.color)) mesh.color.clear();
   }
   if (!mesh.color.empty() || material.base_color_texture.image >= 0) material.base_color = {1, 1, 1, 1};
   const bool is_clear = std::any_of(mesh.color.begin(), mesh.color.end(), [](float4 c) { return c.w < 1; });

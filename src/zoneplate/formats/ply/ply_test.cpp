@@ -167,6 +167,23 @@ TEST(Ply, FacesMayHaveTheirOwnUvColorAndTexture) {
   EXPECT_EQ(s.images[0].name, "a b.png");
 }
 
+TEST(Ply, UniformGreyDoesNotDarkenATexture) {
+  const TestFolder folder;
+  folder.write("a.png", encode_png(Rgba8Image(2, 2, {1, 2, 3, 255})));
+  const auto colors_of = [&](const std::string& comment, const std::string& last) {
+    const std::string text = ascii + comment + "element vertex 3\n" + xyz +
+                             "property float s\nproperty float t\nproperty uchar red\nproperty uchar green\n"
+                             "property uchar blue\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                             "0 0 0 0 0 192 192 192\n1 0 0 1 0 192 192 192\n0 1 0 0 1 " +
+                             last + "\n3 0 1 2\n";
+    return load_ply(folder.write("model.ply", text)).meshes[0].color.size();
+  };
+  const std::string texture = "comment TextureFile a.png\n";
+  EXPECT_EQ(colors_of(texture, "192 192 192"), 0u);
+  EXPECT_EQ(colors_of(texture, "192 192 191"), 3u);
+  EXPECT_EQ(colors_of("", "192 192 192"), 3u);
+}
+
 TEST(Ply, WhatIsNotFiniteIsDropped) {
   const Scene s = load(ascii + "element vertex 4\n" + xyz +
                        "element face 2\nproperty list uchar int vertex_indices\nend_header\n"

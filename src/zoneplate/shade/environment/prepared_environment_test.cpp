@@ -18,6 +18,7 @@
 #include "zoneplate/shade/environment/lookup.h"
 #include "zoneplate/shade/environment/lookup_lanes.h"
 #include "zoneplate/shade/environment/prefilter.h"
+#include "zoneplate/shade/reflection/brdf.h"
 
 namespace zoneplate {
 namespace {
@@ -148,6 +149,56 @@ TEST(LookUp, IsTheIntegralOfTheLobeAtEveryRoughness) {
       if (roughness < 1) continue;
       EXPECT_NEAR(value(diffuse_light(view, lanes(n))).y / expected.g, 1, 0.005) << k;
     }
+}
+
+/// The mean of the light of all directions that a rough surface reflects to a viewer at v, weighted by its lobe with
+/// masking and shadowing.
+Mean reflected(const EnvironmentView& view, float3 n, float3 v, float roughness) {
+  constexpr int rings = 48, turns = 96;
+  const float3 x = normalize(cross(std::abs(n.y) < 0.9f ? float3{0, 1, 0} : float3{1, 0, 0}, n)), y = cross(n, x);
+  const F alpha(roughness * roughness), nv(dot(n, v));
+  Quadrature out;
+  for (int i = 0; i < rings; ++i)
+    for (int k = 0; k < turns; ++k) {
+      const double cosine = (i + 0.5) / rings, sine = std::sqrt(1 - cosine * cosine), turn = 2 * pi * (k + 0.5) / turns;
+      const float3 l = n * static_cast<float>(cosine) + x * static_cast<float>(sine * std::cos(turn)) +
+                       y * static_cast<float>(sine * std::sin(turn));
+      const float3 h = normalize(l + v);
+      const F nl(static_cast<float>(cosine));
+      const F lobe = ggx(F(dot(n, h)), lanes(cross(n, h)), alpha) * smith(nl, nv, alpha) * nl;
+      out.add(l, static_cast<double>(lobe.v));
+    }
+  return out.mean(view);
+}
+
+TEST(LookUp, AboutTheDirectionOfALobeIsNearTheReflectedLight) {
+  const PreparedEnvironment environment = prepare_equirectangular(room(64));
+  const EnvironmentView view = plain_view(environment);
+  // Bounds of the error over that about the mirror direction, in the root mean square over normals and views.
+  const struct {
+    float roughness;
+    double bound;
+  } cases[] = {{0.5f, 0.97}, {0.7f, 0.85}, {0.85f, 0.6}, {1, 0.4}};
+  for (const auto& [roughness, bound] : cases) {
+    double bent = 0, mirrored = 0;
+    for (std::uint32_t k = 0; k < 60; ++k) {
+      const auto direction = [&](std::uint32_t seed) {
+        const float3 r{unit_float(hash(k, seed)), unit_float(hash(k, seed + 1)), unit_float(hash(k, seed + 2))};
+        return normalize(r - float3{0.5f, 0.5f, 0.5f});
+      };
+      const float3 n = direction(1);
+      float3 v = direction(4);
+      if (dot(n, v) < 0) v = -v;
+      const double expected = reflected(view, n, v, roughness).r;
+      const auto error = [&](Vector<F> towards) {
+        const double d = static_cast<double>(value(specular_light(view, towards, F(roughness))).x) - expected;
+        return d * d;
+      };
+      bent += error(lobe_direction(lanes(n), lanes(v), F(roughness)));
+      mirrored += error(lanes(n * (2 * dot(n, v)) - v));
+    }
+    EXPECT_LT(std::sqrt(bent / mirrored), bound) << roughness;
+  }
 }
 
 TEST(Prefilter, EveryInstructionSetGivesTheSameBits) {

@@ -6,7 +6,9 @@
 #include <limits>
 #include <optional>
 
+#include "zoneplate/math/lanes.h"
 #include "zoneplate/math/random.h"
+#include "zoneplate/shade/reflection/layers.h"
 #include "zoneplate/shade/shadow/receivers.h"
 #include "zoneplate/shade/surface/geometry_lanes.h"
 #include "zoneplate/shade/surface/layered_plan.h"
@@ -283,12 +285,29 @@ void BatchShading::find_highlight() {
   for (int i = 0; i < p.count; ++i) p.exponent[i] = std::max(texel[0][i] * plan.exponent.value, 1.0f);
 }
 
-/// The thickness of the volume in the world: scaled as its instance is.
+/// The thickness of the volume in the world: scaled as its instance is along the ray that enters the volume.
 void BatchShading::find_thickness() {
+  using F = scalar::Float;
+  const stages::Viewer<F> viewer(d.viewpoint);
+  const float eta = 1 / plan.layers->uniforms.ior;
   for (std::size_t i = 0; i < static_cast<std::size_t>(p.count); ++i) {
     const std::size_t group = i / FragmentBatch::group;
     const std::size_t at = vertices.one_instance[group] ? batch.leader(group * FragmentBatch::group) : i;
-    q.thickness[i] *= d.transforms[batch.instance[at]].scale;
+    const InstanceTransform& transform = d.transforms[batch.instance[at]];
+    if (transform.scale_along == 0) {
+      q.thickness[i] *= transform.scale;
+      continue;
+    }
+    const auto fragment = static_cast<int>(i);
+    const auto n = Vector<F>::load(p.normal, fragment), v = viewer.direction(batch, p, fragment);
+    const Vector<F> ray = refracted(n, v, min(max(dot(n, v), F(0.0f)), F(1.0f)), F(eta));
+    float square = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float* const m = transform.normal + 3 * c;
+      const float along = m[0] * ray.x.v + m[1] * ray.y.v + m[2] * ray.z.v;
+      square += along * along;
+    }
+    q.thickness[i] *= transform.scale_along / std::max(std::sqrt(square), 1e-30f);
   }
 }
 

@@ -213,12 +213,13 @@ template <class F>
   return peak * nl * s.coat_gain;
 }
 
-/// The mirror image of v; stretched highlights reflect along a normal bent towards the viewer.
+/// The direction of the light that the surface reflects; stretched highlights reflect along a normal bent towards the
+/// viewer.
 ///
 /// Source    KHR_materials_anisotropy, "Image-based lighting".
 template <class F>
-[[gnu::always_inline]] inline Vector<F> mirror_direction(const LayeredUniforms& u, const LayeredSurface<F>& s,
-                                                         const LayerState& q, int i) {
+[[gnu::always_inline]] inline Vector<F> reflected_direction(const LayeredUniforms& u, const LayeredSurface<F>& s,
+                                                            const LayerState& q, int i) {
   Vector<F> n = s.n;
   if (u.has_anisotropy) {
     const F one(1.0f);
@@ -226,8 +227,7 @@ template <class F>
     const F rest = one - F::load(q.anisotropy + i) * (one - s.roughness), square = rest * rest;
     n = normalize(mix(bent, s.n, square * square));
   }
-  const F along = dot(n, s.v);
-  return n * (along + along) - s.v;
+  return lobe_direction(n, s.v, s.roughness);
 }
 
 /// The light of the environment that the surface sends to the viewer, without the clear coat: `seen` is the part of the
@@ -238,7 +238,7 @@ template <class F, class Radiance>
                                                             const LayerState& q, int i) {
   const F one(1.0f);
   const InterfaceShares<F>&dielectric = s.dielectric_shares, &metal = s.metal_shares;
-  const Vector<F> mirrored = around.specular(mirror_direction(u, s, q, i), s.roughness) * seen;
+  const Vector<F> mirrored = around.specular(reflected_direction(u, s, q, i), s.roughness) * seen;
   const Vector<F> front = around.diffuse(s.n) * seen;
   const Vector<F> back = u.has_diffuse_transmission ? around.diffuse(Vector<F>{-s.n.x, -s.n.y, -s.n.z}) * seen : front;
 
@@ -334,9 +334,8 @@ void light_layered(const ShadingUniforms& s, const LayeredUniforms& u, const Fra
       const F seen = kind.has_occlusion ? F::load(p.occlusion + i) : one;
       sum = sum + layered_environment(u, surface, around, through.color, seen, q, i);
       if (u.has_clearcoat) {
-        const F along = dot(surface.coat_n, surface.v);
-        const Vector<F> mirror = surface.coat_n * (along + along) - surface.v;
-        coat = coat + around.specular(mirror, surface.coat_roughness) * seen;
+        const Vector<F> towards = lobe_direction(surface.coat_n, surface.v, surface.coat_roughness);
+        coat = coat + around.specular(towards, surface.coat_roughness) * seen;
       }
     }
     if (s.has_emissive_texture) {

@@ -296,10 +296,8 @@ struct MappedEnvironment {
                                              Vector<F> base, F metallic, F roughness, SpecularWeights<F> weights,
                                              int i) const {
     const EnvironmentShares<F> shares = metallic_shares(base, metallic, weights);
-    const F along = dot(n, v);
-    const Vector<F> mirror = n * (along + along) - v;
-    const Vector<F> sum =
-        shares.mirrored * specular_light(map, mirror, roughness) + shares.scattered * diffuse_light(map, n);
+    const Vector<F> sum = shares.mirrored * specular_light(map, lobe_direction(n, v, roughness), roughness) +
+                          shares.scattered * diffuse_light(map, n);
     return unoccluded(kind, p, sum, i);
   }
 };

@@ -73,6 +73,9 @@ struct InstanceTransform {
   float handedness;             ///< -1 where the transform mirrors
   float keeps_normals;          ///< 1 where the normal matrix is the identity, else 0
   float scale;                  ///< of lengths, on average over the axes
+  /// A length of the object along the unit vector d of the world is this / |normalᵀ d| times as long in the world; 0:
+  /// as much as `scale` says, in every direction.
+  float scale_along;
 };
 
 /// One array of a ShadingState, by its offset, so that it applies to any of them; none by default.

@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "zoneplate/math/lanes.h"
+#include "zoneplate/math/transform.h"
+#include "zoneplate/scene/material_layers.h"
 #include "zoneplate/shade/reflection/brdf.h"
 #include "zoneplate/shade/surface/surface_for_test.h"
 
@@ -208,6 +211,25 @@ TEST(Surface, AWhiteFurnaceIsWhiteAndOcclusionDarkensIt) {
   bare.materials[0].occlusion_texture.image = -1;
   scene.lights = bare.lights = {sun({0, 0, -1})};
   EXPECT_EQ(color_of(scene, {.eye = {0, 0, 3}}), color_of(bare, {.eye = {0, 0, 3}}));
+}
+
+TEST(Surface, AVolumeIsAsThickAsItsInstanceIsScaledAlongTheRay) {
+  Scene scene = flat_triangle();
+  auto layers = std::make_shared<MaterialLayers>();
+  layers->transmission = 1, layers->specular = 0, layers->ior = 1.25f;
+  layers->thickness = 0.5f, layers->attenuation_distance = 1, layers->attenuation_color = {0.5f, 0.25f, 0.75f};
+  scene.materials[0].metallic = 0, scene.materials[0].layers = layers;
+  for (const float3 scale : {float3{1, 1, 1}, float3{2, 2, 2}, float3{2, 3, 0.25f}, float3{0.5f, 0.125f, 4}})
+    for (const float3 to_viewer : {float3{0, 0, 1}, float3{0.6f, 0, 0.8f}, float3{0, -0.8f, 0.6f}}) {
+      scene.instances[0].world_from_object = scaling(scale);
+      const float3 point{0.25f * scale.x, 0.25f * scale.y, 0};
+      const float4 color = color_of(scene, {.eye = point + to_viewer * 100.0f, .environment = {1, 1, 1}});
+      // The ray inside by Snell's law, and its length where the object has a length of 1 along it.
+      const double x = -to_viewer.x / 1.25, y = -to_viewer.y / 1.25, z = std::sqrt(1 - x * x - y * y);
+      const double thickness = 0.5 / std::hypot(x / scale.x, y / scale.y, z / scale.z);
+      const auto passed = [&](double part) { return static_cast<float>(std::pow(part, thickness)); };
+      expect_near(color, {passed(0.5), passed(0.25), passed(0.75), 1}, 3e-6f);
+    }
 }
 
 }  // namespace

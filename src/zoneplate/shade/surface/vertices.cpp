@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/scene/material_layers.h"
@@ -242,7 +243,14 @@ std::vector<InstanceTransform> make_instance_transforms(std::span<const Instance
     for (std::size_t c = 0; c < 3; ++c)
       if (is_in_range) store(normal.column[c] * (1 / greatest), p.normal + 3 * c);
     p.handedness = determinant3(world) < 0 ? -1.0f : 1.0f;
-    for (std::size_t c = 0; c < 3; ++c) p.scale += length(xyz(world.column[c])) / 3;
+    float least = std::numeric_limits<float>::max(), most = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float along = length(xyz(world.column[c]));
+      p.scale += along / 3, least = std::min(least, along), most = std::max(most, along);
+    }
+    // The normal matrix is the transposed inverse times |determinant| / greatest.
+    constexpr float rounding = 1e-5f;
+    if (is_in_range && most - least > rounding * most) p.scale_along = std::abs(determinant3(world)) / greatest;
     p.keeps_normals = normal == float4x4{} ? 1.0f : 0.0f;
     transforms.push_back(p);
   }
