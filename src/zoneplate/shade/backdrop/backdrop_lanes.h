@@ -126,12 +126,18 @@ template <class F>
   return {select(is_sharp, sharp.color, smooth.color), select(is_sharp, sharp.alpha, smooth.alpha)};
 }
 
-/// The image about places, blurred as a wall of a roughness in [0, 1] blurs it: over its whole width at 1.
+/// The image about places, blurred as a wall of a roughness in [0, 1] blurs it: not at all at 0, over its whole width
+/// at 1, and over the same part of it whatever its size.
+///
+/// Source    the level roughness × log2(width) of glTF's sample viewer and three.js, for the width of 1024 that the
+///           former draws this image with.
 template <class F>
 [[gnu::always_inline]] inline BackdropColor<F> backdrop_color(const BackdropView& b, ImagePlace<F> at, F roughness) {
   using Int = typename F::Int;
-  const F last(static_cast<float>(b.levels - 1));
-  const F level = min(max(log2(F(static_cast<float>(b.width[0]))) * roughness, F(0.0f)), last);
+  constexpr float levels = 10, pixels = 1024;  // 2^levels
+  const F last(static_cast<float>(b.levels - 1)), one(1.0f);
+  const F part_of_width = (exp2(roughness * F(levels)) - one) * F(1 / (pixels - 1));
+  const F level = min(max(log2(one + part_of_width * F(static_cast<float>(b.width[0]))), F(0.0f)), last);
   const Int lower = truncate(level), upper = min(lower + Int(1), Int(b.levels - 1));
   const F part = level - F::from(lower);
   const BackdropColor<F> sharp = backdrop_texels(b, at, lower);

@@ -66,5 +66,29 @@ TEST(Backdrop, BlurredLevelsAreLookedUpByTheCubicBSpline) {
   }
 }
 
+/// An image of stripes that are an eighth of its width wide.
+LinearImage stripes(int width) {
+  LinearImage image(width, width, Linear{0, 0, 0, 1});
+  for (int y = 0; y < width; ++y)
+    for (int x = 0; x < width; ++x) image(x, y).r = static_cast<float>(x * 8 / width % 2);
+  return image;
+}
+
+TEST(Backdrop, IsBlurredByTheSamePartOfItsWidthAtEverySize) {
+  using F = scalar::Float;
+  const Backdrop small(stripes(256), {}), large(stripes(1024), {});
+  const auto at = [](const Backdrop& backdrop, float x, float roughness) {
+    const BackdropView view = backdrop.view();
+    const F place(x * static_cast<float>(view.width[0]));
+    return backdrop_color<F>(view, {place, place}, F(roughness)).color.x.v;
+  };
+  for (const float x : {0.31f, 0.36f, 0.375f, 0.39f, 0.44f}) {
+    for (const float roughness : {0.4f, 0.5f, 0.6f, 0.8f, 1.0f})
+      EXPECT_NEAR(at(small, x, roughness), at(large, x, roughness), 0.06f) << x << " " << roughness;
+    EXPECT_EQ(at(large, x, 0), x < 0.374f ? 0 : x > 0.376f ? 1 : 0.5f) << x;
+  }
+  EXPECT_NEAR(at(large, 0.3125f, 1), 0.5f, 0.02f);
+}
+
 }  // namespace
 }  // namespace zoneplate
