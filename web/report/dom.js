@@ -6,11 +6,11 @@ function build(node, attributes, children) {
     else if (value === true) node.setAttribute(name, '');
     else if (value !== false && value !== undefined && value !== null) node.setAttribute(name, value);
   }
-  node.append(...children.flat().filter((child) => child !== null && child !== undefined));
+  node.append(...children.flat(Infinity).filter((child) => child !== null && child !== undefined));
   return node;
 }
 
-/// element('button', { class: 'x', onclick: f }, 'text', child): an attribute that is false or undefined is left out.
+/// element('button', { class: 'x', onclick: f }, 'text', child): an attribute that is false or undefined is left out; arrays of children may be nested.
 export const element = (name, attributes = {}, ...children) => build(document.createElement(name), attributes, children);
 export const drawing = (name, attributes = {}, ...children) =>
   build(document.createElementNS('http://www.w3.org/2000/svg', name), attributes, children);

@@ -54,7 +54,7 @@ export class Stage {
     this.referenceGroup = group('Against', this.referenceList, this.holdButton);
     return element('div', { class: 'tools', role: 'toolbar', 'aria-label': 'View' }, this.layoutChoice.node, this.whatChoice.node, this.gainGroup, this.rowGroup,
       this.referenceGroup, element('span', { class: 'group' }, button('−', 'Smaller (key -)', () => this.zoomBy(-1)), this.zoomList,
-        button('+', 'Larger (key +)', () => this.zoomBy(1)), button('Fit', 'Fit the image (key 0 with shift, or Z)', () => this.fit()), this.regionButton),
+        button('+', 'Larger (key +)', () => this.zoomBy(1)), this.regionButton),
       group('Exposure', this.exposure, this.exposureText));
   }
 
@@ -72,7 +72,7 @@ export class Stage {
     const { images } = scene;
     this.marked = images.findIndex((image) => image.is_reference);
     const reference = Math.max(0, this.marked), hasFrames = images.some((image) => image.frames.length > 1);
-    Object.assign(this, { reference, shown: new Set(scene.chosen ?? images.map((_, i) => i).slice(0, 6)), frame: 0, pixel: null, row: null, isHeld: false });
+    Object.assign(this, { reference, shown: new Set(scene.chosen ?? images.map((_, i) => i).slice(0, 6)), frame: scene.frame ?? 0, pixel: null, row: null, isHeld: false });
     this.current = images.findIndex((_, i) => i !== reference && this.shown.has(i));
     if (this.current < 0) this.current = 0;
     this.hasErrors = images.some((image) => image.errors?.some((index) => index >= 0));
@@ -232,6 +232,14 @@ export class Stage {
     return needed.every((index) => index === undefined || index < 0 || pictureNow(index));
   }
 
+  /// Decodes the frames before and after the displayed one, so that a step does not wait for them.
+  loadNeighbours() {
+    for (const i of this.hasFrames ? this.shownImages() : []) {
+      const { frames } = this.scene.images[i], { length } = frames;
+      for (const step of [1, length - 1]) loadPicture(frames[(this.frame + step) % length]);
+    }
+  }
+
   refresh() {
     if (this.isScheduled || !this.scene) return;
     this.isScheduled = true;
@@ -241,6 +249,7 @@ export class Stage {
       for (const pane of this.panes) pane.draw();
       this.showTools();
       this.inspector.show(this);
+      this.loadNeighbours();
       this.onChange();
     });
   }
@@ -259,8 +268,10 @@ export class Stage {
     this.whatChoice.show(this.what, [...(this.hasErrors ? [] : ['errors']), ...(this.hasFrames ? [] : ['slice']), ...(isAlone ? ['difference'] : [])]);
     this.rowGroup.hidden = this.what !== 'slice';
     if (document.activeElement !== this.rowInput) this.rowInput.value = this.row;
-    this.gainGroup.hidden = !(this.what in this.gains);
-    this.gainList.selectedIndex = gains.indexOf(this.gains[this.what]);
+    // The gain keeps its place, so that the panes stay where they are.
+    this.gainGroup.hidden = isAlone && !this.hasErrors;
+    this.gainList.disabled = !(this.what in this.gains);
+    this.gainList.selectedIndex = gains.indexOf(this.gains[this.what] ?? 1);
     this.referenceGroup.hidden = isAlone;
     this.referenceList.selectedIndex = this.reference;
     this.regionButton.hidden = !this.scene.region;
