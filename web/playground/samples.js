@@ -57,7 +57,7 @@ export class Samples {
 
   describe(name, result, most) {
     const facts = (rows) => element('dl', {}, rows.flatMap(([term, text]) => [element('dt', {}, term), element('dd', {}, text)]));
-    const pixel = ['Pixel of the image', colorText(result.pixel)];
+    const pixel = ['Pixel', colorText(result.pixel)];
     if (!result.samples) return element('figure', {}, element('figcaption', {}, name), element('p', { style: 'grid-column: 1 / -1' }, result.reason), facts([pixel]));
     const { samples } = result, step = Math.min(most, samples.length - 1), { x, y, triangle, weight, linear, color, mean } = samples[step];
     const total = samples.reduce((sum, sample) => sum + sample.weight, 0), isLast = step === samples.length - 1;

@@ -187,6 +187,14 @@ export class Stage {
     this.arrange();
   }
 
+  /// The number of images in a row of a lesson, whose rows of images and enlarged regions differ in size; 0: no such rows.
+  rowLength() {
+    const isNew = ({ width, height }, i) => i > 0 && (width !== this.sizes[i - 1].width || height !== this.sizes[i - 1].height);
+    const first = this.sizes.findIndex(isNew), { length } = this.sizes;
+    const isRegular = first > 1 && length % first === 0 && this.sizes.every((size, i) => isNew(size, i) === (i > 0 && i % first === 0));
+    return isRegular && this.panes.length === length ? first : 0;
+  }
+
   /// Gives the panes their sizes: as large as the images of all panes can be without scrolling, but legible.
   arrange() {
     if (!this.panes.length) return;
@@ -205,6 +213,11 @@ export class Stage {
       const columns = Math.min(count, Math.max(1, Math.floor((room + gap) / (least + gap))));
       best = { columns, paneWidth: Math.floor((room - (columns - 1) * gap) / columns), paneHeight: Infinity };
     }
+    const row = this.rowLength(), narrowest = 200;
+    if (row && room >= row * narrowest) best = { columns: row, paneWidth: Math.floor((room - (row - 1) * gap) / row), paneHeight: Infinity };
+    // Long names have two lines in every pane, so that the images stay where they are while another name is displayed.
+    const letter = 8, hasLongNames = count > 1 && this.scene.images.some(({ name }) => letter * name.length + head > best.paneWidth);
+    this.room.classList.toggle('tall', hasLongNames);
     best.paneHeight = Math.max(120, Math.min(best.paneHeight, Math.ceil(best.paneWidth * height / width)));
     const fitting = View.fitting(this.size, { width: best.paneWidth, height: best.paneHeight });
     if (fitting >= 1) best.paneHeight = Math.max(120, fitting * height);
