@@ -10,7 +10,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { lessonOf, lessons } from '../playground/lessons.js';
-import { failures } from './content.mjs';
+import { documentGroups, failures } from './content.mjs';
 import { escapeText, pageOf } from './template.mjs';
 import { rendered, sectionsOf } from './markdown.mjs';
 
@@ -30,13 +30,14 @@ function writePage(name, title, body, active) {
 
 // ---- the documents
 
-/// { source, name, title } of every document; the page of README.md is the first of the site.
-const documents = ['README.md', ...fs.readdirSync(path.join(root, 'docs')).filter((name) => name.endsWith('.md')).sort().map((name) => `docs/${name}`),
-  'CONVENTIONS.md', 'CONTRIBUTING.md', 'CHANGELOG.md', 'SECURITY.md', 'THIRD_PARTY.md'].map((source) => ({
-  source,
+const sources = [...fs.readdirSync(path.join(root, 'docs')).filter((name) => name.endsWith('.md')).sort().map((name) => `docs/${name}`), ...documentGroups.flatMap(([, group]) => group)];
+const others = [...new Set(sources)].filter((source) => !documentGroups.some(([, group]) => group.includes(source)));
+/// { source, name, title, group } of every document; the page of README.md is the first of the site.
+const documents = [...documentGroups, ['More', others]].flatMap(([group, list]) => list.map((source) => ({
+  source, group,
   name: source === 'README.md' ? 'index.html' : `${source.startsWith('docs/') ? '' : 'docs/'}${source.slice(0, -3)}.html`.replace(/[^/]*$/, (file) => file.toLowerCase()),
   title: /^#+ (.*)$/m.exec(fs.readFileSync(path.join(root, source), 'utf8'))[1].replaceAll('`', ''),
-}));
+})));
 
 /// The address, from a page, of a file that a document names; null if the site does not have it.
 function addressOf(link, source, name) {
@@ -50,9 +51,17 @@ function addressOf(link, source, name) {
   return path.relative(path.dirname(name), known) + (fragment ? `#${fragment}` : '');
 }
 
+/// Where a visitor goes who does not read: below the first paragraph of the first page.
+const doors = `<ul class="cards doors">${[['playground/index.html', 'Playground', 'Render scenes and models in this browser by two methods, and compare them pixel by pixel.'],
+  ['lessons/index.html', 'Lessons', 'Artifacts and their remedies, side by side, with measurements and parameters to change.'],
+  ['gallery/index.html', 'Gallery', 'Scenes in which antialiasing fails, by several methods, with errors and costs.']]
+  .map(([href, title, text]) => `<li><a class="card" href="${href}"><strong>${title}</strong><span>${text}</span></a></li>`).join('')}</ul>`;
+
 function writeDocuments() {
-  for (const { source, name, title } of documents)
-    writePage(name, title, rendered(fs.readFileSync(path.join(root, source), 'utf8'), (link) => addressOf(link, source, name)), name);
+  for (const { source, name, title } of documents) {
+    const body = rendered(fs.readFileSync(path.join(root, source), 'utf8'), (link) => addressOf(link, source, name));
+    writePage(name, title, name === 'index.html' ? body.replace('</p>', () => `</p>${doors}`) : body, name);
+  }
 }
 
 // ---- lessons and gallery: pages that the program writes

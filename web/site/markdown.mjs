@@ -18,6 +18,8 @@ export function rendered(markdown, addressOf) {
       const address = addressOf(link);
       return address === null ? inner : `<a href="${address}">${inner}</a>`;
     })
+    // Options do not break after their hyphens.
+    .replace(/(?<!<pre>)<code>([^<]*)<\/code>/g, (_, text) => `<code>${text.replace(/(?<![^\s])-[\w-]{1,29}(?![\w-])/g, '<span>$&</span>')}</code>`)
     .replace(/<img src="([^"]*)"/g, (_, link) => `<img src="${addressOf(link) ?? link}"`)
     .replace(/<table>/g, '<div class="table"><table>').replace(/<\/table>/g, '</table></div>');
 }
