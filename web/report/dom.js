@@ -15,6 +15,9 @@ export const element = (name, attributes = {}, ...children) => build(document.cr
 export const drawing = (name, attributes = {}, ...children) =>
   build(document.createElementNS('http://www.w3.org/2000/svg', name), attributes, children);
 
+/// The name of a button for screen readers: its text, if that has words.
+export const nameOf = (text, label) => (/\w/.test(text) ? undefined : label);
+
 /// A row of buttons of which one is pressed. `options` are [value, text, key]; returns { node, show(value, hidden) }.
 export function choice(label, options, choose) {
   const buttons = new Map(options.map(([value, text, key]) => [value, element('button', {

@@ -1,5 +1,5 @@
 // The images of a scene: panes with one transform, their layouts and layers, and the pixel that is inspected.
-import { choice, element, list } from './dom.js';
+import { choice, element, list, nameOf } from './dom.js';
 import { Inspector } from './inspector.js';
 import { Pane } from './pane.js';
 import { loadPicture, pictureNow, sizeOf } from './picture.js';
@@ -29,7 +29,7 @@ export class Stage {
 
   makeTools() {
     const button = (text, label, action, attributes = {}) =>
-      element('button', { type: 'button', title: label, 'aria-label': label, onclick: action, ...attributes }, text);
+      element('button', { type: 'button', title: label, 'aria-label': nameOf(text, label), onclick: action, ...attributes }, text);
     this.layoutChoice = choice('Layout', [['grid', 'Side by side', 'G'], ['single', 'One', 'F'], ['slider', 'Slider', 'S']],
       (layout) => this.set({ layout }));
     this.whatChoice = choice('Display', [['picture', 'Image', 'I'], ['difference', 'Difference', 'D'],
