@@ -13,10 +13,12 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/codec/hdr.h"
+#include "zoneplate/codec/ktx2/ktx2.h"
 #include "zoneplate/formats/gltf/draco.h"
 #include "zoneplate/formats/import/image_file.h"
 #include "zoneplate/formats/meshopt/meshopt.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/os/library.h"
 
 // Module.images: the decoded images, { bytes, width, height, depth, data }, where data is null for one that the browser
 // cannot decode. Module.missing: the bytes of those that a reader met and that are not decoded.
@@ -67,16 +69,14 @@ void FileBytes::forget(const void*, std::size_t) const {}
 
 /// Why the page does not decode an image that the program does; empty for others.
 static std::string_view reason_of(std::span<const std::uint8_t> bytes) {
-  const std::string_view start(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 8));
-  if (start == "\xABKTX 20\xBB")
-    return "KTX2 textures are read by the program, not by this page: with their decoders, the module would be larger "
-           "than 1.5 MB";
-  if (start.starts_with("\x76\x2f\x31\x01")) return "OpenEXR images are read by the program, not by this page";
+  const std::string_view start(reinterpret_cast<const char*>(bytes.data()), std::min<std::size_t>(bytes.size(), 4));
+  if (start == "\x76\x2f\x31\x01") return "OpenEXR images are read by the program, not by this page";
   return "";
 }
 
 std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes) {
   if (is_hdr(bytes)) return find_hdr_size(bytes);
+  if (is_ktx2(bytes)) return find_ktx2_size(bytes);
   if (!reason_of(bytes).empty()) return std::nullopt;
   const int image = find_image(bytes.data(), bytes.size());
   if (image < 0 || image_value(image, 0) == 0) return std::nullopt;
@@ -89,7 +89,7 @@ std::uint64_t decoded_image_memory(std::span<const std::uint8_t> bytes) {
                     static_cast<std::uint64_t>(size->y)
               : 0;
 }
-std::uint64_t image_working_memory(std::span<const std::uint8_t>) { return 0; }
+std::uint64_t image_working_memory(std::span<const std::uint8_t> bytes) { return ktx2_working_memory(bytes); }
 
 template <class Texel>
 static Plane<Texel> image_of(int image) {
@@ -102,6 +102,7 @@ TexelImage decode_image(std::span<const std::uint8_t> bytes, const std::string& 
   if (const std::string_view reason = reason_of(bytes); !reason.empty())
     throw Error(ErrorKind::Input, fmt::format("{}: {}", name, reason));
   if (is_hdr(bytes)) return decode_hdr_rgba(bytes, name, max_pixels);
+  if (is_ktx2(bytes)) return decode_ktx2(bytes, name, max_pixels);
   const std::optional<int2> size = find_image_size(bytes);
   if (!size) throw Error(ErrorKind::Input, name + ": the browser does not decode this image");
   if (static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y) > max_pixels)
@@ -112,6 +113,11 @@ TexelImage decode_image(std::span<const std::uint8_t> bytes, const std::string& 
 }
 
 std::optional<std::string> size_warning(const TextureImage&) { return std::nullopt; }
+
+SharedLibrary::SharedLibrary(Library library, const std::string& place) : library_(library), place_(place) {
+  throw Error(ErrorKind::Input, place + ": data packed by Zstandard are read by the program, not by this page");
+}
+SharedLibrary::AnyFunction SharedLibrary::address_of(const char*) const { return nullptr; }
 
 DracoMesh decode_draco(std::span<const std::uint8_t>, std::uint64_t, std::span<const DracoWish>,
                        const std::string& place, ImportBudget&) {

@@ -100,6 +100,8 @@ export const lessons = [
     steps: [
       { text: 'Both images are rendered with a quarter of the pixels. A is enlarged by a filter. B accumulates jittered frames at the size of the image. Enlarge an edge, and change the scale.',
         state: { a: 'bilinear:scale=2', b: 'fsr2:scale=2', view: '6,249,30' }, knobs: [['a', 'scale'], ['b', 'scale']] },
+      { text: 'Wires that move, from a quarter of the pixels in each frame. TAAU (A) and FSR 3 (B) move the accumulated image along, and must decide which part of it is still valid: FSR 3 clamps it to the colours of the new pixels. Press Play.',
+        state: { scene: 'panning-wires', a: 'taau:scale=2', b: 'fsr3:scale=2', frame: '12', layout: 'grid', size: '480x270' }, knobs: [['b', 'scale'], ['b', 'locks'], ['b', 'rectify']] },
     ],
   },
   {
@@ -114,6 +116,8 @@ export const lessons = [
     steps: [
       { text: 'The disc has jumped. Without tests (A) its history remains as a ghost. With them (B) history is dropped where the last frame had another object, or clipped to the colours of the neighbours.',
         state: { scene: 'teleport', a: 'taa:rectify=none,reject=none,blend=fixed', b: 'taa', frame: '17', layout: 'grid', size: '480x270' }, knobs: [['b', 'rectify'], ['b', 'reject'], ['b', 'gamma']] },
+      { text: 'In the frame of the jump, the pixels that the disc has left have no history, and a single sample: the edges of the spoke there are stairs (A). With new=smaa, SMAA smooths these pixels, and no others (B).',
+        state: { scene: 'teleport', a: 'taa', b: 'taa:new=smaa', frame: '16', layout: 'grid', size: '480x270', view: '6,255,180' }, knobs: [['b', 'new']] },
       { text: 'The oracle decides by rays to the triangles of the last frame whether a surface was visible: what remains is the limit of accumulation itself.',
         state: { scene: 'teleport', a: 'taa', b: 'oracle-taa', frame: '17', layout: 'grid', size: '480x270' }, knobs: [['a', 'rectify'], ['a', 'reject'], ['b', 'most']] },
     ],

@@ -1,5 +1,5 @@
 // The samples of one pixel, one after the other, and their weighted mean.
-import { drawing, element } from './report/dom.js';
+import { drawing, element, nameOf } from './report/dom.js';
 
 const css = ([r, g, b]) => `rgb(${r} ${g} ${b})`;
 const swatch = (color) => element('span', { class: 'swatch', style: `background: ${css(color)}` });
@@ -22,7 +22,7 @@ function drawPixel({ samples }, step, label) {
 export class Samples {
   constructor() {
     this.step = Infinity, this.results = [];
-    const button = (text, label, by) => element('button', { type: 'button', 'aria-label': label, title: label, onclick: () => this.go(by) }, text);
+    const button = (text, label, by) => element('button', { type: 'button', 'aria-label': nameOf(text, label), title: label, onclick: () => this.go(by) }, text);
     this.text = element('output');
     this.pair = element('div', { class: 'pair' });
     this.hint = element('p', {}, 'Choose a pixel: click on an image, or focus the panes and press shift and an arrow key.');
@@ -57,7 +57,7 @@ export class Samples {
 
   describe(name, result, most) {
     const facts = (rows) => element('dl', {}, rows.flatMap(([term, text]) => [element('dt', {}, term), element('dd', {}, text)]));
-    const pixel = ['Pixel of the image', colorText(result.pixel)];
+    const pixel = ['Pixel', colorText(result.pixel)];
     if (!result.samples) return element('figure', {}, element('figcaption', {}, name), element('p', { style: 'grid-column: 1 / -1' }, result.reason), facts([pixel]));
     const { samples } = result, step = Math.min(most, samples.length - 1), { x, y, triangle, weight, linear, color, mean } = samples[step];
     const total = samples.reduce((sum, sample) => sum + sample.weight, 0), isLast = step === samples.length - 1;

@@ -6,14 +6,17 @@ function build(node, attributes, children) {
     else if (value === true) node.setAttribute(name, '');
     else if (value !== false && value !== undefined && value !== null) node.setAttribute(name, value);
   }
-  node.append(...children.flat().filter((child) => child !== null && child !== undefined));
+  node.append(...children.flat(Infinity).filter((child) => child !== null && child !== undefined));
   return node;
 }
 
-/// element('button', { class: 'x', onclick: f }, 'text', child): an attribute that is false or undefined is left out.
+/// element('button', { class: 'x', onclick: f }, 'text', child): an attribute that is false or undefined is left out; arrays of children may be nested.
 export const element = (name, attributes = {}, ...children) => build(document.createElement(name), attributes, children);
 export const drawing = (name, attributes = {}, ...children) =>
   build(document.createElementNS('http://www.w3.org/2000/svg', name), attributes, children);
+
+/// The name of a button for screen readers: its text, if that has words.
+export const nameOf = (text, label) => (/\w/.test(text) ? undefined : label);
 
 /// A row of buttons of which one is pressed. `options` are [value, text, key]; returns { node, show(value, hidden) }.
 export function choice(label, options, choose) {

@@ -20,7 +20,7 @@ export class Inspector {
     this.place = element('caption', {});
     this.body = element('tbody');
     const heads = ['image', 'sRGB red', 'green', 'blue', 'linear red', 'green', 'blue', 'alpha', 'Δ sRGB', 'error'];
-    this.node = element('div', { class: 'inspector' }, element('table', {}, this.place,
+    this.node = element('div', { class: 'inspector', tabindex: 0, role: 'region', 'aria-label': 'Values of the pixel' }, element('table', {}, this.place,
       element('thead', {}, element('tr', {}, heads.map((head) => element('th', { scope: 'col' }, head)))), this.body));
   }
 

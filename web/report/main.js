@@ -6,7 +6,7 @@ import { makeTable } from './table.js';
 
 const data = document.getElementById('content'), content = JSON.parse(data.textContent);
 const scenes = content.scenes ?? [];
-const colors = Uint8Array.from(data.dataset.colors.match(/../g), (code) => parseInt(code, 16));
+const colors = Uint8Array.from(data.dataset.colors.match(/../g) ?? [], (code) => parseInt(code, 16));
 const app = document.getElementById('app');
 const stage = new Stage(colors, content.error_name ?? 'Error map', markSelection);
 let shownScene = -1;

@@ -22,8 +22,9 @@ export class Pane {
 
   resize(width, height) {
     this.size = { width, height };
-    this.canvas.style.width = `${width}px`, this.canvas.style.height = `${height}px`;
-    this.canvas.width = Math.round(width * devicePixelRatio), this.canvas.height = Math.round(height * devicePixelRatio);
+    // Whole pixels of the screen, of which each displays one of the canvas.
+    this.canvas.width = Math.floor(width * devicePixelRatio), this.canvas.height = Math.floor(height * devicePixelRatio);
+    this.canvas.style.width = `${this.canvas.width / devicePixelRatio}px`, this.canvas.style.height = `${this.canvas.height / devicePixelRatio}px`;
   }
 
   /// The position of a pointer in the pane, in CSS pixels.

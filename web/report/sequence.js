@@ -1,5 +1,5 @@
 // Playing and stepping through the frames of a sequence.
-import { element, list } from './dom.js';
+import { element, list, nameOf } from './dom.js';
 
 const rates = [1, 2, 5, 10, 12, 24, 25, 30, 50, 60];
 
@@ -7,7 +7,7 @@ export class Sequence {
   /// `show(frame)` displays a frame; `isReady()` is true if the displayed frame is complete, so that the next may follow.
   constructor(show, isReady) {
     Object.assign(this, { showImages: show, isReady });
-    const button = (text, label, action) => element('button', { type: 'button', title: label, 'aria-label': label, onclick: action }, text);
+    const button = (text, label, action) => element('button', { type: 'button', title: label, 'aria-label': nameOf(text, label), onclick: action }, text);
     this.playButton = button('Play', 'Play (key P)', () => this.toggle());
     this.bar = element('input', { type: 'range', min: 0, value: 0, 'aria-label': 'Frame', oninput: () => this.showImages(Number(this.bar.value)) });
     this.text = element('output');

@@ -1,5 +1,5 @@
 // The images of a scene: panes with one transform, their layouts and layers, and the pixel that is inspected.
-import { choice, element, list } from './dom.js';
+import { choice, element, list, nameOf } from './dom.js';
 import { Inspector } from './inspector.js';
 import { Pane } from './pane.js';
 import { loadPicture, pictureNow, sizeOf } from './picture.js';
@@ -29,7 +29,7 @@ export class Stage {
 
   makeTools() {
     const button = (text, label, action, attributes = {}) =>
-      element('button', { type: 'button', title: label, 'aria-label': label, onclick: action, ...attributes }, text);
+      element('button', { type: 'button', title: label, 'aria-label': nameOf(text, label), onclick: action, ...attributes }, text);
     this.layoutChoice = choice('Layout', [['grid', 'Side by side', 'G'], ['single', 'One', 'F'], ['slider', 'Slider', 'S']],
       (layout) => this.set({ layout }));
     this.whatChoice = choice('Display', [['picture', 'Image', 'I'], ['difference', 'Difference', 'D'],
@@ -54,7 +54,7 @@ export class Stage {
     this.referenceGroup = group('Against', this.referenceList, this.holdButton);
     return element('div', { class: 'tools', role: 'toolbar', 'aria-label': 'View' }, this.layoutChoice.node, this.whatChoice.node, this.gainGroup, this.rowGroup,
       this.referenceGroup, element('span', { class: 'group' }, button('−', 'Smaller (key -)', () => this.zoomBy(-1)), this.zoomList,
-        button('+', 'Larger (key +)', () => this.zoomBy(1)), button('Fit', 'Fit the image (key 0 with shift, or Z)', () => this.fit()), this.regionButton),
+        button('+', 'Larger (key +)', () => this.zoomBy(1)), this.regionButton),
       group('Exposure', this.exposure, this.exposureText));
   }
 
@@ -72,7 +72,7 @@ export class Stage {
     const { images } = scene;
     this.marked = images.findIndex((image) => image.is_reference);
     const reference = Math.max(0, this.marked), hasFrames = images.some((image) => image.frames.length > 1);
-    Object.assign(this, { reference, shown: new Set(scene.chosen ?? images.map((_, i) => i).slice(0, 6)), frame: 0, pixel: null, row: null, isHeld: false });
+    Object.assign(this, { reference, shown: new Set(scene.chosen ?? images.map((_, i) => i).slice(0, 6)), frame: scene.frame ?? 0, pixel: null, row: null, isHeld: false });
     this.current = images.findIndex((_, i) => i !== reference && this.shown.has(i));
     if (this.current < 0) this.current = 0;
     this.hasErrors = images.some((image) => image.errors?.some((index) => index >= 0));
@@ -187,6 +187,14 @@ export class Stage {
     this.arrange();
   }
 
+  /// The number of images in a row of a lesson, whose rows of images and enlarged regions differ in size; 0: no such rows.
+  rowLength() {
+    const isNew = ({ width, height }, i) => i > 0 && (width !== this.sizes[i - 1].width || height !== this.sizes[i - 1].height);
+    const first = this.sizes.findIndex(isNew), { length } = this.sizes;
+    const isRegular = first > 1 && length % first === 0 && this.sizes.every((size, i) => isNew(size, i) === (i > 0 && i % first === 0));
+    return isRegular && this.panes.length === length ? first : 0;
+  }
+
   /// Gives the panes their sizes: as large as the images of all panes can be without scrolling, but legible.
   arrange() {
     if (!this.panes.length) return;
@@ -205,6 +213,11 @@ export class Stage {
       const columns = Math.min(count, Math.max(1, Math.floor((room + gap) / (least + gap))));
       best = { columns, paneWidth: Math.floor((room - (columns - 1) * gap) / columns), paneHeight: Infinity };
     }
+    const row = this.rowLength(), narrowest = 200;
+    if (row && room >= row * narrowest) best = { columns: row, paneWidth: Math.floor((room - (row - 1) * gap) / row), paneHeight: Infinity };
+    // Long names have two lines in every pane, so that the images stay where they are while another name is displayed.
+    const letter = 8, hasLongNames = count > 1 && this.scene.images.some(({ name }) => letter * name.length + head > best.paneWidth);
+    this.room.classList.toggle('tall', hasLongNames);
     best.paneHeight = Math.max(120, Math.min(best.paneHeight, Math.ceil(best.paneWidth * height / width)));
     const fitting = View.fitting(this.size, { width: best.paneWidth, height: best.paneHeight });
     if (fitting >= 1) best.paneHeight = Math.max(120, fitting * height);
@@ -232,6 +245,14 @@ export class Stage {
     return needed.every((index) => index === undefined || index < 0 || pictureNow(index));
   }
 
+  /// Decodes the frames before and after the displayed one, so that a step does not wait for them.
+  loadNeighbours() {
+    for (const i of this.hasFrames ? this.shownImages() : []) {
+      const { frames } = this.scene.images[i], { length } = frames;
+      for (const step of [1, length - 1]) loadPicture(frames[(this.frame + step) % length]);
+    }
+  }
+
   refresh() {
     if (this.isScheduled || !this.scene) return;
     this.isScheduled = true;
@@ -241,6 +262,7 @@ export class Stage {
       for (const pane of this.panes) pane.draw();
       this.showTools();
       this.inspector.show(this);
+      this.loadNeighbours();
       this.onChange();
     });
   }
@@ -259,8 +281,10 @@ export class Stage {
     this.whatChoice.show(this.what, [...(this.hasErrors ? [] : ['errors']), ...(this.hasFrames ? [] : ['slice']), ...(isAlone ? ['difference'] : [])]);
     this.rowGroup.hidden = this.what !== 'slice';
     if (document.activeElement !== this.rowInput) this.rowInput.value = this.row;
-    this.gainGroup.hidden = !(this.what in this.gains);
-    this.gainList.selectedIndex = gains.indexOf(this.gains[this.what]);
+    // The gain keeps its place, so that the panes stay where they are.
+    this.gainGroup.hidden = isAlone && !this.hasErrors;
+    this.gainList.disabled = !(this.what in this.gains);
+    this.gainList.selectedIndex = gains.indexOf(this.gains[this.what] ?? 1);
     this.referenceGroup.hidden = isAlone;
     this.referenceList.selectedIndex = this.reference;
     this.regionButton.hidden = !this.scene.region;

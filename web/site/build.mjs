@@ -10,7 +10,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { lessonOf, lessons } from '../playground/lessons.js';
-import { failures } from './content.mjs';
+import { documentGroups, failures } from './content.mjs';
 import { escapeText, pageOf } from './template.mjs';
 import { rendered, sectionsOf } from './markdown.mjs';
 
@@ -30,13 +30,14 @@ function writePage(name, title, body, active) {
 
 // ---- the documents
 
-/// { source, name, title } of every document; the page of README.md is the first of the site.
-const documents = ['README.md', ...fs.readdirSync(path.join(root, 'docs')).filter((name) => name.endsWith('.md')).sort().map((name) => `docs/${name}`),
-  'CONVENTIONS.md', 'CONTRIBUTING.md', 'CHANGELOG.md', 'SECURITY.md', 'THIRD_PARTY.md'].map((source) => ({
-  source,
+const sources = [...fs.readdirSync(path.join(root, 'docs')).filter((name) => name.endsWith('.md')).sort().map((name) => `docs/${name}`), ...documentGroups.flatMap(([, group]) => group)];
+const others = [...new Set(sources)].filter((source) => !documentGroups.some(([, group]) => group.includes(source)));
+/// { source, name, title, group } of every document; the page of README.md is the first of the site.
+const documents = [...documentGroups, ['More', others]].flatMap(([group, list]) => list.map((source) => ({
+  source, group,
   name: source === 'README.md' ? 'index.html' : `${source.startsWith('docs/') ? '' : 'docs/'}${source.slice(0, -3)}.html`.replace(/[^/]*$/, (file) => file.toLowerCase()),
   title: /^#+ (.*)$/m.exec(fs.readFileSync(path.join(root, source), 'utf8'))[1].replaceAll('`', ''),
-}));
+})));
 
 /// The address, from a page, of a file that a document names; null if the site does not have it.
 function addressOf(link, source, name) {
@@ -50,9 +51,17 @@ function addressOf(link, source, name) {
   return path.relative(path.dirname(name), known) + (fragment ? `#${fragment}` : '');
 }
 
+/// Where a visitor goes who does not read: below the first paragraph of the first page.
+const doors = `<ul class="cards doors">${[['playground/index.html', 'Playground', 'Render scenes and models in this browser by two methods, and compare them pixel by pixel.'],
+  ['lessons/index.html', 'Lessons', 'Artifacts and their remedies, side by side, with measurements and parameters to change.'],
+  ['gallery/index.html', 'Gallery', 'Scenes in which antialiasing fails, by several methods, with errors and costs.']]
+  .map(([href, title, text]) => `<li><a class="card" href="${href}"><strong>${title}</strong><span>${text}</span></a></li>`).join('')}</ul>`;
+
 function writeDocuments() {
-  for (const { source, name, title } of documents)
-    writePage(name, title, rendered(fs.readFileSync(path.join(root, source), 'utf8'), (link) => addressOf(link, source, name)), name);
+  for (const { source, name, title } of documents) {
+    const body = rendered(fs.readFileSync(path.join(root, source), 'utf8'), (link) => addressOf(link, source, name));
+    writePage(name, title, name === 'index.html' ? body.replace('</p>', () => `</p>${doors}`) : body, name);
+  }
 }
 
 // ---- lessons and gallery: pages that the program writes
@@ -60,22 +69,22 @@ function writeDocuments() {
 const card = (href, title, text, image) => `<a class="card" href="${href}">${image ? `<img src="${image}" alt="" loading="lazy">` : ''}<strong>${escapeText(title)}</strong><span>${escapeText(text)}</span></a>`;
 
 /// A link to the first step of a lesson of the playground.
-const liveLink = (name) => `<a class="live" href="../playground/index.html#lesson=${name}&amp;${escapeText(new URLSearchParams(lessonOf(name).steps[0].state).toString())}">live in the playground</a>`;
+const liveLink = (name, text) => `<a class="live" href="../playground/index.html#lesson=${name}&amp;${escapeText(new URLSearchParams(lessonOf(name).steps[0].state).toString())}">${text}</a>`;
 
 function writeLessons() {
   fs.mkdirSync(at('lessons'), { recursive: true });
   const listed = run('demo', '--help').split('\nLessons:\n')[1].split('\n').map((line) => /^ {2}([a-z-]+) {2,}(.*)$/.exec(line)).filter((match) => match && match[1] !== 'all');
   const cards = listed.map(([, name, summary]) => {
     run('demo', name, '--html', `lessons/${name}.html`, '-o', `lessons/${name}.png`);
-    const drawn = `<a class="live" href="../playground/index.html#demo=${name}">drawn in the page, with its parameters</a>`;
-    const live = drawn + (lessonOf(name) ? liveLink(name) : '');
+    const drawn = `<a class="live" href="../playground/index.html#demo=${name}">Change its parameters</a>`;
+    const live = drawn + (lessonOf(name) ? liveLink(name, 'Continue step by step') : '');
     index.push({ page: `lessons/${name}.html`, title: 'Lessons', heading: name, text: summary });
     return `<li>${card(`${name}.html`, name, summary, `${name}.png`)}${live}</li>`;
   });
   const more = lessons.filter(({ name }) => !listed.some((row) => row[1] === name));
   writePage('lessons/index.html', 'Lessons', `<h1>Lessons</h1><p>Each lesson displays an artifact, its remedy and measurements. Its page has the images of the lesson at
 every zoom. The playground draws every lesson anew for other parameters; some continue there as lessons of several steps.</p><ul class="cards">${cards.join('')}</ul>
-<h2 id="playground">Lessons of the playground alone</h2><ul>${more.map(({ name, title }) => `<li>${liveLink(name).replace('live in the playground', title).replace(' class="live"', '')}</li>`).join('')}</ul>`, 'lessons/index.html');
+<h2 id="playground">Lessons of the playground alone</h2><ul>${more.map(({ name, title }) => `<li>${liveLink(name, title).replace(' class="live"', '')}</li>`).join('')}</ul>`, 'lessons/index.html');
 }
 
 function writeGallery() {
@@ -88,7 +97,7 @@ function writeGallery() {
     run('render', scene, '--aa', 'none', '--size', '320x180', '-o', `gallery/${scene}.png`, '--quiet', ...options);
     const { summary, artifact } = scenes.find(({ name }) => name === scene), about = artifact || summary;
     index.push({ page: `gallery/${scene}.html`, title: 'Gallery', heading: scene, text: about });
-    return `<li>${card(`${scene}.html`, scene, about, `${scene}.png`)}<a class="live" href="../playground/index.html#scene=${scene}&a=none&b=msaa:n=8${look ? `&looka=${look}&lookb=${look}` : ''}">live in the playground</a></li>`;
+    return `<li>${card(`${scene}.html`, scene, about, `${scene}.png`)}<a class="live" href="../playground/index.html#scene=${scene}&a=none&b=msaa:n=8${look ? `&looka=${look}&lookb=${look}` : ''}">Open in the playground</a></li>`;
   });
   writePage('gallery/index.html', 'Gallery', `<h1>Gallery</h1><p>Scenes in which antialiasing fails, each with a report: images by several methods, their errors against a
 reference, and their cost.</p><ul class="cards">${cards.join('')}</ul>`, 'gallery/index.html');
@@ -119,10 +128,20 @@ function copyPlayground() {
   fs.rmSync(cache, { recursive: true });
 }
 
+/// Doxygen's pages, with the way back to the site, and colours for dark windows.
+function copyReference() {
+  fs.cpSync(api, at('api'), { recursive: true });
+  for (const name of fs.readdirSync(at('api')).filter((file) => file.endsWith('.html'))) {
+    const page = fs.readFileSync(at('api', name), 'utf8');
+    fs.writeFileSync(at('api', name), page.replace('<div id="projectname">Zoneplate', '<div id="projectname"><a href="../index.html">Zoneplate</a>'));
+  }
+  fs.appendFileSync(at('api/doxygen.css'), fs.readFileSync(path.join(root, 'web/site/reference.css'), 'utf8'));
+}
+
 fs.rmSync(out, { recursive: true, force: true });
 fs.mkdirSync(out, { recursive: true });
 copyPlayground();
-fs.cpSync(api, at('api'), { recursive: true });
+copyReference();
 for (const name of ['site.css', 'site.js']) fs.copyFileSync(path.join(root, 'web/site', name), at(name));
 writeDocuments();
 writeLessons();

@@ -18,8 +18,12 @@ export function rendered(markdown, addressOf) {
       const address = addressOf(link);
       return address === null ? inner : `<a href="${address}">${inner}</a>`;
     })
+    // Options do not break after their hyphens.
+    .replace(/(?<!<pre>)<code>([^<]*)<\/code>/g, (_, text) => `<code>${text.replace(/(?<![^\s])-[\w-]{1,29}(?![\w-])/g, '<span>$&</span>')}</code>`)
     .replace(/<img src="([^"]*)"/g, (_, link) => `<img src="${addressOf(link) ?? link}"`)
-    .replace(/<table>/g, '<div class="table"><table>').replace(/<\/table>/g, '</table></div>');
+    .replace(/<th([^>]*)><\/th>/g, '<td$1></td>')
+    .replace(/<pre>/g, '<pre tabindex="0">')
+    .replace(/<table>/g, '<div class="table" tabindex="0"><table>').replace(/<\/table>/g, '</table></div>');
 }
 
 /// The sections of a page, from heading to heading: { id, heading, text }.

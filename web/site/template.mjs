@@ -10,13 +10,19 @@ function contentsOf(body) {
   return `<aside class="contents" aria-label="On this page"><strong>On this page</strong><ul>${heads.map(([, id, text]) => `<li><a href="#${id}">${text.replace(/<a [^>]*>|<\/a>/g, '')}</a></li>`).join('')}</ul></aside>`;
 }
 
+/// The documents under the names of their groups.
+function listOf(documents, itemOf) {
+  const groups = [...new Set(documents.map(({ group }) => group))];
+  return groups.map((name) => `<strong>${name}</strong><ul>${documents.filter(({ group }) => group === name).map(itemOf).join('')}</ul>`).join('');
+}
+
 export function pageOf({ name, title, body, active, documents }) {
   const to = (target) => path.relative(path.dirname(name), target);
   const here = (target) => (target === active ? ' aria-current="page"' : '');
   const places = [['index.html', 'Documentation'], ['lessons/index.html', 'Lessons'], ['gallery/index.html', 'Gallery'], ['playground/index.html', 'Playground'], ['api/index.html', 'C++ API']];
   const isDocument = documents.some((document) => document.name === active);
   const current = (target) => (isDocument && target === 'index.html' ? ' aria-current="page"' : here(target));
-  const list = isDocument ? `<nav class="documents" aria-label="Documents"><ul>${documents.map((document) => `<li><a href="${to(document.name)}"${here(document.name)}>${escapeText(document.title)}</a></li>`).join('')}</ul></nav>` : '';
+  const list = isDocument ? `<nav class="documents" aria-label="Documents">${listOf(documents, (document) => `<li><a href="${to(document.name)}"${here(document.name)}>${escapeText(document.title)}</a></li>`)}</nav>` : '';
   return `<!doctype html>
 <html lang="en" data-theme="auto">
 <head>

@@ -47,3 +47,10 @@ export function writeModels(folder) {
   write('square.stl', `solid square\n${faces.map((face) => `facet normal 0 0 0\nouter loop\n${face.map((i) => `vertex ${corners[i].join(' ')}`).join('\n')}\nendloop\nendfacet`).join('\n')}\nendsolid\n`);
   return [['square.glb'], ['square.gltf', 'square.bin', 'face.png'], ['square.obj', 'square.mtl', 'face.png'], ['square.ply'], ['square.stl']];
 }
+
+/// A KTX 2 file of the tests of its decoder, by the name of its array.
+export function ktx2File(name) {
+  const text = fs.readFileSync(new URL('../../src/zoneplate/codec/ktx2/files_for_test.h', import.meta.url), 'utf8');
+  const [, list] = new RegExp(`${name}\\[\\] = \\{(.*?)\\}`, 's').exec(text);
+  return Buffer.from([...list.matchAll(/0x(..)/g)].map(([, digits]) => parseInt(digits, 16)));
+}

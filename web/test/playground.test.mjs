@@ -10,7 +10,7 @@ import path from 'node:path';
 import { after, before, test } from 'node:test';
 import zlib from 'node:zlib';
 import { Browser } from './browser.mjs';
-import { writeModels } from './models.mjs';
+import { ktx2File, writeModels } from './models.mjs';
 import { readPage, writeHdr } from './pictures.mjs';
 import { serve } from './server.mjs';
 
@@ -242,9 +242,19 @@ test('a lesson of the program is chosen, changed by keys, restored by its addres
   assert.match(await wrong.evaluate('document.querySelector(".error").textContent'), /rate is '7'/);
 });
 
+/// A model whose texture is another file.
+function writeTextured(name, bytes) {
+  const model = JSON.parse(fs.readFileSync(path.join(folder, 'square.gltf'), 'utf8'));
+  fs.writeFileSync(path.join(folder, name), bytes);
+  fs.writeFileSync(path.join(folder, 'other.gltf'), JSON.stringify({ ...model, images: [{ uri: name }] }));
+  return ['other.gltf', 'square.bin', name];
+}
+
 test('models of every format have the same bytes as those of the program', async () => {
   const page = await open('#size=320x180');
-  for (const names of writeModels(folder)) {
+  const models = [...writeModels(folder), writeTextured('face.ktx2', ktx2File('etc1s_file'))];
+  assert.ok(!nativeImage('other.gltf', 'ssaa:n=2', [64, 48]).equals(nativeImage('square.gltf', 'ssaa:n=2', [64, 48])));
+  for (const names of models) {
     const files = names.map((name) => ({ path: name, text: fs.readFileSync(path.join(folder, name)).toString('base64') }));
     const text = await page.evaluate(async (list) => {
       const { Renderer } = await import('./renderer.js'), renderer = new Renderer();
@@ -297,12 +307,9 @@ test('a Radiance image lights the scene with the same bytes as in the program, u
 test('an image that the page does not decode is named with the reason', async () => {
   const page = await open('#size=320x180');
   writeModels(folder);
-  const model = JSON.parse(fs.readFileSync(path.join(folder, 'square.gltf'), 'utf8'));
-  for (const [name, bytes, reason] of [['face.ktx2', [0xab, 0x4b, 0x54, 0x58, 0x20, 0x32, 0x30, 0xbb, 13, 10, 26, 10], /face\.ktx2': KTX2 textures are read by the program, not by this page: .* 1\.5 MB/],
-    ['face.exr', [0x76, 0x2f, 0x31, 1, 2, 0, 0, 0], /face\.exr': OpenEXR images are read by the program/]]) {
-    fs.writeFileSync(path.join(folder, name), Buffer.from(bytes));
-    fs.writeFileSync(path.join(folder, 'other.gltf'), JSON.stringify({ ...model, images: [{ uri: name }] }));
-    await choose(page, ['other.gltf', 'square.bin', name]);
+  for (const [name, bytes, reason] of [['packed.ktx2', ktx2File('zstandard_file'), /packed\.ktx2': data packed by Zstandard are read by the program, not by this page/],
+    ['face.exr', Buffer.from([0x76, 0x2f, 0x31, 1, 2, 0, 0, 0]), /face\.exr': OpenEXR images are read by the program/]]) {
+    await choose(page, writeTextured(name, bytes));
     await done(page);
     assert.match(await page.evaluate('document.querySelector(".card").textContent'), reason);
   }

@@ -8,7 +8,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { after, before, test } from 'node:test';
 import { Browser } from './browser.mjs';
-import { colorAt, picturesOf, readPng, writeExr, writePng } from './pictures.mjs';
+import { colorAt, picturesOf, readPage, readPng, writeExr, writePng } from './pictures.mjs';
 
 const program = path.resolve(process.env.ZONEPLATE ?? 'build/check/zoneplate');
 const folder = fs.mkdtempSync(path.join(os.tmpdir(), 'zoneplate-report-'));
@@ -54,6 +54,7 @@ before(() => {
       writePng(at(`${kind}/f${t}.png`), 64, 48, (x, y) => (x === 8 * t + (kind === 'made' && t > 1 ? 1 : 0) ? [255, 255, 255] : [10 * t, y, 0]));
   }
   run('metrics', 'golden', 'made', '--report', 'film.html', '--metric', 'mae,psnr');
+  run('compare', 'passing-fence', '--aa', 'none,taa', '--reference', 'ssaa:n=4', '--frames', '4', '--size', '64x48', '-o', 'moving', '--html', 'moving.html', '--quiet');
 });
 
 after(async () => {
@@ -101,6 +102,18 @@ function assertDisplays(shot, box, picture, from = 0, to = picture.width) {
       differing += a.some((code, c) => code !== b[c]);
     }
   assert.equal(differing, 0, `${differing} pixels differ`);
+}
+
+/// Waits until a pane displays a picture at 1×, which may have to be decoded first.
+async function waitForPicture(page, box, picture) {
+  for (let i = 0; i < 40; ++i) {
+    try {
+      return assertDisplays(await page.shot(), box, picture);
+    } catch {
+      await page.settle();
+    }
+  }
+  return assertDisplays(await page.shot(), box, picture);
 }
 
 test('the page is at most 1.3 times as large as its pictures', () => {
@@ -173,10 +186,11 @@ test('the slider divides reference and image', async () => {
 
 test('differences and error maps have the values of the files', async () => {
   const page = await open('compare.html', { width: 1400, height: 1100 });
-  await press(page, '1', 'd');
+  await press(page, '1');
   await zoom(page, '1×');
   const box = await paneBox(page), none = await readPng(at('out/teapot/none.png')), reference = await readPng(at('out/teapot/reference.png'));
   const difference = { ...none, data: none.data.map((code, i) => (i % 4 === 3 ? 255 : Math.min(255, 4 * Math.abs(code - reference.data[i])))) };
+  await press(page, 'd');
   assertDisplays(await page.shot(), box, difference);
   await press(page, 'e');
   const shot = await page.shot(), map = await readPng(at('out/teapot/none.error.png'));
@@ -287,6 +301,28 @@ test('sequences are stepped, played and sliced', async () => {
   await page.close();
 });
 
+test('a comparison of sequences has every frame and its error map', async () => {
+  const page = await open('moving.html', { width: 1400, height: 1100 }), { content, pictures } = await readPage(at('moving.html'));
+  const [reference, ...methods] = content.scenes[0].images;
+  for (const { frames, errors } of methods) assert.deepEqual([frames.length, errors.length], [4, 4]);
+  assert.match((await textsOf(page, '.sequence output'))[0], /frame 4 of 4/);
+  await press(page, '2');
+  await zoom(page, '1×');
+  const box = await paneBox(page);
+  await waitForPicture(page, box, await readPng(at('moving/passing-fence/taa.png')));
+  for (let t = 0; t < 4; ++t) {
+    await press(page, '.');
+    await waitForPicture(page, box, pictures[methods[1].frames[t]]);
+    await press(page, '0');
+    await waitForPicture(page, box, pictures[reference.frames[t]]);
+    await press(page, '2');
+  }
+  assert.notDeepEqual(pictures[methods[1].frames[0]].data, pictures[methods[1].frames[3]].data);
+  await press(page, 'e');
+  await waitForPicture(page, box, await readPng(at('moving/passing-fence/taa.error.png')));
+  await page.close();
+});
+
 test('the keyboard suffices, and every control has a name', async () => {
   const page = await open('compare.html', { width: 1400, height: 1100 });
   const { nodes } = await page.send('Accessibility.getFullAXTree');
@@ -319,6 +355,8 @@ test('the keyboard suffices, and every control has a name', async () => {
   assert.notDeepEqual((await page.shot()).data, before.data);
   await press(page, '?');
   assert.ok(await page.evaluate('document.querySelector("dialog").open'));
+  assert.deepEqual((await textsOf(page, 'dialog dt')).slice(0, 2), ['0 – 9', 'R or space, held']);
+  assert.doesNotMatch((await textsOf(page, 'dialog'))[0], /object/);
   await press(page, 'Escape');
   assert.ok(!(await page.evaluate('document.querySelector("dialog").open')));
   await page.close();

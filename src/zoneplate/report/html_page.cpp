@@ -60,6 +60,15 @@ std::string error_colors() {
   return out;
 }
 
+/// The script of the viewer for data, with the modules that these need. Quotation marks inside the strings of JSON have
+/// a backslash, so that only members have these texts.
+std::string script_for(std::string_view content) {
+  std::string out;
+  if (content.find("\"tables\":[{") != std::string_view::npos) out += viewer_table;
+  if (content.find("\"plot\":{") != std::string_view::npos) out += viewer_plot;
+  return out.append(viewer_script);
+}
+
 }  // namespace
 
 PagePicture page_picture(const Rgba8Image& image) { return {.png = small_png(image)}; }
@@ -134,8 +143,11 @@ std::string html_page(std::string_view title, const Json& content, std::span<con
   copy_to("{{title}}");
   out += escape_markup(title);
   copy_to("{{content}}");
-  const std::string packed = fmt::format("{}{zero}{}{zero}{}{zero}{}", viewer_style, viewer_script, error_colors(),
-                                         content.text(), fmt::arg("zero", '\0'));
+  const bool has_errors =
+      std::ranges::any_of(pictures, [](const PagePicture& p) { return p.values == PagePicture::Values::Errors; });
+  const std::string data = content.text();
+  const std::string packed = fmt::format("{}{zero}{}{zero}{}{zero}{}", viewer_style, script_for(data),
+                                         has_errors ? error_colors() : "", data, fmt::arg("zero", '\0'));
   out += fmt::format("<script type=\"text/plain\" id=\"viewer\">{}</script>\n", text_of_bytes(deflated(packed)));
   for (const PagePicture& picture : pictures)
     out += fmt::format("<script type=\"text/plain\" class=\"picture\" data-values=\"{}\"{}>{}</script>\n",

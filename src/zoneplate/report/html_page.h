@@ -37,9 +37,9 @@ PagePicture page_errors(const Plane<float>& errors);
 Json page_table(const Table& table, std::string_view title, Json::Array targets = {});
 
 /// A page of images that works without a network: the viewer of web/report, with its pictures and data inside. The
-/// viewer and the data are packed, 22 kB without data. Images are displayed side by side, alternately or by a slider,
-/// at 1 to 64 times their size, with their differences from a reference, error maps, values of pixels, tables, a plot,
-/// and frames.
+/// viewer and the data are packed: 18 kB without data, 21 kB with a table, a plot and error maps. Images are displayed
+/// side by side, alternately or by a slider, at 1 to 64 times their size, with their differences from a reference,
+/// error maps, values of pixels, tables, a plot, and frames.
 ///
 /// `content` is an object. Its members (all but `scenes` may be absent):
 ///   title, text        the heading, and a paragraph below it
@@ -51,7 +51,7 @@ Json page_table(const Table& table, std::string_view title, Json::Array targets 
 ///                      into `pictures`, with one entry, or one for each frame of a sequence; -1: no picture
 ///     chosen           the indices of the images that are displayed first
 ///     region           { x, y, size, text }, which the viewer can enlarge
-///     fps              frames per second
+///     fps, frame       frames per second; the frame that is displayed first
 ///     tables, plot     as those of the page
 ///   tables             page_table()
 ///   plot               { title, x, y, points }: labels of the axes, and { name, x, y, is_on_front, target } for each
@@ -67,7 +67,7 @@ std::string html_page(std::string_view title, const Json& content, std::span<con
 std::string text_of_bytes(std::span<const std::uint8_t> bytes);
 
 /// The page with the marks {{title}} and {{content}} for what is added, and the viewer that it unpacks; made by CMake
-/// from web/report.
-extern const std::string_view viewer_page, viewer_style, viewer_script;
+/// from web/report. The modules of tables and plots come before the script, in pages that have them.
+extern const std::string_view viewer_page, viewer_style, viewer_table, viewer_plot, viewer_script;
 
 }  // namespace zoneplate

@@ -28,7 +28,7 @@ std::vector<std::uint8_t> bytes_of_text(const std::string& text) {
   return out;
 }
 
-std::string content_of_page(const std::string& page) {
+std::vector<std::string> parts_of_page(const std::string& page) {
   const std::string mark = "id=\"viewer\">";
   const std::size_t begin = page.find(mark) + mark.size();
   const std::vector<std::uint8_t> packed = bytes_of_text(page.substr(begin, page.find("</script>", begin) - begin));
@@ -36,8 +36,16 @@ std::string content_of_page(const std::string& page) {
   uLongf size = out.size();
   EXPECT_EQ(uncompress(reinterpret_cast<Bytef*>(out.data()), &size, packed.data(), packed.size()), Z_OK);
   out.resize(size);
-  return out.substr(out.rfind('\0') + 1);
+  std::vector<std::string> parts(1);
+  for (const char c : out)
+    if (c == '\0')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  return parts;
 }
+
+std::string content_of_page(const std::string& page) { return parts_of_page(page).back(); }
 
 namespace {
 
@@ -99,6 +107,23 @@ TEST(HtmlPage, PicturesKeepTheirValues) {
   EXPECT_EQ(map(1, 0).g, 255);
 }
 
+TEST(HtmlPage, HasTheModulesAndColoursThatItsDataNeed) {
+  const Json table = page_table({{"a", "b"}, {{"1", "2"}}}, ""), none = Json::Array{};
+  const Json named = Json::Object{{"title", "\"tables\":[{\"plot\":{"}, {"tables", none}};
+  const Json scene = Json::Object{{"tables", Json::Array{table}}, {"plot", Json::Object{{"x", 1}}}};
+  const PagePicture errors = page_errors(Plane<float>(2, 1, 0.5f));
+  const auto has = [](const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; };
+  const std::vector<std::string> plain = parts_of_page(html_page("", named, {})),
+                                 whole = parts_of_page(
+                                     html_page("", Json::Object{{"scenes", Json::Array{scene}}}, {&errors, 1}));
+  for (const std::string_view function : {"function makeTable(", "function makePlot("}) {
+    EXPECT_FALSE(has(plain[1], function)) << function;
+    EXPECT_TRUE(has(whole[1], function)) << function;
+  }
+  EXPECT_EQ(plain[2].size(), 0u);
+  EXPECT_EQ(whole[2].size(), 6u * 256);
+}
+
 TEST(HtmlPage, IsLittleLargerThanItsPictures) {
   Rgba8Image noise(400, 300);
   std::uint32_t state = 1;
@@ -109,7 +134,7 @@ TEST(HtmlPage, IsLittleLargerThanItsPictures) {
   const std::vector<PagePicture> pictures(4, page_picture(noise));
   const std::string page = html_page("noise", Json::Object{{"scenes", Json::Array{}}}, pictures);
   const std::string empty = html_page("noise", Json::Object{{"scenes", Json::Array{}}}, {});
-  EXPECT_LT(empty.size(), 25000u);
+  EXPECT_LT(empty.size(), 23000u);
   EXPECT_LT(static_cast<double>(page.size() - empty.size()), 1.145 * 4 * static_cast<double>(pictures[0].png.size()));
   EXPECT_EQ(page, html_page("noise", Json::Object{{"scenes", Json::Array{}}}, pictures));
 }

@@ -42,8 +42,6 @@ struct CompareArgs {
   int turns = 3, frames = 1;
 };
 
-constexpr double frame_rate = 24;
-
 constexpr const char* examples =
     "  zoneplate compare teapot --aa none,fxaa,smaa,msaa:n=4,ssaa:n=4 -o teapot-compared\n"
     "  zoneplate compare wires stars foliage --aa all --reference ssaa:n=16 -o compared\n"
@@ -91,8 +89,9 @@ Syntax compare_syntax(CompareArgs& args) {
       {"--force", "", "Replace DIR if it is the output of an earlier comparison", group, false,
        [&](auto&) { args.replaces = true; }},
       {"--html", "FILE.html",
-       "Write one page with all images, for a browser: linked zoom, differences, error maps, values of pixels", group,
-       true, [&](auto& text) { args.page = text; }},
+       "Write one page with all images and frames, for a browser: linked zoom, differences, error maps, values of "
+       "pixels",
+       group, true, [&](auto& text) { args.page = text; }},
       {"--anti-aliasing,--aa", "LIST",
        "Methods, for example none,msaa:n=4 (zoneplate list methods), or all; default all", group, true,
        [&](auto& text) { args.methods = text; }},
@@ -200,7 +199,7 @@ std::vector<std::uint8_t> png(const Rgba8Image& image) {
 /// The film `name`, its slice in time and, where there is a reference, the difference from it.
 void add_film(const std::string& name, const std::vector<Rgba8Image>& frames, const std::vector<Rgba8Image>& reference,
               std::vector<OutputFile>& files) {
-  const AnimationFormat format = film_format(frame_rate);
+  const AnimationFormat format = film_format(trial_frame_rate);
   files.push_back({name + ".film.png", encode_apng({format, frames})});
   files.push_back({name + ".slice.png", png(slice_in_time(frames, frames[0].height() / 2))});
   if (reference.empty()) return;
@@ -243,7 +242,7 @@ Sequence sequence_of(const CompareArgs& args, SceneSource& source) {
     set_look(args.render, scene);
     return scene;
   };
-  return {{at, at}, args.render.mips, {.rate = frame_rate, .duration = args.frames / frame_rate}};
+  return {{at, at}, args.render.mips, {.rate = trial_frame_rate, .duration = args.frames / trial_frame_rate}};
 }
 
 SceneTrials compare_scene(const CompareArgs& args, const std::string& name, const TrialOptions& options,

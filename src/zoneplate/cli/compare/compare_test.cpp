@@ -96,6 +96,13 @@ TEST_F(CompareVerb, ThePageHasTheImagesAndNeedsNoFolder) {
   EXPECT_EQ(count(page, "class=\"picture\" data-values=\"errors\""), 2 * 2);
   EXPECT_EQ(count(content, "\"is_reference\":true"), 2);
   EXPECT_EQ(run("compare cyclic --aa none --html none/page.html").code, 4);
+
+  ASSERT_EQ(run(std::string("compare passing-fence --aa none,taa --frames 3 --html film.html") + small).code, 0);
+  const std::string film = text_of("film.html"), frames = content_of_page(film);
+  EXPECT_EQ(count(film, "class=\"picture\" data-values=\"codes\""), 3 * 3);
+  EXPECT_EQ(count(film, "class=\"picture\" data-values=\"errors\""), 2 * 3);
+  EXPECT_TRUE(contains(frames, "\"frames\":[3,4,5],\"errors\":[6,7,8]")) << frames;
+  EXPECT_TRUE(contains(frames, "\"fps\":24.0,\"frame\":2"));
 }
 
 TEST_F(CompareVerb, JudgesAsTheMetricsVerbDoes) {

@@ -60,24 +60,35 @@ std::size_t ComparisonPage::add(PagePicture picture) {
   return pictures_.size() - 1;
 }
 
-Json ComparisonPage::image_of(const Trial& trial) {
-  const std::uint64_t picture = add(page_picture(trial.picture)), errors = add(page_errors(trial.error_map));
+/// The frames of a sequence, or the only picture of a still image.
+Json::Array ComparisonPage::frames_of(const std::vector<Rgba8Image>& film, const Rgba8Image& picture) {
+  Json::Array out;
+  for (const Rgba8Image& frame : film) out.push_back(std::uint64_t{add(page_picture(frame))});
+  if (film.empty()) out.push_back(std::uint64_t{add(page_picture(picture))});
+  return out;
+}
+
+Json ComparisonPage::image_of(const Trial& trial, const SceneTrials& scene) {
+  Json::Array frames = frames_of(trial.film, trial.picture), errors;
+  for (std::size_t i = 0; i + 1 < trial.film.size(); ++i)
+    errors.push_back(std::uint64_t{add(page_errors(flip_map(scene.reference_film[i], trial.film[i])))});
+  errors.push_back(std::uint64_t{add(page_errors(trial.error_map))});
   return Json::Object{{"name", trial.method},
                       {"facts", fmt::format("FLIP {:.2f}, {:.1f} ms", 1000 * trial.value("flip").value_or(0),
                                             trial.least_processor_ms())},
-                      {"frames", Json::Array{picture}},
-                      {"errors", Json::Array{errors}}};
+                      {"frames", std::move(frames)},
+                      {"errors", std::move(errors)}};
 }
 
 void ComparisonPage::add(const SceneTrials& scene) {
   Json::Array images{Json::Object{{"name", scene.reference},
                                   {"facts", "reference"},
-                                  {"frames", Json::Array{std::uint64_t{add(page_picture(scene.reference_picture))}}},
+                                  {"frames", frames_of(scene.reference_film, scene.reference_picture)},
                                   {"is_reference", true}}};
   Json::Array points, targets;
   for (std::size_t i = 0; i < scene.trials.size(); ++i) {
     const Trial& t = scene.trials[i];
-    images.push_back(image_of(t));
+    images.push_back(image_of(t, scene));
     const Json target = target_of(scenes_.size(), i, t.is_on_front);
     points.push_back(point_of(t.method, t.least_processor_ms(), t.value("flip").value_or(0), t.is_on_front, target));
   }
@@ -90,6 +101,8 @@ void ComparisonPage::add(const SceneTrials& scene) {
                    {"text", scene.failure.empty() ? scene.complaint : scene.failure + ": " + scene.complaint},
                    {"images", std::move(images)},
                    {"chosen", std::move(chosen)},
+                   {"fps", trial_frame_rate},
+                   {"frame", std::uint64_t{std::max<std::size_t>(scene.reference_film.size(), 1) - 1}},
                    {"tables", Json::Array{page_table(results_of(scene), scene.scene, std::move(targets))}},
                    {"plot", plot_of(scene.scene + ": error against cost", std::move(points))}};
   if (scene.common_worst.error > 0)

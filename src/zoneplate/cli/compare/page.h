@@ -19,7 +19,8 @@ class ComparisonPage {
   std::string text(const std::vector<SceneTrials>& scenes);
 
  private:
-  Json image_of(const Trial& trial);
+  Json::Array frames_of(const std::vector<Rgba8Image>& film, const Rgba8Image& picture);
+  Json image_of(const Trial& trial, const SceneTrials& scene);
   std::size_t add(PagePicture picture);
 
   Json::Array scenes_;

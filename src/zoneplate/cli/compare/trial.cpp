@@ -92,11 +92,6 @@ Trial filmed(const TrialSetup& stage, const std::string& method, const std::func
   return trial;
 }
 
-metrics::Score flip_of(const metrics::Picture& reference, const metrics::Picture& test) {
-  const metrics::Choice choice = metrics::choose_metric(metrics::metrics(), "flip");
-  return choice.metric->measure(std::span(&reference, 1), std::span(&test, 1), choice.settings).value();
-}
-
 void judge(Trial& trial, const SceneTrials& scene, const TrialOptions& options) {
   const auto frame_of = [](const std::vector<Rgba8Image>& film, const Rgba8Image& picture, std::size_t i) {
     return picture_of(film.empty() ? picture : film[i]);
@@ -108,8 +103,7 @@ void judge(Trial& trial, const SceneTrials& scene, const TrialOptions& options) 
       .are_frames = !trial.film.empty()};
   metrics::Comparison comparison = metrics::compare(pictures, options.metrics, metrics::Unfit::Leave);
   trial.results = std::move(comparison.results);
-  if (!trial.film.empty())
-    trial.error_map = flip_of(picture_of(scene.reference_picture), picture_of(trial.picture)).map;
+  if (!trial.film.empty()) trial.error_map = flip_map(scene.reference_picture, trial.picture);
   for (metrics::Result& result : trial.results)
     if (result.metric->name == "flip" && trial.error_map.empty()) trial.error_map = std::move(result.score.map);
   trial.worst = worst_places(trial.error_map, worst_count);
@@ -138,6 +132,13 @@ void set_reference(const TrialSetup& stage, const TrialOptions& options, const T
 }
 
 }  // namespace
+
+Plane<float> flip_map(const Rgba8Image& reference, const Rgba8Image& test) {
+  const metrics::Choice choice = metrics::choose_metric(metrics::metrics(), "flip");
+  const metrics::Picture pictures[] = {picture_of(reference), picture_of(test)};
+  return std::move(
+      choice.metric->measure(std::span(&pictures[0], 1), std::span(&pictures[1], 1), choice.settings).value().map);
+}
 
 double Trial::least_ms() const { return *std::ranges::min_element(frame_ms); }
 

@@ -76,6 +76,9 @@ struct TrialSetup {
   std::function<SceneView(int)> view = {};  ///< of a sequence: its frames
 };
 
+/// Frames of a sequence in a second.
+constexpr double trial_frame_rate = 24;
+
 /// Begins a method, and returns the function to which its progress from 0 to 1 is reported, by any thread.
 using TrialProgress = std::function<std::function<void(double)>(const std::string& method)>;
 
@@ -86,6 +89,9 @@ using TrialProgress = std::function<std::function<void(double)>(const std::strin
 /// is that of the last frame.
 /// Errors    those of methods and files; ErrorKind::Input if the reference has another size.
 SceneTrials run_trials(const TrialSetup& stage, const TrialOptions& options, const TrialProgress& progress);
+
+/// The FLIP error map of an image.
+Plane<float> flip_map(const Rgba8Image& reference, const Rgba8Image& test);
 
 /// The `count` squares with the greatest mean errors that do not overlap, in descending order.
 std::vector<Place> worst_places(const Plane<float>& error, int count);
