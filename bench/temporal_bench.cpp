@@ -36,8 +36,8 @@ double copy_ns() {
   return least * 1e6 / (64 * pixels);
 }
 
-void measure(benchmark::State& state, const std::string& method) {
-  Scene scene = *make_builtin_scene("city");
+void measure(benchmark::State& state, const std::string& scene_name, const std::string& method) {
+  Scene scene = *make_builtin_scene(scene_name);
   const Camera camera = choose_camera(scene, {.index = 0}, static_cast<float>(width) / height);
   Lighting lighting = make_lighting(scene, {});
   scene.lights = std::move(lighting.lights);
@@ -49,8 +49,10 @@ void measure(benchmark::State& state, const std::string& method) {
     int frame = 0;
     for (auto _ : state) {
       Camera moved = camera;
+      const float time = static_cast<float>(frame++);
       moved.world_from_camera =
-          camera.world_from_camera * translation(float3{0.003f * static_cast<float>(frame++), 0, 0});
+          camera.world_from_camera * (scene_name == "city" ? translation(float3{0.003f * time, 0, 0})
+                                                           : rotation(float3{0, 1, 0}, 0.017f / 24 * time));
       const RenderCounts counts = renderer.render(moved, settings).counts;
       if (frame > 1) least = std::min(least, counts.resolve_ms + counts.filter_ms);
     }
@@ -67,11 +69,14 @@ void measure(benchmark::State& state, const std::string& method) {
 int main(int argc, char** argv) {
   for (const std::string method :
        {"taa", "taa:preset=karis", "taa:preset=inside", "taa:preset=salvi", "taa:preset=three", "taa:preset=playcanvas",
-        "taa:preset=bevy", "oracle-taa", "smaa:mode=t2x", "bilinear:scale=2", "lanczos:scale=2", "sgsr1:scale=2",
-        "nis:scale=2", "fsr1:scale=2", "fsr2:scale=2", "fsr3:scale=2", "sgsr2:scale=2", "taau:scale=2"})
-    benchmark::RegisterBenchmark(method.c_str(), [method](benchmark::State& s) { zoneplate::measure(s, method); })
-        ->Iterations(6)
-        ->Unit(benchmark::kMillisecond);
+        "taa:preset=bevy", "history-guided", "oracle-taa", "smaa:mode=t2x", "bilinear:scale=2", "lanczos:scale=2",
+        "sgsr1:scale=2", "nis:scale=2", "fsr1:scale=2", "fsr2:scale=2", "fsr3:scale=2", "sgsr2:scale=2",
+        "taau:scale=2"})
+    for (const std::string scene : {"city", "panning-wires"})
+      benchmark::RegisterBenchmark((scene + "/" + method).c_str(),
+                                   [scene, method](benchmark::State& s) { zoneplate::measure(s, scene, method); })
+          ->Iterations(6)
+          ->Unit(benchmark::kMillisecond);
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

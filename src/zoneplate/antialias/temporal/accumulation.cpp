@@ -66,15 +66,59 @@ const float* begin_of(const Plane<float>& plane, int y) {
   return plane.empty() ? nullptr : plane.row(y + border).data() + border;
 }
 
+/// Row y of the colours in a plane that has four rows, one for each channel, for a row of pixels.
+template <class Rows>
+auto colors_of(Rows& rows, int y, int margin) {
+  return ColorPlanes{rows.row(4 * (y + margin)).data() + margin, std::ptrdiff_t{rows.width()}};
+}
+
+/// Encoded rows of a frame in bands, each with the rows above and below, so that a band stays in a processor's cache
+/// until it has been resolved.
+///
+/// The resolved image replaces the frame's colour: the rows beyond each band are encoded before any band is resolved.
+class ColorBands {
+ public:
+  static constexpr std::size_t rows = 16;
+
+  ColorBands(const LinearImage& color, bool is_compressed) : color_(color), is_compressed_(is_compressed) {
+    const int bands = (color.height() + static_cast<int>(rows) - 1) / static_cast<int>(rows);
+    beyond_ = Plane<float>(color.width() + 2 * border, 4 * 2 * bands);
+    for_each_row(bands, [&](int band) {
+      const int begin = band * static_cast<int>(rows), end = begin + static_cast<int>(rows);
+      encode(std::max(begin - 1, 0), beyond_, 2 * band);
+      encode(std::min(end, color.height() - 1), beyond_, 2 * band + 1);
+    });
+  }
+
+  /// Makes the rows begin - 1 to `end` of colours.
+  void encode_band(std::size_t begin, std::size_t end, Plane<float>& out) const {
+    const int count = static_cast<int>(end - begin), number = static_cast<int>(begin / rows);
+    resize(out, beyond_.width(), 4 * (static_cast<int>(rows) + 2));
+    for (int c = 0; c < 4; ++c) {
+      std::ranges::copy(beyond_.row(4 * (2 * number) + c), out.row(c).begin());
+      std::ranges::copy(beyond_.row(4 * (2 * number + 1) + c), out.row(4 * (count + 1) + c).begin());
+    }
+    for (int k = 0; k < count; ++k) encode(static_cast<int>(begin) + k, out, k + 1);
+  }
+
+ private:
+  void encode(int y, Plane<float>& out, int row) const {
+    const ColorPlanes<float> to = colors_of(out, row, 0);
+    TemporalKernels::of().encode(&color_(0, y).r, is_compressed_, {to.red + border, to.width},
+                                 static_cast<std::size_t>(color_.width()));
+    for (int c = 0; c < 4; ++c) extend_row(out.row(4 * row + c));
+  }
+  const LinearImage& color_;
+  bool is_compressed_;
+  Plane<float> beyond_;
+};
+
 /// 0, 1, 2, ...
 std::vector<float> columns(int width) {
   std::vector<float> out(static_cast<std::size_t>(width));
   for (std::size_t x = 0; x < out.size(); ++x) out[x] = static_cast<float>(x);
   return out;
 }
-
-/// The number of a pixel's object; -1 without a surface.
-float number_of(std::uint32_t id) { return id == Frame::no_id ? -1.0f : static_cast<float>(id); }
 
 /// Depths that surface points had in the last frame.
 struct LastDepths {
@@ -96,6 +140,19 @@ struct LastDepths {
 };
 
 }  // namespace
+
+Plane<float> TemporalAccumulation::Buffers::take() {
+  const std::lock_guard lock(mutex_);
+  if (free_.empty()) return {};
+  Plane<float> out = std::move(free_.back());
+  free_.pop_back();
+  return out;
+}
+
+void TemporalAccumulation::Buffers::put(Plane<float> buffer) {
+  const std::lock_guard lock(mutex_);
+  free_.push_back(std::move(buffer));
+}
 
 TemporalAccumulation::TemporalAccumulation(const TemporalOptions& options)
     : options_(options), jitter_(jitter_pattern(options.sequence, options.length)) {}
@@ -124,51 +181,56 @@ Request TemporalAccumulation::request(const FrameContext& context) {
   return request;
 }
 
-void TemporalAccumulation::take_current(const Frame& frame) {
+/// Makes the planes of surfaces, their depths and motions.
+void TemporalAccumulation::take_surfaces(const Frame& frame) {
   const int width = frame.color.width(), height = frame.color.height();
+  const auto pixels = static_cast<std::size_t>(width);
   Current& out = current_;
-  resize(out.color, width + 2 * border, height + 2 * border);
-  for_each_row(height, [&](int y) {
-    const std::span<Linear> row = out.color.row(y + border);
-    TemporalKernels::of().encode(&frame.color(0, y).r, options_.parts.is_compressed, &row[border].r,
-                                 static_cast<std::size_t>(width));
-    extend_row(row);
-  });
-  extend_rows(out.color);
-
   const CameraMotion camera(context_.camera, context_.last_camera, width, height);
   const LastDepths last(context_.last_camera, static_cast<float>(width) / static_cast<float>(height));
-  const SamplePosition jitter = sample();
-  const bool tests_surfaces = options_.parts.rejection != TemporalParts::Rejection::None;
+  const double jitter_x = sample().x / 256.0, jitter_y = sample().y / 256.0;
   const bool tests_nearness = options_.parts.rejection == TemporalParts::Rejection::Edge;
   std::vector<Bordered*> planes{&out.nearness, &out.surface, &out.motion[0], &out.motion[1]};
-  if (tests_surfaces) planes.push_back(&out.last_depth);
+  if (tests_surfaces()) planes.push_back(&out.last_depth);
   if (tests_nearness) planes.push_back(&out.last_nearness);
   for (Bordered* plane : planes) resize(*plane, width + 2 * border, height + 2 * border);
   // All planes of a row together: what a pixel's planes are made of is read once.
   for_each_row(height, [&](int y) {
-    float* const nearness = pixels_of(out.nearness, y);
-    float* const surface = pixels_of(out.surface, y);
+    std::ranges::copy(frame.reversed_depth.row(y), pixels_of(out.nearness, y));
+    const std::uint32_t* const id = &frame.object_id(0, y);
+    TemporalKernels::of().number(id, pixels_of(out.surface, y), pixels);
     float *const motion_x = pixels_of(out.motion[0], y), *const motion_y = pixels_of(out.motion[1], y);
-    float* const last_depth = tests_surfaces ? pixels_of(out.last_depth, y) : nullptr;
-    float* const last_nearness = tests_nearness ? pixels_of(out.last_nearness, y) : nullptr;
-    for (int x = 0; x < width; ++x) {
-      const std::uint32_t id = frame.object_id(x, y);
-      const bool is_surface = id != Frame::no_id;
-      nearness[x] = frame.reversed_depth(x, y);
-      surface[x] = number_of(id);
-      const float2 motion = is_surface && !options_.follows_camera
-                                ? frame.motion(x, y)
-                                : camera.at(x + jitter.x / 256.0, y + jitter.y / 256.0, frame.depth(x, y));
-      motion_x[x] = motion.x, motion_y[x] = motion.y;
-      if (!tests_surfaces) continue;
-      last_depth[x] = is_surface ? last.distance(frame.last_position(x, y)) : std::numeric_limits<float>::infinity();
-      if (tests_nearness) last_nearness[x] = last.nearness(last_depth[x]);
+    float* const last_depth = tests_surfaces() ? pixels_of(out.last_depth, y) : nullptr;
+    const float* const depth = frame.depth.row(y).data();
+    const float2* const motion = options_.follows_camera ? nullptr : frame.motion.row(y).data();
+    const float3* const last_position = tests_surfaces() ? frame.last_position.row(y).data() : nullptr;
+    const LastDepths lens = last;  // in registers, since no store can change it
+    const double place_y = y + jitter_y;
+    for (int x = 0; x < width;) {
+      const int begin = x;
+      const bool is_surface = id[x] != Frame::no_id;
+      while (x < width && (id[x] != Frame::no_id) == is_surface) ++x;
+      if (options_.follows_camera)
+        for (int i = begin; i < x; ++i) {
+          const float2 seen = camera.at(i + jitter_x, place_y, depth[i]);
+          motion_x[i] = seen.x, motion_y[i] = seen.y;
+        }
+      else if (is_surface)
+        for (int i = begin; i < x; ++i) motion_x[i] = motion[i].x, motion_y[i] = motion[i].y;
+      else
+        camera.of_background(begin + jitter_x, place_y, x - begin, motion_x + begin, motion_y + begin);
+      if (!last_depth) continue;
+      if (is_surface)
+        for (int i = begin; i < x; ++i) last_depth[i] = lens.distance(last_position[i]);
+      else
+        std::fill(last_depth + begin, last_depth + x, std::numeric_limits<float>::infinity());
     }
+    if (tests_nearness)
+      std::transform(last_depth, last_depth + width, pixels_of(out.last_nearness, y),
+                     [&](float distance) { return last.nearness(distance); });
     for (Bordered* plane : planes) extend_row(plane->row(y + border));
   });
   for (Bordered* plane : planes) extend_rows(*plane);
-  if (options_.parts.trusts_rest && !context_.is_first) find_restless(object_motions(frame));
 }
 
 /// Where history may contain colours that have moved elsewhere: TemporalKernels::find_unrest.
@@ -194,9 +256,9 @@ void TemporalAccumulation::find_restless(const ObjectMotions& objects) {
 /// pixels; 0 elsewhere.
 ///
 /// Pixels that had both lights in their history, and those at the border of a shadow, are found by their neighbours.
-void TemporalAccumulation::find_relit() {
+void TemporalAccumulation::find_relit(const Frame& frame) {
   constexpr int radius = 4;
-  const int width = history_.width(), height = history_.height();
+  const int width = frames_.width(), height = frames_.height();
   resize(current_.relit, width, height);
   if (options_.parts.rectification == TemporalParts::Rectification::None) {
     std::ranges::fill(current_.relit.values(), 0.0f);  // all history is kept
@@ -207,9 +269,10 @@ void TemporalAccumulation::find_relit() {
   Bordered& changes = current_.changes;
   resize(changes, width + 2 * border, height + 2 * border), resize(current_.wide_relit, width, height);
   for_each_row(height, [&](int y) {
-    const ChangeRow row{.color = &current_.color(border, y + border).r,
+    const ChangeRow row{.linear = &frame.color(0, y).r,
+                        .is_compressed = options_.parts.is_compressed,
                         .restless = &current_.restless(0, y),
-                        .history = &history_(0, y).r,
+                        .history = colors_of(std::as_const(history_), y, 0),
                         .frames = &frames_(0, y),
                         .squares = &squares_(0, y)};
     kernels.find_changes(row, &changes(border, y + border), pixels);
@@ -219,8 +282,7 @@ void TemporalAccumulation::find_relit() {
   std::vector<char> is_relit(static_cast<std::size_t>(height));  // by row
   for_each_row(height, [&](int y) {
     const std::span<float> row = current_.relit.row(y), wide = current_.wide_relit.row(y);
-    kernels.find_relit(&changes(border, y + border), changes.width(), row.data(), pixels);
-    if (std::ranges::find(row, 1.0f) == row.end()) return;
+    if (!kernels.find_relit(&changes(border, y + border), changes.width(), row.data(), pixels)) return;
     is_relit[static_cast<std::size_t>(y)] = 1;
     int last = -radius - 1;
     for (int x = -radius; x < width; ++x) {
@@ -239,41 +301,49 @@ void TemporalAccumulation::find_relit() {
 }
 
 /// The mean motions of the objects of this frame and of the last one.
-TemporalAccumulation::ObjectMotions TemporalAccumulation::object_motions(const Frame& frame) const {
-  const auto past = past_surface_.values();
-  float most = *std::max_element(past.begin(), past.end());
-  for (const std::uint32_t id : frame.object_id.values()) most = std::max(most, number_of(id));
+TemporalAccumulation::ObjectMotions TemporalAccumulation::object_motions(const Frame& frame) {
+  // Four sums, of which each has every fourth pixel of a run, do not wait for each other.
   struct Sum {
-    double x = 0, y = 0;
+    double x[4] = {}, y[4] = {};
     int pixels = 0;
   };
-  std::vector<Sum> sums(static_cast<std::size_t>(most) + 2);
+  std::vector<Sum> sums(past_objects_);
   for (int y = 0; y < frame.object_id.height(); ++y) {
     const std::span<const std::uint32_t> ids = frame.object_id.row(y);
     const float *const motion_x = begin_of(current_.motion[0], y), *const motion_y = begin_of(current_.motion[1], y);
     for (std::size_t i = 0; i < ids.size();) {
-      // The sum stays in registers along the pixels of one object.
+      const std::size_t begin = i;
       const std::uint32_t id = ids[i];
-      Sum& object = sums[static_cast<std::size_t>(number_of(id) + 1)];
-      Sum sum = object;
-      for (; i < ids.size() && ids[i] == id; ++i)
-        sum.x += static_cast<double>(motion_x[i]), sum.y += static_cast<double>(motion_y[i]), ++sum.pixels;
-      object = sum;
+      while (i < ids.size() && ids[i] == id) ++i;
+      const std::size_t number = id == Frame::no_id ? 0 : std::size_t{id} + 1;
+      if (number >= sums.size()) sums.resize(number + 1);
+      Sum sum = sums[number];
+      std::size_t x = begin;
+      for (; x + 4 <= i; x += 4)
+        for (std::size_t k = 0; k < 4; ++k)
+          sum.x[k] += static_cast<double>(motion_x[x + k]), sum.y[k] += static_cast<double>(motion_y[x + k]);
+      for (; x < i; ++x) sum.x[0] += static_cast<double>(motion_x[x]), sum.y[0] += static_cast<double>(motion_y[x]);
+      sum.pixels += static_cast<int>(i - begin);
+      sums[number] = sum;
     }
   }
+  past_objects_ = sums.size();
   constexpr float infinity = std::numeric_limits<float>::infinity();
   ObjectMotions out;
-  for (const Sum& sum : sums) {
-    out.x.push_back(sum.pixels > 0 ? static_cast<float>(sum.x / sum.pixels) : infinity);
-    out.y.push_back(sum.pixels > 0 ? static_cast<float>(sum.y / sum.pixels) : infinity);
-  }
+  const auto mean = [](const Sum& sum, const double(&parts)[4]) {
+    return sum.pixels > 0 ? static_cast<float>(((parts[0] + parts[1]) + (parts[2] + parts[3])) / sum.pixels) : infinity;
+  };
+  for (const Sum& sum : sums) out.x.push_back(mean(sum, sum.x)), out.y.push_back(mean(sum, sum.y));
   return out;
 }
 
 /// A history of the first frame alone, which the resolve replaces.
 void TemporalAccumulation::begin_history(const Frame& frame) {
   const int width = frame.color.width(), height = frame.color.height();
-  history_ = LinearImage(width, height, Linear{0, 0, 0, 0});
+  history_ = ColorRows(width, 4 * height);
+  past_objects_ = 1;
+  for (const std::uint32_t id : frame.object_id.values())
+    if (id != Frame::no_id) past_objects_ = std::max(past_objects_, std::size_t{id} + 2);
   const bool is_confidence = options_.parts.blend == TemporalParts::Blend::Confidence;
   if (options_.parts.trusts_rest) squares_ = Plane<float>(width, height);
   frames_ = Plane<float>(width, height, is_confidence ? 1 / options_.parts.least_weight : 1.0f);
@@ -283,13 +353,15 @@ void TemporalAccumulation::keep_surfaces(const Frame& frame) {
   past_depth_ = frame.depth;
   if (options_.parts.rejection == TemporalParts::Rejection::Edge) past_nearness_ = frame.reversed_depth;
   resize(past_surface_, frame.object_id.width(), frame.object_id.height());
-  std::ranges::transform(frame.object_id.values(), past_surface_.values().begin(), number_of);
+  for (int y = 0; y < past_surface_.height(); ++y)
+    std::copy_n(begin_of(current_.surface, y), past_surface_.width(), past_surface_.row(y).begin());
 }
 
 /// The blend takes the place of the frame's colour.
 LinearImage TemporalAccumulation::blended(Frame& frame) {
   const int width = frame.color.width(), height = frame.color.height();
-  take_current(frame);
+  take_surfaces(frame);
+  if (options_.parts.trusts_rest && !context_.is_first) find_restless(object_motions(frame));
   const Current& current = current_;
   TemporalParts parts = options_.parts;
   if (context_.is_first) {
@@ -302,15 +374,15 @@ LinearImage TemporalAccumulation::blended(Frame& frame) {
   }
   const std::vector<float> column = columns(width);
   const bool keeps_squares = options_.parts.trusts_rest && !context_.is_first;
-  if (keeps_squares) find_relit();
-  resize(next_history_, width, height), resize(next_frames_, width, height);
+  if (keeps_squares) find_relit(frame);
+  resize(next_history_, width, 4 * height);
+  resize(next_frames_, width, height);
   if (keeps_squares) resize(next_squares_, width, height);
   const auto stride = static_cast<std::ptrdiff_t>(width + 2 * border);
-  for_each_row(height, [&](int y) {
+  const auto resolve_row = [&](int y, const ColorPlanes<const float>& color) {
     const float* const nearness = begin_of(current.nearness, y);
     const auto or_nearness = [&](const Plane<float>& plane) { return plane.empty() ? nearness : begin_of(plane, y); };
-    const TemporalRow row{.color = &current.color(border, y + border).r,
-                          .color_stride = 4 * stride,
+    const TemporalRow row{.color = color,
                           .nearness = nearness,
                           .motion = {begin_of(current.motion[0], y), begin_of(current.motion[1], y)},
                           .surface = begin_of(current.surface, y),
@@ -321,7 +393,7 @@ LinearImage TemporalAccumulation::blended(Frame& frame) {
                           .stride = stride,
                           .column = column.data(),
                           .y = y,
-                          .history = &history_(0, 0).r,
+                          .history = colors_of(std::as_const(history_), 0, 0),
                           .frames = &frames_(0, 0),
                           .squares = squares_.values().data(),
                           .past_surface = past_surface_.values().data(),
@@ -329,22 +401,37 @@ LinearImage TemporalAccumulation::blended(Frame& frame) {
                           .past_nearness = past_nearness_.values().data(),
                           .width = width,
                           .height = height,
-                          .resolved = &next_history_(0, y).r,
+                          .resolved = colors_of(next_history_, y, 0),
                           .frames_out = &next_frames_(0, y),
                           .squares_out = keeps_squares ? &next_squares_(0, y) : nullptr};
     const TemporalKernels& kernels = TemporalKernels::of();
     kernels.resolve(row, parts, static_cast<std::size_t>(width));
-    kernels.decode(row.resolved, row.color, &frame.color(0, y).r, parts.is_compressed, &frame.color(0, y).r,
-                   static_cast<std::size_t>(width));
+    kernels.decode(colors_of(std::as_const(next_history_), y, 0), row.color, &frame.color(0, y).r, parts.is_compressed,
+                   &frame.color(0, y).r, static_cast<std::size_t>(width));
+  };
+  const ColorBands bands(frame.color, parts.is_compressed);
+  parallel_ranges(static_cast<std::size_t>(height), ColorBands::rows, [&](std::size_t begin, std::size_t end) {
+    Plane<float> band = band_buffers_.take();
+    bands.encode_band(begin, end, band);
+    for (std::size_t y = begin; y < end; ++y) {
+      const ColorPlanes<float> colors = colors_of(band, static_cast<int>(y - begin) + 1, 0);
+      resolve_row(static_cast<int>(y), {colors.red + border, colors.width});
+    }
+    band_buffers_.put(std::move(band));
   });
   std::swap(history_, next_history_);
   if (!context_.is_first) std::swap(frames_, next_frames_);
   if (keeps_squares) std::swap(squares_, next_squares_);
   if (context_.is_first && options_.parts.trusts_rest)
-    std::ranges::transform(history_.values(), squares_.values().begin(), [](const Linear& c) {
-      const float luma = (c.r + c.b) * 0.25f + c.g * 0.5f;
-      return luma * luma;
-    });
+    for (int y = 0; y < height; ++y) {
+      const auto color = colors_of(std::as_const(history_), y, 0);
+      const float *const red = color.channel(0), *const green = color.channel(1), *const blue = color.channel(2);
+      const std::span<float> squares = squares_.row(y);
+      for (std::size_t x = 0; x < squares.size(); ++x) {
+        const float luma = (red[x] + blue[x]) * 0.25f + green[x] * 0.5f;
+        squares[x] = luma * luma;
+      }
+    }
   return std::move(frame.color);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <mutex>
 #include <vector>
 
 #include "zoneplate/antialias/temporal/options.h"
@@ -23,22 +24,33 @@ class TemporalAccumulation : public Resolver {
  private:
   /// A plane that continues beyond the image by TemporalRow::border pixels, with its outermost values.
   using Bordered = Plane<float>;
+  /// The channels of every row, one after the other: ColorPlanes.
+  using ColorRows = Plane<float>;
   /// The planes of this frame; those that no part reads are empty, or of earlier frames.
   struct Current {
-    LinearImage color;
     Bordered nearness, motion[2], surface, last_depth, last_nearness, changes;
     Plane<float> restless, relit, wide_relit;
   };
+  /// Buffers that threads use in turns, so that they stay in the caches.
+  class Buffers {
+   public:
+    Plane<float> take();
+    void put(Plane<float> buffer);
+
+   private:
+    std::mutex mutex_;
+    std::vector<Plane<float>> free_;
+  };
   SamplePosition sample() const;
   bool tests_surfaces() const;
-  void take_current(const Frame& frame);
+  void take_surfaces(const Frame& frame);
   /// By the object's number plus one; infinite for an object that was visible in the last frame only.
   struct ObjectMotions {
     std::vector<float> x, y;
   };
-  ObjectMotions object_motions(const Frame& frame) const;
+  ObjectMotions object_motions(const Frame& frame);
   void find_restless(const ObjectMotions& objects);
-  void find_relit();
+  void find_relit(const Frame& frame);
   void begin_history(const Frame& frame);
   void keep_surfaces(const Frame& frame);
   LinearImage blended(Frame& frame);
@@ -49,9 +61,11 @@ class TemporalAccumulation : public Resolver {
   FrameContext context_;
 
   Current current_;
-  LinearImage history_, next_history_;  ///< encoded
+  ColorRows history_, next_history_;  ///< encoded
   Plane<float> frames_, next_frames_, squares_, next_squares_;
   Plane<float> past_surface_, past_depth_, past_nearness_;
+  Buffers band_buffers_;
+  std::size_t past_objects_ = 0;  ///< one more than the greatest number of an object so far, and one for none
 };
 
 }  // namespace zoneplate::antialias

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/antialias/temporal/camera_motion.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace zoneplate::antialias {
@@ -52,6 +53,31 @@ float2 CameraMotion::at(double x, double y, double distance) const {
   const double last_x = (q[0] / divisor * last_.scale_x + 1) * width_ / 2;
   const double last_y = (1 - q[1] / divisor * last_.scale_y) * height_ / 2;
   return {static_cast<float>(x - last_x), static_cast<float>(y - last_y)};
+}
+
+void CameraMotion::of_background(double x, double y, int n, float* motion_x, float* motion_y) const {
+  if (is_at_rest_ || now_.is_orthographic || last_.is_orthographic) {
+    std::fill_n(motion_x, n, 0.0f), std::fill_n(motion_y, n, 0.0f);
+    return;
+  }
+  // Along the row the direction in the last camera's space is slope x + start: the points' shares of its three
+  // coordinates, with the last lens and the size of the image in the first two.
+  const double scale[3] = {last_.scale_x * width_ / 2, -last_.scale_y * height_ / 2, -1};
+  const double v = (1 - 2 * y / height_) / now_.scale_y;
+  double slope[3], start[3];
+  for (std::size_t k = 0; k < 3; ++k) {
+    slope[k] = scale[k] * turn_[k][0] * 2 / (width_ * now_.scale_x);
+    start[k] = scale[k] * (turn_[k][1] * v - turn_[k][2] - turn_[k][0] / now_.scale_x);
+  }
+  for (int i = 0; i < n; ++i) {
+    const double place = x + i, divisor = slope[2] * place + start[2];
+    const double part = 1 / divisor;
+    const double last_x = (slope[0] * place + start[0]) * part + width_ / 2;
+    const double last_y = (slope[1] * place + start[1]) * part + height_ / 2;
+    const bool is_visible = divisor > 0;
+    motion_x[i] = is_visible ? static_cast<float>(place - last_x) : 0;
+    motion_y[i] = is_visible ? static_cast<float>(y - last_y) : 0;
+  }
 }
 
 }  // namespace zoneplate::antialias

@@ -19,6 +19,10 @@ class CameraMotion {
   ///
   /// Units     pixels, x right, y down.
   float2 at(double x, double y, double distance) const;
+  /// The same for n points of the background, at infinity, at x, x + 1, ...
+  ///
+  /// Exact     within 1e-12 of `at`, before the rounding.
+  void of_background(double x, double y, int n, float* motion_x, float* motion_y) const;
 
  private:
   struct Lens {

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+
+#include "zoneplate/antialias/temporal/color_planes.h"
 #include "zoneplate/math/blend_lanes.h"
 
 /// Colours of four channels over a lane type of math/lanes.h.
 namespace zoneplate::stages {
+
+using antialias::ColorPlanes;
 
 template <class F>
 struct Rgba {
@@ -16,6 +21,13 @@ struct Rgba {
     return out;
   }
   [[gnu::always_inline]] void store(float* p) const { F::store_fours(c, p); }
+  [[gnu::always_inline]] static Rgba load(const ColorPlanes<const float>& p, std::ptrdiff_t i) {
+    return {
+        {F::load(p.channel(0) + i), F::load(p.channel(1) + i), F::load(p.channel(2) + i), F::load(p.channel(3) + i)}};
+  }
+  [[gnu::always_inline]] void store(const ColorPlanes<float>& p, std::ptrdiff_t i) const {
+    for (int k = 0; k < 4; ++k) c[k].store(p.channel(k) + i);
+  }
   [[gnu::always_inline]] static Rgba all(F value) { return {{value, value, value, value}}; }
 
   [[gnu::always_inline]] friend Rgba operator+(const Rgba& a, const Rgba& b) {
@@ -62,6 +74,19 @@ template <class F>
 [[gnu::always_inline]] inline Rgba<F> rgb_of(const Rgba<F>& c) {
   const F rest = c.c[0] - c.c[2];
   return {{rest + c.c[1], c.c[0] + c.c[2], rest - c.c[1], c.c[3]}};
+}
+
+/// 4 Y, 2 Co, 4 Cg and alpha, which powers of two separate from Y, Co and Cg: the same digits by fewer operations; and
+/// back.
+template <class F>
+[[gnu::always_inline]] inline Rgba<F> scaled_ycocg_of(const Rgba<F>& c) {
+  const F sum = c.c[0] + c.c[2], green = c.c[1] + c.c[1];
+  return {{sum + green, c.c[0] - c.c[2], green - sum, c.c[3]}};
+}
+template <class F>
+[[gnu::always_inline]] inline Rgba<F> rgb_of_scaled(const Rgba<F>& c) {
+  const F quarter(0.25f);
+  return rgb_of<F>({{c.c[0] * quarter, c.c[1] * F(0.5f), c.c[2] * quarter, c.c[3]}});
 }
 
 /// Relative luminance of Rec.709.

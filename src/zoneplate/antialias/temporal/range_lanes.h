@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 #include "zoneplate/antialias/temporal/color_lanes.h"
 #include "zoneplate/math/for_row.h"
@@ -30,27 +31,49 @@ template <class F>
   return {{c.c[0] * factor, c.c[1] * factor, c.c[2] * factor, c.c[3]}};
 }
 
+/// The colour of four floats by which temporal antialiasing averages.
+template <class F>
+[[gnu::always_inline]] inline Rgba<F> encoded_color(const float* linear, bool is_compressed) {
+  const Rgba<F> c = finite_color<F>(linear);
+  if (!is_compressed) return c;
+  const F alpha = divisor_of(c);
+  return scaled(c, alpha / (alpha + max3(c)));
+}
+
 template <class Full, class One>
-[[gnu::flatten]] void encode_temporal(const float* linear, bool is_compressed, float* encoded, std::size_t n) {
-  for_row<Full, One>(n, [=]<class F>(std::size_t i) {
-    Rgba<F> c = finite_color<F>(linear + 4 * i);
-    const F alpha = divisor_of(c);
-    if (is_compressed) c = scaled(c, alpha / (alpha + max3(c)));
-    c.store(encoded + 4 * i);
+[[gnu::flatten]] void limit_colors(const float* linear, float* limited, std::size_t n) {
+  for_row<Full, One>(n, [=]<class F>(std::size_t i) { finite_color<F>(linear + 4 * i).store(limited + 4 * i); });
+}
+
+template <class Full, class One>
+[[gnu::flatten]] void encode_temporal(const float* linear, bool is_compressed, const ColorPlanes<float>& encoded,
+                                      std::size_t n) {
+  for_row<Full, One>(n, [&]<class F>(std::size_t at) {
+    const auto i = static_cast<std::ptrdiff_t>(at);
+    encoded_color<F>(linear + 4 * i, is_compressed).store(encoded, i);
   });
 }
 
 template <class Full, class One>
-[[gnu::flatten]] void decode_temporal(const float* resolved, const float* encoded, const float* linear,
-                                      bool is_compressed, float* out, std::size_t n) {
-  for_row<Full, One>(n, [=]<class F>(std::size_t i) {
-    Rgba<F> c = Rgba<F>::load(resolved + 4 * i);
+[[gnu::flatten]] void decode_temporal(const ColorPlanes<const float>& resolved, const ColorPlanes<const float>& encoded,
+                                      const float* linear, bool is_compressed, float* out, std::size_t n) {
+  for_row<Full, One>(n, [&]<class F>(std::size_t at) {
+    const auto i = static_cast<std::ptrdiff_t>(at);
+    Rgba<F> c = Rgba<F>::load(resolved, i);
     if (is_compressed) {
       const F alpha = divisor_of(c);
       const Rgba<F> decoded = scaled(c, alpha / max(alpha - max3(c), alpha * F(0x1p-16f)));
-      c = select(c == Rgba<F>::load(encoded + 4 * i), finite_color<F>(linear + 4 * i), decoded);
+      c = select(c == Rgba<F>::load(encoded, i), finite_color<F>(linear + 4 * i), decoded);
     }
     c.store(out + 4 * i);
+  });
+}
+
+template <class Full, class One>
+[[gnu::flatten]] void number_objects(const std::uint32_t* ids, float* numbers, std::size_t n) {
+  for_row<Full, One>(n, [=]<class F>(std::size_t i) {
+    // Frame::no_id has the bits of -1; other ids are less than 2^31.
+    F::from(F::Int::load(reinterpret_cast<const std::int32_t*>(ids) + i)).store(numbers + i);
   });
 }
 

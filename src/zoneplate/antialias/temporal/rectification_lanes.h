@@ -10,23 +10,39 @@
 /// mean, exactly.
 namespace zoneplate::stages {
 
+///
+/// Differences are computed where they are used: nine colours of four channels do not fit into a processor's registers.
 template <class F>
-struct Neighborhood {
+class Neighborhood {
+ public:
   Rgba<F> middle;
-  Rgba<F> difference[9];  ///< from the middle, by row; that of number 4 is 0
 
-  [[gnu::always_inline]] Neighborhood(const antialias::TemporalRow& row, std::ptrdiff_t i) {
-    middle = Rgba<F>::load(row.color + 4 * i);
+  [[gnu::always_inline]] Neighborhood(const antialias::TemporalRow& row, std::ptrdiff_t i)
+      : middle(Rgba<F>::load(row.color, i)), color_(row.color), i_(i) {}
+
+  /// The difference of colour k, by row, from the middle; that of number 4 is 0.
+  [[gnu::always_inline]] Rgba<F> difference(int k) const {
+    return Rgba<F>::load(color_, i_ + k % 3 - 1 + (k / 3 - 1) * color_.stride()) - middle;
+  }
+
+  /// True if all lanes' colours have one value each.
+  [[gnu::always_inline]] bool is_flat() const {
+#pragma GCC unroll 9
     for (int k = 0; k < 9; ++k)
-      difference[k] = Rgba<F>::load(row.color + 4 * (i + k % 3 - 1) + (k / 3 - 1) * row.color_stride) - middle;
+      if (k != 4 && !all(Rgba<F>::load(color_, i_ + k % 3 - 1 + (k / 3 - 1) * color_.stride()) == middle)) return false;
+    return true;
   }
 
   /// The mean with the weights of a kernel.
   [[gnu::always_inline]] Rgba<F> mean(const float (&kernel)[9]) const {
-    Rgba<F> sum = difference[0] * F(kernel[0]);
-    for (int k = 1; k < 9; ++k) sum = sum + difference[k] * F(kernel[k]);
+    Rgba<F> sum = difference(0) * F(kernel[0]);
+    for (int k = 1; k < 9; ++k) sum = sum + difference(k) * F(kernel[k]);
     return max(middle + sum, Rgba<F>::all(F(0.0f)));
   }
+
+ private:
+  ColorPlanes<const float> color_;
+  std::ptrdiff_t i_;
 };
 
 /// The least and the greatest difference from the middle that history may have.
@@ -35,27 +51,39 @@ struct DifferenceBox {
   Rgba<F> low, high;
 };
 
-template <class F>
-[[gnu::always_inline]] inline DifferenceBox<F> extremes(const Rgba<F> (&d)[9]) {
-  DifferenceBox<F> out{d[4], d[4]};
-  for (int k = 0; k < 9; ++k) out.low = min(out.low, d[k]), out.high = max(out.high, d[k]);
+/// Boxes of nine differences d(0) to d(8).
+template <class F, class Differences>
+[[gnu::always_inline]] inline DifferenceBox<F> extremes(const Differences& d) {
+  DifferenceBox<F> out{d(4), d(4)};
+#pragma GCC unroll 9
+  for (int k = 0; k < 9; ++k) {
+    const Rgba<F> c = d(k);
+    out.low = min(out.low, c), out.high = max(out.high, c);
+  }
   return out;
 }
 
-template <class F>
-[[gnu::always_inline]] inline DifferenceBox<F> rounded_extremes(const Rgba<F> (&d)[9]) {
-  const DifferenceBox<F> square = extremes(d);
-  DifferenceBox<F> plus{d[4], d[4]};
-  for (const int k : {1, 3, 5, 7}) plus.low = min(plus.low, d[k]), plus.high = max(plus.high, d[k]);
+template <class F, class Differences>
+[[gnu::always_inline]] inline DifferenceBox<F> rounded_extremes(const Differences& d) {
+  const DifferenceBox<F> square = extremes<F>(d);
+  DifferenceBox<F> plus{d(4), d(4)};
+  for (const int k : {1, 3, 5, 7}) {
+    const Rgba<F> c = d(k);
+    plus.low = min(plus.low, c), plus.high = max(plus.high, c);
+  }
   const F half(0.5f);
   return {(square.low + plus.low) * half, (square.high + plus.high) * half};
 }
 
 /// Source    Salvi, An Excursion in Temporal Supersampling, GDC 2016.
-template <class F>
-[[gnu::always_inline]] inline DifferenceBox<F> variance_box(const Rgba<F> (&d)[9], F gamma) {
-  Rgba<F> sum = d[0], squares = d[0] * d[0];
-  for (int k = 1; k < 9; ++k) sum = sum + d[k], squares = squares + d[k] * d[k];
+template <class F, class Differences>
+[[gnu::always_inline]] inline DifferenceBox<F> variance_box(const Differences& d, F gamma) {
+  Rgba<F> sum = d(0), squares = sum * sum;
+#pragma GCC unroll 9
+  for (int k = 1; k < 9; ++k) {
+    const Rgba<F> c = d(k);
+    sum = sum + c, squares = squares + c * c;
+  }
   const F ninth(1.0f / 9);
   const Rgba<F> mean = sum * ninth, variance = squares * ninth - mean * mean;
   Rgba<F> radius;
@@ -63,15 +91,15 @@ template <class F>
   return {mean - radius, mean + radius};
 }
 
-template <class F>
-[[gnu::always_inline]] inline DifferenceBox<F> box_of(const Rgba<F> (&d)[9], antialias::TemporalParts::Box box,
+template <class F, class Differences>
+[[gnu::always_inline]] inline DifferenceBox<F> box_of(const Differences& d, antialias::TemporalParts::Box box,
                                                       F gamma) {
   using Box = antialias::TemporalParts::Box;
-  if (box == Box::Extremes) return extremes(d);
-  if (box == Box::Rounded) return rounded_extremes(d);
+  if (box == Box::Extremes) return extremes<F>(d);
+  if (box == Box::Rounded) return rounded_extremes<F>(d);
   const DifferenceBox<F> spread = variance_box(d, gamma);
   if (box == Box::Variance) return spread;
-  const DifferenceBox<F> limits = extremes(d);
+  const DifferenceBox<F> limits = extremes<F>(d);
   return {min(max(spread.low, limits.low), limits.high), max(min(spread.high, limits.high), limits.low)};
 }
 
@@ -80,6 +108,9 @@ template <class F>
 [[gnu::always_inline]] inline Rgba<F> clipped(const Rgba<F>& d, const DifferenceBox<F>& box) {
   const F half(0.5f), one(1.0f);
   const Rgba<F> centre = (box.low + box.high) * half, extent = (box.high - box.low) * half, offset = d - centre;
+  auto is_outside = abs(offset.c[0]) > extent.c[0];
+  for (int c = 1; c < 4; ++c) is_outside = is_outside | (abs(offset.c[c]) > extent.c[c]);
+  if (none(is_outside)) return centre + offset;
   F part(1.0f);
   for (int c = 0; c < 4; ++c) {
     const F distance = abs(offset.c[c]);
@@ -95,12 +126,12 @@ template <class F>
   using Rectification = antialias::TemporalParts::Rectification;
   if (parts.rectification == Rectification::None) return history;
   const bool is_turned = parts.is_ycocg;
-  Rgba<F> allowed[9];
-  for (int k = 0; k < 9; ++k) allowed[k] = is_turned ? ycocg_of(around.difference[k]) : around.difference[k];
-  const DifferenceBox<F> box = box_of(allowed, parts.box, gamma);
-  const Rgba<F> difference = history - around.middle, d = is_turned ? ycocg_of(difference) : difference;
+  const DifferenceBox<F> box =
+      is_turned ? box_of([&](int k) { return scaled_ycocg_of(around.difference(k)); }, parts.box, gamma)
+                : box_of([&](int k) { return around.difference(k); }, parts.box, gamma);
+  const Rgba<F> difference = history - around.middle, d = is_turned ? scaled_ycocg_of(difference) : difference;
   const Rgba<F> inside = parts.rectification == Rectification::Clip ? clipped(d, box) : min(max(d, box.low), box.high);
-  const Rgba<F> moved = around.middle + (is_turned ? rgb_of(inside) : inside);
+  const Rgba<F> moved = around.middle + (is_turned ? rgb_of_scaled(inside) : inside);
   return select(inside == d, history, max(moved, Rgba<F>::all(F(0.0f))));
 }
 

@@ -115,22 +115,22 @@ template <class F>
 [[gnu::always_inline]] inline typename F::Bool has_surface(const TemporalRow& row, const TemporalParts& parts,
                                                            const Followed<F>& s, const PastPixels<F>& past) {
   using Rejection = TemporalParts::Rejection;
-  const F zero(0.0f), one(1.0f);
+  const F one(1.0f);
   const F nearest = s.last_depth * (one - F(parts.tolerance)), farthest = s.last_depth * (one + F(parts.tolerance));
-  auto found = zero > zero;
-  for (int dy = -1; dy <= 1; ++dy)
-    for (int dx = -1; dx <= 1; ++dx) {
-      const auto is_same = past.value(row.past_surface, dx, dy) == s.surface;
-      if (parts.rejection == Rejection::Id) {
-        found = found | is_same;
-        continue;
-      }
-      const F depth = past.value(row.past_depth, dx, dy);
-      const auto is_behind = depth >= nearest;
-      found = found |
-              (parts.rejection == Rejection::Depth ? is_behind
-                                                   : (is_same & is_behind & (farthest >= depth)) | (depth > farthest));
-    }
+  const auto allows = [&](int dx, int dy) {
+    const auto is_same = past.value(row.past_surface, dx, dy) == s.surface;
+    if (parts.rejection == Rejection::Id) return is_same;
+    const F depth = past.value(row.past_depth, dx, dy);
+    const auto is_behind = depth >= nearest;
+    if (parts.rejection == Rejection::Depth) return is_behind;
+    return (is_same & is_behind & (farthest >= depth)) | (depth > farthest);
+  };
+  // Nearly always the middle one does.
+  auto found = allows(0, 0);
+  for (const PixelOffset o : around_square) {
+    if (all(found)) break;
+    found = found | allows(o.x, o.y);
+  }
   return found;
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
+#include "zoneplate/antialias/temporal/color_planes.h"
 #include "zoneplate/antialias/temporal/parts.h"
 #include "zoneplate/base/isa.h"
 
@@ -11,18 +13,17 @@ namespace zoneplate::antialias {
 /// One row of a frame with its history, for TemporalKernels::resolve.
 ///
 /// Shape     pointers to pixel 0 of the row. The planes of this frame continue for `border` pixels on all sides;
-///           `color_stride` and `stride` are the floats from one row to the next. The planes of the last frame have
-///           `width` × `height` pixels without a border, and begin at pixel (0, 0).
+///           `stride` is the number of floats from one row of theirs to the next, but for colours. The planes of the
+///           last frame have `width` × `height` pixels without a border, and begin at pixel (0, 0).
 struct TemporalRow {
   static constexpr int border = 2;
 
-  const float* color;  ///< four floats a pixel, by TemporalKernels::encode
-  std::ptrdiff_t color_stride;
-  const float* nearness;       ///< reversed depth
-  const float* motion[2];      ///< in pixels
-  const float* surface;        ///< a number of the object; negative without a surface
-  const float* last_depth;     ///< the distance that the surface had from the last camera
-  const float* last_nearness;  ///< its reversed depth in the last frame
+  ColorPlanes<const float> color;  ///< by TemporalKernels::encode
+  const float* nearness;           ///< reversed depth
+  const float* motion[2];          ///< in pixels
+  const float* surface;            ///< a number of the object; negative without a surface
+  const float* last_depth;         ///< the distance that the surface had from the last camera
+  const float* last_nearness;      ///< its reversed depth in the last frame
   const float*
       restless;  ///< 0 where the 3 × 3 surfaces move as one, as those of the last frame did; 2 where one has left
   const float* relit;  ///< 1 where the light has changed, 0 elsewhere
@@ -30,7 +31,7 @@ struct TemporalRow {
   const float* column;  ///< 0, 1, 2, ...
   int y;
 
-  const float* history;  ///< four floats a pixel
+  ColorPlanes<const float> history;
   const float* frames;   ///< the number of frames in each pixel of the history, or its confidence
   const float* squares;  ///< the mean squared luma of the frames in the history
   const float* past_surface;
@@ -38,7 +39,7 @@ struct TemporalRow {
   const float* past_nearness;
   int width, height;
 
-  float* resolved;  ///< four floats a pixel: the history of the next frame
+  ColorPlanes<float> resolved;  ///< the history of the next frame
   float* frames_out;
   float* squares_out;
 };
@@ -55,20 +56,26 @@ struct UnrestRow {
 
 /// One row of a frame with the history of the same pixels, for TemporalKernels::find_changes.
 struct ChangeRow {
-  const float* color;  ///< four floats a pixel, as in TemporalRow
+  const float* linear;  ///< colours of four floats, as `encode` reads them
+  bool is_compressed;
   const float* restless;
-  const float *history, *frames, *squares;
+  ColorPlanes<const float> history;  ///< of this row
+  const float *frames, *squares;
 };
 
 struct TemporalKernels : PerIsa<TemporalKernels> {
-  /// Colours without NaN, negative and unbounded values; and compressed: the straight colour c becomes
-  /// c / (1 + max(r, g, b)), premultiplied again.
+  /// Colours, of four floats a pixel, without NaN, negative and unbounded values.
   ///
   /// Edges     values above 65504, the greatest half float, become 65504.
-  void (*encode)(const float* linear, bool is_compressed, float* encoded, std::size_t n);
+  void (*limit)(const float* linear, float* limited, std::size_t n);
+  /// The colours of `limit` by channel; and compressed: the straight colour c becomes c / (1 + max(r, g, b)),
+  /// premultiplied again.
+  void (*encode)(const float* linear, bool is_compressed, const ColorPlanes<float>& encoded, std::size_t n);
   /// The colours that `encode` compressed. A pixel with resolved = encoded becomes its own `linear`, bit by bit.
-  void (*decode)(const float* resolved, const float* encoded, const float* linear, bool is_compressed, float* out,
-                 std::size_t n);
+  void (*decode)(const ColorPlanes<const float>& resolved, const ColorPlanes<const float>& encoded, const float* linear,
+                 bool is_compressed, float* out, std::size_t n);
+  /// The numbers of objects: -1 for Frame::no_id.
+  void (*number)(const std::uint32_t* ids, float* numbers, std::size_t n);
   /// 1 where a surface moves, or the 3 × 3 surfaces do not move as one, 2 where a surface of the last frame moves
   /// otherwise, 0 elsewhere. An object of the last frame is taken to have moved by its mean motion.
   void (*find_unrest)(const UnrestRow& row, float* unrest, std::size_t n);
@@ -80,7 +87,9 @@ struct TemporalKernels : PerIsa<TemporalKernels> {
   ///
   /// The samples of a still scene change along edges and in details of a pixel's width; an edge at rest crosses three
   /// of 3 × 3 pixels, or five if it is diagonal. The rows of `changes` are `stride` apart; it has a border of a pixel.
-  void (*find_relit)(const float* changes, std::ptrdiff_t stride, float* relit, std::size_t n);
+  ///
+  /// @return   true if the light has changed anywhere in the row.
+  bool (*find_relit)(const float* changes, std::ptrdiff_t stride, float* relit, std::size_t n);
   /// Resolves n pixels of a row: filters the current colours, reprojects, validates and rectifies the history, and
   /// blends both.
   ///

@@ -48,11 +48,16 @@ template <class Full, class One>
   for_row<Full, One>(n, [&]<class F>(std::size_t at) {
     const auto i = static_cast<std::ptrdiff_t>(at);
     const F zero(0.0f), one(1.0f);
-    const F luma = luma_of(Rgba<F>::load(row.color + 4 * i)), mean = luma_of(Rgba<F>::load(row.history + 4 * i));
-    const History<F> past{mean, max(F::load(row.squares + i) - mean * mean, zero)};
-    const F difference = luma - mean;
     const auto is_known =
         (F::load(row.restless + i) == zero) & (F::load(row.frames + i) >= F(TemporalParts::known_frames));
+    if (none(is_known)) {
+      zero.store(changes + i);
+      return;
+    }
+    const F luma = luma_of(encoded_color<F>(row.linear + 4 * i, row.is_compressed)),
+            mean = luma_of(Rgba<F>::load(row.history, i));
+    const History<F> past{mean, max(F::load(row.squares + i) - mean * mean, zero)};
+    const F difference = luma - mean;
     const F sign = select(difference > zero, one, -one);
     where(is_known & (abs(difference) > past.spread()), sign).store(changes + i);
   });
@@ -67,11 +72,15 @@ template <class F>
 }
 
 template <class Full, class One>
-[[gnu::flatten]] void find_relit(const float* changes, std::ptrdiff_t stride, float* relit, std::size_t n) {
+[[gnu::flatten]] bool find_relit(const float* changes, std::ptrdiff_t stride, float* relit, std::size_t n) {
+  bool is_any = false;
   for_row<Full, One>(n, [&]<class F>(std::size_t at) {
     const F sum = sum_around<F>(changes, stride, static_cast<std::ptrdiff_t>(at));
-    where(abs(sum) > F(6.5f), F(1.0f)).store(relit + at);
+    const auto is_relit = abs(sum) > F(6.5f);
+    is_any = is_any || !none(is_relit);
+    where(is_relit, F(1.0f)).store(relit + at);
   });
+  return is_any;
 }
 
 template <class Full, class One>
@@ -86,23 +95,31 @@ template <class Full, class One>
 
     const F rest = one - saturated(speed_of(source) * F(1 / TemporalParts::fast));
     const F gamma = F(parts.moving_gamma) + F(parts.gamma - parts.moving_gamma) * (rest * rest);
-    const Rgba<F> past = history_of(row, parts, source, i);
-    Rgba<F> history = rectified(past, around, parts, gamma);
+    const F zero(0.0f);
+    const auto nowhere = one > one;
+    auto is_steady = nowhere;
+    if (parts.trusts_rest) is_steady = source.is_inside & (F::load(row.restless + i) == zero);
+    // Nine equal colours allow that colour alone, whatever the history is.
+    const bool is_flat =
+        parts.rectification != TemporalParts::Rectification::None && none(is_steady) && around.is_flat();
+    const Rgba<F> past = is_flat ? around.middle : history_of(row.history, row, parts, source, i);
     const PastPixels<F> nearest_past = nearest_pixels(row, source, i);
-    auto valid = is_valid(row, parts, surface, source, nearest_past, i);
+    Rgba<F> history = past;
     F square(0.0f);
-    auto relit = one > one;
-    if (parts.trusts_rest) {
-      square = nearest_past.value(row.squares, 0, 0);
+    auto relit = nowhere, is_trusted = nowhere;
+    if (parts.trusts_rest) square = nearest_past.value(row.squares, 0, 0);
+    if (!none(is_steady)) {
       const F frames = nearest_past.value(row.frames, 0, 0);
-      const F zero(0.0f), luma = luma_of(current), mean = luma_of(past);
+      const F luma = luma_of(current), mean = luma_of(past);
       const History<F> earlier{mean, max(square - mean * mean, zero)};
-      const auto is_steady = source.is_inside & (F::load(row.restless + i) == zero);
       relit = is_steady & (F::load(row.relit + i) > F(0.5f));
       const auto is_plausible = ((F(8.0f) > frames) | (earlier.spread() > abs(luma - mean)));
-      const auto is_trusted = is_steady & is_plausible & (F(0.5f) > where(relit, one));
-      history = select(is_trusted, past, history);
-      valid = valid | is_trusted;
+      is_trusted = is_steady & is_plausible & (F(0.5f) > where(relit, one));
+    }
+    auto valid = is_trusted;
+    if (!all(is_trusted)) {
+      if (!is_flat) history = select(is_trusted, past, rectified(past, around, parts, gamma));
+      valid = valid | is_valid(row, parts, surface, source, nearest_past, i);
       // The squares of another light would let any later change pass as spread.
       const F allowed = luma_of(history);
       square = select(relit, allowed * allowed, square);
@@ -119,7 +136,7 @@ template <class Full, class One>
       select(valid, square + (luma * luma - square) * weight, luma * luma).store(row.squares_out + i);
     }
     if (parts.keeps_current_alpha) result.c[3] = current.c[3];
-    result.store(row.resolved + 4 * i);
+    result.store(row.resolved, i);
     F frames = select(valid, share.frames, one);
     if (parts.trusts_rest)
       frames = select(F::load(row.restless + i) > one, min(frames, F(TemporalParts::left_frames)), frames);
@@ -129,8 +146,10 @@ template <class Full, class One>
 
 template <class Full, class One>
 constexpr TemporalKernels temporal() {
-  return {.encode = &encode_temporal<Full, One>,
+  return {.limit = &limit_colors<Full, One>,
+          .encode = &encode_temporal<Full, One>,
           .decode = &decode_temporal<Full, One>,
+          .number = &number_objects<Full, One>,
           .find_unrest = &find_unrest<Full, One>,
           .find_changes = &find_changes<Full, One>,
           .find_relit = &find_relit<Full, One>,

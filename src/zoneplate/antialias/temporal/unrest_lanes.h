@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "zoneplate/antialias/temporal/past_pixels_lanes.h"
+#include "zoneplate/antialias/temporal/reprojection_lanes.h"
 #include "zoneplate/antialias/temporal/resolve.h"
 #include "zoneplate/math/for_row.h"
 
@@ -29,16 +29,21 @@ template <class Full, class One>
     const auto bounded = [&](F v) { return min(max(v, -limit), limit); };
     const PastPixels<F> past(bounded(floor(column - x + half)), bounded(floor(F(static_cast<float>(row.y)) - y + half)),
                              row.width, row.height, column, i, 1);
-    for (int k = 0; k < 9; ++k) {
-      const int dx = k % 3 - 1, dy = k / 3 - 1;
-      const std::ptrdiff_t near = i + dx + dy * row.stride;
+    for (const PixelOffset o : around_square) {
+      if (all(moves)) break;
+      const std::ptrdiff_t near = i + o.x + o.y * row.stride;
       moves = moves | differs(F::load(row.motion[0] + near), F::load(row.motion[1] + near), x, y, likeness);
-      const F other = past.value(row.past_surface, dx, dy);
+    }
+    auto is_alone = past.value(row.past_surface, 0, 0) == object;
+    for (const PixelOffset o : around_square) is_alone = is_alone & (past.value(row.past_surface, o.x, o.y) == object);
+    for (int k = 0; k < 9 && !all(is_alone); ++k) {
+      const F other = past.value(row.past_surface, k % 3 - 1, k / 3 - 1);
       const auto is_other = (other > object) | (object > other);
       if (none(is_other)) continue;
       const auto number = truncate(other + one);
       is_left = is_left | (is_other & differs(F::gather(row.object_motion[0], number),
                                               F::gather(row.object_motion[1], number), x, y, likeness));
+      if (all(is_left | is_alone)) break;
     }
     select(is_left, F(2.0f), where(moves, one)).store(unrest + i);
   });

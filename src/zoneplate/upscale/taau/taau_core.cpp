@@ -34,8 +34,8 @@ LinearImage Taau::accumulate(const TaauInput& frame) {
   const TaauAxis columns(width_, frame_width, frame.jitter.x), rows(height_, frame_height, frame.jitter.y);
   LinearImage color(frame_width, frame_height);
   for (int y = 0; y < frame_height; ++y)
-    antialias::TemporalKernels::of().encode(&frame.color.row(y).data()->r, false, &color.row(y).data()->r,
-                                            static_cast<std::size_t>(frame_width));
+    antialias::TemporalKernels::of().limit(&frame.color.row(y).data()->r, &color.row(y).data()->r,
+                                           static_cast<std::size_t>(frame_width));
   const float scale_x = static_cast<float>(width_) / static_cast<float>(frame_width);
   const float scale_y = static_cast<float>(height_) / static_cast<float>(frame_height);
   const bool is_first = frame.is_first || history_.empty();

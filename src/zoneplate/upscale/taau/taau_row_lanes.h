@@ -83,7 +83,7 @@ template <class F>
 
   const Source<F> source(nearest_surface<F>(frame, row, columns), history_row, i);
   constexpr TemporalParts parts{.filter = TemporalParts::Filter::CatmullRom5};
-  const Rgba<F> past = history_of(history_row, parts, source, i), d = ycocg_of(past - middle);
+  const Rgba<F> past = history_of(frame.history, history_row, parts, source, i), d = ycocg_of(past - middle);
   const Rgba<F> inside = min(max(d, box.low), box.high);
   const Rgba<F> history = select(inside == d, past, max(middle + rgb_of(inside), Rgba<F>::all(zero)));
   const F moving = saturated(speed_of(source) * F(1.0f / 20));
@@ -98,8 +98,7 @@ template <class F>
 
 template <class Full, class One>
 [[gnu::flatten]] void taau_resolve_row(const TaauFrame& frame, const TaauRow& row, std::size_t n) {
-  const TemporalRow history_row{
-      .column = row.column, .y = row.y, .history = frame.history, .width = frame.width, .height = frame.height};
+  const TemporalRow history_row{.column = row.column, .y = row.y, .width = frame.width, .height = frame.height};
   for_row<Full, One>(n, [&]<class F>(std::size_t i) {
     taau::resolve_pixels<F>(frame, row, history_row, static_cast<std::ptrdiff_t>(i));
   });
