@@ -223,7 +223,7 @@ void OpaqueShading::store_listed(const FragmentOutputs& colors, std::size_t firs
 }  // namespace
 
 void add_pixel(const TileJob& job, const TileVisibility& visibility, std::uint32_t pixel, std::vector<Fragment>& out) {
-  const auto id_at = [&](int s) { return visibility.id[static_cast<std::size_t>(s) * tile_pixels + pixel]; };
+  const auto id_at = [&](int s) { return visibility.id[static_cast<std::size_t>(s) * sample_stride + pixel]; };
   if (job.pass.count == 1 || job.setup.target.is_per_sample) {
     for (int s = 0; s < job.pass.count; ++s)
       if (id_at(s) != no_primitive) out.push_back(job.fragment_at(pixel, id_at(s), std::uint64_t{1} << s));
