@@ -83,7 +83,7 @@ void frame(benchmark::State& state, const char* name) {
 }
 
 void frames(benchmark::internal::Benchmark* b) {
-  b->ArgNames({"samples", "threads"})->ArgsProduct({{1, 4}, {1, 2}})->Unit(benchmark::kMillisecond)->UseRealTime();
+  b->ArgNames({"samples", "threads"})->ArgsProduct({{1, 4, 8}, {1, 2}})->Unit(benchmark::kMillisecond)->UseRealTime();
 }
 BENCHMARK_CAPTURE(geometry, tri1m, "tri1m")->Apply(frames);
 BENCHMARK_CAPTURE(geometry, micro, "micro")->Apply(frames);

@@ -126,6 +126,7 @@ LimitedChild::LimitedChild(std::string place, Limits limits, const std::function
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) no(errno);
   ::fcntl(ends[1], F_SETPIPE_SZ, pipe_bytes);
+  if (limits_.is_sandboxed) prepare_sandbox();
   const pid_t parent = ::getpid();
   const int threads = thread_limit();
   id_ = ::fork();

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <sys/socket.h>
+#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -130,6 +131,7 @@ TEST(LimitedChild, IsEndedByWhatNoReaderNeeds) {
       {"a process", [] { static_cast<void>(::fork()); }},
       {"a program", [] { ::execl("/bin/true", "true", nullptr); }},
       {"a signal to the parent", [&] { ::kill(parent, 0); }},
+      {"a signal to a thread of the parent", [&] { ::syscall(SYS_tgkill, parent, parent, 0); }},
       {"code", [] { ::mmap(nullptr, 4096, PROT_READ | PROT_EXEC, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0); }},
       {"memory of others", [] { ::mmap(nullptr, 4096, PROT_READ, MAP_SHARED | MAP_ANONYMOUS, -1, 0); }}};
   for (const auto& [name, deed] : deeds) {

@@ -2,7 +2,9 @@
 #include "zoneplate/os/sandbox.h"
 
 #include <fcntl.h>
+#include <linux/filter.h>
 #include <linux/landlock.h>
+#include <linux/seccomp.h>
 #include <sched.h>
 #include <seccomp.h>
 #include <sys/mman.h>
@@ -13,6 +15,8 @@
 
 #include <cerrno>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "zoneplate/os/memory_limit.h"
 
@@ -94,13 +98,30 @@ class Filter {
           {SCMP_A2_32(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0), SCMP_A3_32(SCMP_CMP_MASKED_EQ, MAP_SHARED, 0)});
     allow(SCMP_SYS(mprotect), {SCMP_A2_32(SCMP_CMP_MASKED_EQ, PROT_EXEC, 0)});
     allow(SCMP_SYS(clone), {SCMP_A0_32(SCMP_CMP_MASKED_EQ, CLONE_THREAD, CLONE_THREAD)});
-    allow(SCMP_SYS(tgkill), {SCMP_A0_32(SCMP_CMP_EQ, static_cast<std::uint32_t>(::getpid()))});
+    allow(SCMP_SYS(tgkill), {SCMP_A0_32(SCMP_CMP_EQ, any_process)});
   }
   ~Filter() { ::seccomp_release(filter_); }
   Filter(const Filter&) = delete;
   Filter& operator=(const Filter&) = delete;
 
-  bool install() { return is_complete_ && ::seccomp_load(filter_) == 0; }
+  /// The kernel's form of the filter, in which `any_process` stands for the process that it is installed in; empty if
+  /// it cannot be made.
+  std::vector<sock_filter> program() const {
+    std::vector<sock_filter> program;
+    int ends[2];
+    if (!is_complete_ || ::pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) return program;
+    // A pipe takes 64 KB, and the kernel no program that is longer.
+    if (::seccomp_export_bpf(filter_, ends[1]) == 0) {
+      std::vector<sock_filter> all(BPF_MAXINSNS);
+      const ssize_t size = ::read(ends[0], all.data(), all.size() * sizeof(sock_filter));
+      all.resize(size > 0 ? static_cast<std::size_t>(size) / sizeof(sock_filter) : 0);
+      program = std::move(all);
+    }
+    ::close(ends[0]), ::close(ends[1]);
+    return program;
+  }
+
+  static constexpr std::uint32_t any_process = 0x7ffffffe;  ///< more than the greatest process id, 2^22
 
  private:
   void allow(int call, const std::vector<scmp_arg_cmp>& conditions) {
@@ -112,6 +133,24 @@ class Filter {
   scmp_filter_ctx filter_;
   bool is_complete_ = false;
 };
+
+const std::vector<sock_filter>& filter_program() {
+  static const std::vector<sock_filter> program = Filter().program();
+  return program;
+}
+
+bool install_filter() {
+  std::vector<sock_filter> program = filter_program();
+  bool has_process = false;
+  for (sock_filter& instruction : program)
+    if (BPF_CLASS(instruction.code) == BPF_JMP && instruction.k == Filter::any_process) {
+      instruction.k = static_cast<std::uint32_t>(::getpid());
+      has_process = true;
+    }
+  if (!has_process) return false;
+  const sock_fprog whole{static_cast<unsigned short>(program.size()), program.data()};
+  return ::syscall(SYS_seccomp, SECCOMP_SET_MODE_FILTER, 0, &whole) == 0;
+}
 
 /// The file-system rights that the first version of Landlock supports.
 constexpr std::uint64_t first_rights = (std::uint64_t{1} << 13) - 1;
@@ -145,10 +184,12 @@ SandboxSupport sandbox_support() {
   return {.filters_calls = ::prctl(PR_GET_SECCOMP, 0, 0, 0, 0) >= 0, .limits_files = landlock_version() >= 1};
 }
 
+void prepare_sandbox() { filter_program(); }
+
 bool enter_sandbox(const std::optional<std::vector<std::string>>& readable) {
   if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return false;
   if (readable && landlock_version() >= 1) limit_files(*readable);
-  return Filter().install();
+  return install_filter();
 }
 
 void limit_resources(std::uint64_t bytes, double seconds) {

@@ -15,6 +15,10 @@ struct SandboxSupport {
 };
 SandboxSupport sandbox_support();
 
+/// Makes the filter for system calls that enter_sandbox installs, so that processes which this one forks need not make
+/// it again. Optional.
+void prepare_sandbox();
+
 /// Permanently drops all rights of this process that reading and rendering a model does not need.
 ///
 /// Afterwards the process can read the files of `readable` and below its folders (nothing: every file that its user may

@@ -101,8 +101,8 @@ class TileHistory {
   }
 
   bool wins(std::uint32_t at, float depth, std::int32_t id) {
-    float& nearest = visibility_.depth[at];
-    std::int32_t& owner = visibility_.id[at];
+    float& nearest = visibility_.depth[sample_place(at)];
+    std::int32_t& owner = visibility_.id[sample_place(at)];
     if (depth < nearest || (depth == nearest && id >= owner)) return false;
     nearest = depth, owner = id;
     return true;

@@ -16,8 +16,8 @@ void TileVisibility::materialize_block(int block) {
     const int corner = block / 8 * 8 * tile_size + block % 8 * 8;
     for (int s = 0; s < sample_count; ++s)
       for (int y = 0; y < 8; ++y) {
-        std::fill_n(depth + s * tile_pixels + corner + y * tile_size, 8, 0.0f);
-        std::fill_n(id + s * tile_pixels + corner + y * tile_size, 8, no_primitive);
+        std::fill_n(depth + s * sample_stride + corner + y * tile_size, 8, 0.0f);
+        std::fill_n(id + s * sample_stride + corner + y * tile_size, 8, no_primitive);
       }
   }
   block_primitive[block] = mixed_primitives;
@@ -38,7 +38,7 @@ bool covers(const TileTriangle& t, int s, int x, int y) {
 }
 
 bool wins(const TileTriangle& t, const TileVisibility& tile, int s, int x, int y) {
-  const int at = s * tile_pixels + y * tile_size + x;
+  const int at = s * sample_stride + y * tile_size + x;
   const float z = depth_at(t, s, x, y);
   return covers(t, s, x, y) && (z > tile.depth[at] || (z == tile.depth[at] && t.id < tile.id[at]));
 }
@@ -50,8 +50,8 @@ bool draw(const TileTriangle& t, TileVisibility& tile) {
     for (int y = t.first_y; y <= t.last_y; ++y)
       for (int x = t.first_x; x <= t.last_x; ++x)
         if (wins(t, tile, s, x, y)) {
-          tile.depth[s * tile_pixels + y * tile_size + x] = depth_at(t, s, x, y);
-          tile.id[s * tile_pixels + y * tile_size + x] = t.id;
+          tile.depth[s * sample_stride + y * tile_size + x] = depth_at(t, s, x, y);
+          tile.id[s * sample_stride + y * tile_size + x] = t.id;
         }
   return false;
 }
@@ -99,7 +99,7 @@ void find_nearest(const TileVisibility& tile, float* nearest) {
     for (int s = 0; s < tile.sample_count; ++s)
       for (int i = 0; i < 64; ++i) {
         const int y = block / 8 * 8 + i / 8, x = block % 8 * 8 + i % 8;
-        nearest[block] = std::max(nearest[block], tile.depth[s * tile_pixels + y * tile_size + x]);
+        nearest[block] = std::max(nearest[block], tile.depth[s * sample_stride + y * tile_size + x]);
       }
   }
 }
@@ -134,7 +134,7 @@ void find_owners(const TileVisibility& tile, std::int32_t* owners) {
     owners[row] = tile.id[row * 8];
     for (int s = 0; s < tile.sample_count; ++s)
       for (int x = 0; x < 8; ++x)
-        if (tile.id[s * tile_pixels + row * 8 + x] != tile.id[row * 8]) owners[row] = mixed_primitives;
+        if (tile.id[s * sample_stride + row * 8 + x] != tile.id[row * 8]) owners[row] = mixed_primitives;
   }
 }
 

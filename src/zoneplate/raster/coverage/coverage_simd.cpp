@@ -108,7 +108,7 @@ struct Step {
     const float row = t.z[s] + t.dzdy * static_cast<float>(y - t.origin_y);
     const VF column = hn::Add(hn::Set(d, static_cast<float>(x - t.origin_x)), lane);
     z = hn::Min(hn::Max(hn::Add(hn::Set(d, row), hn::Mul(dzdx, column)), z_low), z_high);
-    const int at = s * tile_pixels + y * tile_size + x;
+    const int at = s * sample_stride + y * tile_size + x;
     const VF held = hn::Load(d, tile.depth + at);
     const auto lower_id = hn::RebindMask(d, hn::Lt(id, hn::Load(di, tile.id + at)));
     return hn::And(inside, hn::Or(hn::Gt(z, held), hn::And(hn::Eq(z, held), lower_id)));
@@ -120,7 +120,7 @@ float farthest(const TileVisibility& tile, int x, int y, float bound) {
   const DF d;
   const float* plane = tile.depth + y * tile_size + x;
   VF low = hn::Load(d, plane);
-  for (int s = 0; s < tile.sample_count; ++s, plane += tile_pixels) {
+  for (int s = 0; s < tile.sample_count; ++s, plane += sample_stride) {
     for (int row = 0; row < 8; ++row)
       for (int column = 0; column < 8; column += static_cast<int>(hn::Lanes(d)))
         low = hn::Min(low, hn::Load(d, plane + row * tile_size + column));
@@ -143,8 +143,8 @@ void fill_block(const TileTriangle& t, const TileVisibility& tile, int bx, int b
     const VF across = hn::Mul(dzdx, hn::Add(hn::Set(d, static_cast<float>(x - t.origin_x)), lane));
     for (int s = 0; s < tile.sample_count; ++s) {
       const float base = t.z[s];
-      float* const depth = tile.depth + s * tile_pixels + by * tile_size + x;
-      std::int32_t* const ids = tile.id + s * tile_pixels + by * tile_size + x;
+      float* const depth = tile.depth + s * sample_stride + by * tile_size + x;
+      std::int32_t* const ids = tile.id + s * sample_stride + by * tile_size + x;
       for (int y = 0; y < 8; ++y) {
         const VF row = hn::Set(d, base + dzdy * static_cast<float>(first_y + y));
         hn::Store(hn::Min(hn::Max(hn::Add(row, across), z_low), z_high), d, depth + y * tile_size);
@@ -196,7 +196,7 @@ bool draw_block(const TileTriangle& t, const Spread& spread, const Step& step, c
       const VF down = hn::Set(d, t.dzdy * static_cast<float>(y - t.origin_y));
       float* depth = tile.depth + y * tile_size + x;
       std::int32_t* id = tile.id + y * tile_size + x;
-      for (int s = 0; s < samples; ++s, depth += tile_pixels, id += tile_pixels) {
+      for (int s = 0; s < samples; ++s, depth += sample_stride, id += sample_stride) {
         const auto covered =
             inside(hn::Add(e0, hn::Load(di, by_sample.c[0][s])), hn::Add(e1, hn::Load(di, by_sample.c[1][s])),
                    hn::Add(e2, hn::Load(di, by_sample.c[2][s])));
@@ -322,7 +322,7 @@ void find_nearest(const TileVisibility& tile, float* nearest) {
     for (int s = 0; s < tile.sample_count; ++s)
       for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 8; x += static_cast<int>(hn::Lanes(d)))
-          high = hn::Max(high, hn::Load(d, corner + s * tile_pixels + y * tile_size + x));
+          high = hn::Max(high, hn::Load(d, corner + s * sample_stride + y * tile_size + x));
     nearest[block] = hn::GetLane(hn::MaxOfLanes(d, high));
   }
 }
@@ -360,7 +360,7 @@ void find_owners(const TileVisibility& tile, std::int32_t* owners) {
       VI differs = hn::Zero(d);
       for (int s = 0; s < samples; ++s)
         for (int x = 0; x < 8; x += lanes)
-          differs = hn::Or(differs, hn::Xor(first, hn::Load(d, id + s * tile_pixels + x)));
+          differs = hn::Or(differs, hn::Xor(first, hn::Load(d, id + s * sample_stride + x)));
       if (hn::AllTrue(d, hn::Eq(differs, hn::Zero(d)))) owners[row] = id[0];
     }
   }

@@ -38,7 +38,7 @@ bool covers(const ScreenVertex (&v)[3], std::int64_t x, std::int64_t y, EdgeRule
 
 struct Buffers {
   explicit Buffers(int samples)
-      : z(static_cast<std::size_t>(samples) * tile_pixels), id(static_cast<std::size_t>(samples) * tile_pixels) {
+      : z(static_cast<std::size_t>(samples) * sample_stride), id(static_cast<std::size_t>(samples) * sample_stride) {
     visibility = {
         .sample_count = samples, .depth = z.data(), .id = id.data(), .block_min_depth = far, .block_primitive = owner};
     visibility.clear();
@@ -96,7 +96,7 @@ class TileDefinition {
   std::uint64_t differing(const SamplePattern& pattern, int tile_x, int tile_y, const TileVisibility& drawn) const {
     std::uint64_t wrong = 0;
     for (std::size_t s = 0; s < pattern.size(); ++s) {
-      const std::int32_t* id = drawn.id + s * tile_pixels;
+      const std::int32_t* id = drawn.id + s * sample_stride;
       const std::int64_t x = (tile_x - 512) * 256 + pattern[s].x, y = (tile_y - 384) * 256 + pattern[s].y;
       const std::int64_t step = 256 * (tile_size - 1);
       bool is_inside = true, is_outside = false;  // by the tile's corners
@@ -199,11 +199,11 @@ TEST(Coverage, TheDefinitionOfATileIsThatOfItsSamples) {
       for (int p = 0; p < tile_pixels; ++p) {
         const SamplePosition at = pattern[static_cast<std::size_t>(s)];
         const bool is_in = covers(v, (tile_x + p % 64 - 512) * 256 + at.x, (tile_y + p / 64 - 384) * 256 + at.y, rule);
-        expected.visibility.id[s * tile_pixels + p] = is_in ? 7 : -1;
+        expected.visibility.id[s * sample_stride + p] = is_in ? 7 : -1;
       }
     const TileDefinition definition(v, rule);
     ASSERT_EQ(definition.differing(pattern, tile_x, tile_y, expected.visibility), 0u) << i;
-    for (const int p : {0, 4095, 4096 + 777})  // one wrong sample is one
+    for (const int p : {0, 4095, sample_stride + 777})  // one wrong sample is one
       expected.visibility.id[p] = expected.visibility.id[p] == 7 ? -1 : 7;
     ASSERT_EQ(definition.differing(pattern, tile_x, tile_y, expected.visibility), 3u) << i;
   }
@@ -240,6 +240,7 @@ TEST(Coverage, TwoTrianglesOfAQuadShareNoSampleAndLeaveNone) {
     first.visibility.materialize_all();
     second.visibility.materialize_all();
     for (int i = 0; i < 16 * tile_pixels; ++i) {
+      const std::uint32_t place = sample_place(static_cast<std::uint32_t>(i));
       const SamplePosition at = pattern[static_cast<std::size_t>(i / tile_pixels)];
       const std::int64_t x = (448 + i % 64) * 256 + at.x - 512 * 256,
                          y = (320 + i % tile_pixels / 64) * 256 + at.y - 384 * 256;
@@ -252,7 +253,7 @@ TEST(Coverage, TwoTrianglesOfAQuadShareNoSampleAndLeaveNone) {
         }
         return true;
       }();
-      const int owners = (first.visibility.id[i] == 1) + (second.visibility.id[i] == 2);
+      const int owners = (first.visibility.id[place] == 1) + (second.visibility.id[place] == 2);
       ASSERT_LE(owners, 1);
       ASSERT_GE(owners, is_strictly_inside ? 1 : 0) << "seed " << seed;
       ASSERT_LE(owners, is_inside ? 1 : 0) << "seed " << seed;
@@ -302,7 +303,7 @@ TEST(Coverage, KernelsGiveTheScalarTwinsBits) {
       EXPECT_EQ(owners_a, owners_b);
       a.visibility.materialize_all();
       b.visibility.materialize_all();
-      const auto bytes = static_cast<std::size_t>(samples) * tile_pixels * 4;
+      const auto bytes = static_cast<std::size_t>(samples) * sample_stride * 4;
       EXPECT_EQ(std::memcmp(a.visibility.depth, b.visibility.depth, bytes), 0) << name_of(isa) << " " << samples;
       EXPECT_EQ(std::memcmp(a.visibility.id, b.visibility.id, bytes), 0) << name_of(isa) << " " << samples;
     }

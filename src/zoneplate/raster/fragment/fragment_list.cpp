@@ -29,7 +29,7 @@ void add(const OwnerRow& row, std::int32_t lane, std::int32_t id, std::uint32_t 
 void list(const OwnerRow& row, FragmentList& out) {
   for (int s = 0; s < row.sample_count; ++s)
     for (std::int32_t lane = 0; lane < FragmentBatch::group; ++lane) {
-      const auto id_of = [&](int sample) { return row.id[sample * tile_pixels + lane]; };
+      const auto id_of = [&](int sample) { return row.id[sample * sample_stride + lane]; };
       const std::int32_t id = id_of(s);
       if ((row.drawn >> lane & 1) == 0 || id == no_primitive) continue;
       if (row.is_per_sample) {

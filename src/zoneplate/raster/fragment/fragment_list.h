@@ -29,7 +29,7 @@ struct FragmentList {
 
 /// The visible primitives of a span of eight pixels.
 struct OwnerRow {
-  const std::int32_t* id;  ///< of the first pixel's sample 0; the other samples' planes follow tile_pixels on
+  const std::int32_t* id;  ///< of the first pixel's sample 0; the other samples' planes follow sample_stride on
   int sample_count;        ///< at most FragmentList::max_samples
   const std::int32_t *first_summand, *more_summands;  ///< by sample; see CentroidTable
   std::uint32_t pixel;                                ///< the first, within the tile

@@ -103,7 +103,7 @@ class Pixels {
   }
 
  private:
-  HWY_INLINE VI owner_of(int s) const { return hn::LoadU(i32, id_ + s * tile_pixels); }
+  HWY_INLINE VI owner_of(int s) const { return hn::LoadU(i32, id_ + s * sample_stride); }
 
   /// Appends the fragments of the mask.
   HWY_INLINE void add(MI mask, VI owner, const Owned& owned, FragmentList& out) const {

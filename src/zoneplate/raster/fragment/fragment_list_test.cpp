@@ -24,7 +24,7 @@ struct Owners {
   CentroidTable centroids;
   OwnerRow row;
   Owners(std::uint32_t seed, int samples)
-      : id(static_cast<std::size_t>(samples) * tile_pixels),
+      : id(static_cast<std::size_t>(samples) * sample_stride),
         centroids(
             standard_pattern(samples),
             seed % 5 == 0 ? Centroid::First : std::array{Centroid::Mean, Centroid::First, Centroid::Centre}[seed % 3]) {
@@ -32,7 +32,7 @@ struct Owners {
     for (std::uint32_t s = 0; s < static_cast<std::uint32_t>(samples); ++s)
       for (std::uint32_t i = 0; i < 8; ++i) {
         const std::uint32_t at = hash(seed, s, i);
-        id[s * tile_pixels + i] =
+        id[s * sample_stride + i] =
             at % 9 == 0 ? no_primitive : static_cast<std::int32_t>(1000 + (seed % 3 == 0 ? i : 0) + at / 9 % kinds);
       }
     row = {.id = id.data(),
@@ -74,12 +74,12 @@ TEST(FragmentList, EverySampleThatIsOwnedColoursFromOnePoint) {
         EXPECT_EQ(coloured[lane] & own, 0u);
         coloured[lane] |= own;
         for (int s = 0; s < samples; ++s) {
-          const bool is_of_point = row.id[s * tile_pixels + static_cast<int>(lane)] == id;
+          const bool is_of_point = row.id[s * sample_stride + static_cast<int>(lane)] == id;
           EXPECT_TRUE(is_of_point || (own >> s & 1) == 0);
         }
         const int first = std::countr_zero(own);
         int of_triangle = 0;
-        while (row.id[of_triangle * tile_pixels + static_cast<int>(lane)] != id) ++of_triangle;
+        while (row.id[of_triangle * sample_stride + static_cast<int>(lane)] != id) ++of_triangle;
         const int place = row.is_per_sample ? first : 16 * of_triangle + first;
         EXPECT_GT(place, last[lane]) << "in the order of samples, or of their triangles' first samples";
         last[lane] = place;
@@ -91,8 +91,8 @@ TEST(FragmentList, EverySampleThatIsOwnedColoursFromOnePoint) {
       }
       for (std::size_t lane = 0; lane < 8; ++lane)
         for (int s = 0; s < samples; ++s) {
-          const bool is_owned =
-              row.id[static_cast<std::size_t>(s) * tile_pixels + lane] != no_primitive && (row.drawn >> lane & 1) != 0;
+          const bool is_owned = row.id[static_cast<std::size_t>(s) * sample_stride + lane] != no_primitive &&
+                                (row.drawn >> lane & 1) != 0;
           EXPECT_EQ((coloured[lane] >> s & 1) != 0, is_owned) << samples << " samples, seed " << seed;
         }
     }

@@ -21,7 +21,7 @@ std::uint64_t rotated_samples(const TileJob& job, std::uint32_t pixel, int count
 }
 
 void copy_samples(const TileVisibility& from, VisibilityBuffer& to) {
-  const std::size_t values = static_cast<std::size_t>(from.sample_count) * tile_pixels;
+  const std::size_t values = static_cast<std::size_t>(from.sample_count) * sample_stride;
   to.sample_count = from.sample_count;
   to.dirty = from.dirty;
   std::copy_n(from.depth, values, to.depth);
@@ -80,7 +80,7 @@ void AlphaTester::draw_layers(const TileJob& job, FragmentBatcher& batcher, Tile
     std::uint32_t d = layer.first_depth;
     for (std::uint64_t left = layer.samples; left; left &= left - 1, ++d) {
       const int s = std::countr_zero(left);
-      const std::size_t at = static_cast<std::size_t>(s) * tile_pixels + layer.pixel;
+      const std::size_t at = static_cast<std::size_t>(s) * sample_stride + layer.pixel;
       const float z = list_.depths[d];
       if (!(passing_samples_[list_.fragment_at(i, s, is_per_sample)] >> s & 1)) continue;
       if (z > visibility.depth[at] || (z == visibility.depth[at] && layer.id < visibility.id[at])) {

@@ -22,9 +22,9 @@ TEST(AlphaTestStage, ASurfaceIsPresentWhereAlphaReachesTheCutoff) {
                         standard_pattern(4));
   TileBuffers b(*scene.setup);
   test_alpha_alone(b);
-  for (int i = 0; i < 4 * tile_pixels; ++i) {
-    ASSERT_EQ(b.visibility.id[i], 1);
-    ASSERT_EQ(b.visibility.depth[i], 0.4f);
+  for (std::uint32_t i = 0; i < 4 * tile_pixels; ++i) {
+    ASSERT_EQ(b.visibility.id[sample_place(i)], 1);
+    ASSERT_EQ(b.visibility.depth[sample_place(i)], 0.4f);
   }
 }
 
@@ -36,7 +36,7 @@ TEST(AlphaTestStage, CoverageTakesAsManySamplesAsAlphaGives) {
   test_alpha_alone(b);
   for (int pixel = 0; pixel < tile_pixels; ++pixel) {
     int samples = 0;
-    for (int s = 0; s < 8; ++s) samples += b.visibility.id[s * tile_pixels + pixel] == 0;
+    for (int s = 0; s < 8; ++s) samples += b.visibility.id[s * sample_stride + pixel] == 0;
     ASSERT_EQ(samples, 2);
   }
 }
@@ -52,7 +52,7 @@ TEST(AlphaTestStage, PartsGiveTheSameVisibilityAsTheWhole) {
     begin_whole_pass(b);
     rasterize_opaque(b.job, b.visibility);
     b.alpha_tester.rasterize(b.job, b.batcher, b.visibility);
-    const std::vector<std::int32_t> ids(b.visibility.id, b.visibility.id + 2 * tile_pixels);
+    const std::vector<std::int32_t> ids(b.visibility.id, b.visibility.id + 2 * sample_stride);
     if (whole.empty()) whole = ids;
     EXPECT_EQ(ids, whole);
   }

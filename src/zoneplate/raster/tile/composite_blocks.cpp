@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <bit>
 
 #include "zoneplate/base/deadline.h"
 #include "zoneplate/raster/tile/composite.h"
@@ -20,7 +21,11 @@ bool consists_of_spans(const TileJob& job, const OpaqueFragments& opaque, std::u
 /// Sorts nearest first; false if two of the layers may change places within the block, or are pieces of one triangle.
 bool sort_block(std::span<BlockLayer> layers) {
   const auto is_nearer = [](const BlockLayer& p, const BlockLayer& q) { return p.least > q.least; };
-  if (!std::is_sorted(layers.begin(), layers.end(), is_nearer)) std::sort(layers.begin(), layers.end(), is_nearer);
+  if (std::is_sorted(layers.rbegin(), layers.rend(), is_nearer)) {
+    std::reverse(layers.begin(), layers.end());  // drawn back to front, as most transparent surfaces are
+  } else if (!std::is_sorted(layers.begin(), layers.end(), is_nearer)) {
+    std::sort(layers.begin(), layers.end(), is_nearer);
+  }
   for (std::size_t i = 1; i < layers.size(); ++i)
     if (!(layers[i - 1].least > layers[i].greatest) || layers[i - 1].id == layers[i].id) return false;
   return true;
@@ -109,16 +114,18 @@ void BlockCompositor::composite_strip(const TileJob& job, FragmentBatcher& batch
   float undecided[64];  // by span: once its first pixel's transmittance is this small, its codes may be decided
   std::fill_n(undecided, 64, 0x1p13f * least);
   for (const auto& of_block : layers) deepest = std::max(deepest, of_block.size());
+  std::uint8_t open[8];  // by column: a bit for each span whose stack is open
+  std::fill_n(open, 8, std::uint8_t{0xff});
   FragmentSpan spans[64];
   TransparentStack8* stack_of[64];
   std::uint8_t index_of[64];  // of the stacks
   for (std::size_t layer = 0; layer < deepest; ++layer) {
     std::size_t count = 0;
     for (std::uint32_t column = 0; column < 8; ++column) {
-      if (layer >= layers[column].size()) continue;
+      if (layer >= layers[column].size() || open[column] == 0) continue;
       const Fragment centre = job.fragment_at((first_span + column) * 8, layers[column][layer].id, job.pass.all);
-      for (std::uint32_t i = 0; i < 8; ++i) {
-        if (!stacks_[i * 8 + column].is_open) continue;
+      for (std::uint32_t left = open[column]; left; left &= left - 1) {
+        const auto i = static_cast<std::uint32_t>(std::countr_zero(left));
         spans[count] = {centre.x, centre.y + 256 * static_cast<std::int32_t>(i), centre.id,
                         centre.pixel + i * tile_size};
         index_of[count] = static_cast<std::uint8_t>(i * 8 + column);
@@ -129,12 +136,15 @@ void BlockCompositor::composite_strip(const TileJob& job, FragmentBatcher& batch
     batcher.shade_in_order(std::span(spans).first(count),
                            [&](const FragmentOutputs& color, std::size_t first, std::size_t shaded) {
                              kernels.composite_spans_under(color, static_cast<int>(shaded), least, stack_of + first);
-                             for (std::size_t i = first; may_be_decided && i < first + shaded; ++i) {
+                             for (std::size_t i = first; i < first + shaded; ++i) {
                                TransparentStack8& stack = *stack_of[i];
                                float& limit = undecided[index_of[i]];
-                               if (!stack.is_open || stack.transmittance[0] > limit) continue;
-                               limit = stack.transmittance[0] / 2;
-                               stack.is_open = !is_decided(job, stack, deepest - layer);
+                               if (stack.is_open && may_be_decided && !(stack.transmittance[0] > limit)) {
+                                 limit = stack.transmittance[0] / 2;
+                                 stack.is_open = !is_decided(job, stack, deepest - layer);
+                               }
+                               if (!stack.is_open)
+                                 open[index_of[i] % 8] &= static_cast<std::uint8_t>(~(1u << index_of[i] / 8));
                              }
                            });
   }

@@ -67,7 +67,7 @@ void find_nearest_surfaces(const TileJob& job, const TileVisibility& visibility,
       if (nearest.first_id == fragment.id) nearest.first_owns += std::popcount(fragment.samples);
       for (std::uint64_t left = fragment.samples; left; left &= left - 1) {
         const int s = std::countr_zero(left);
-        const float z = visibility.depth[static_cast<std::size_t>(s) * tile_pixels + pixel];
+        const float z = visibility.depth[static_cast<std::size_t>(s) * sample_stride + pixel];
         if (z < nearest.depth || (z == nearest.depth && fragment.id >= nearest.id)) continue;
         nearest.depth = z, nearest.id = fragment.id;
         nearest.sample = target.samples[static_cast<std::size_t>(job.pass.first + s)];

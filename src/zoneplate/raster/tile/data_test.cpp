@@ -69,7 +69,7 @@ TEST(DataStage, TheNearestSampleDecides) {
   begin_whole_pass(b);
   b.data.nearest.assign(tile_pixels, NearestSurface{});
   fill_visibility(b.job, b.visibility, [](int s, int, int) { return s == 2 ? 1 : 0; });
-  b.visibility.depth[2 * tile_pixels] = 0.75f;
+  b.visibility.depth[2 * sample_stride] = 0.75f;
   list_fragments(b.job, b.visibility, b.opaque);
   find_nearest_surfaces(b.job, b.visibility, b.opaque, false, b.data);
   EXPECT_EQ(b.data.nearest[0].id, 1);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
 
 namespace zoneplate {
 namespace {
@@ -51,11 +52,15 @@ class OpaqueShading {
   FragmentBatcher& batcher_;
   OpaqueFragments& opaque_;
   TileColors& colors_;
-  const bool lists_;  ///< pixels of mixed spans go through OpaqueFragments::list
+  std::size_t span_count_ = 0;  ///< of OpaqueFragments::spans
+  const bool lists_;            ///< pixels of mixed spans go through OpaqueFragments::list
 };
 
 void OpaqueShading::find_spans() {
-  opaque_.spans.clear();
+  const std::size_t most =
+      tile_pixels / FragmentBatch::group * static_cast<std::size_t>(target_.is_per_sample ? job_.pass.count : 1);
+  if (opaque_.spans.size() < most) opaque_.spans.resize(most);
+  span_count_ = 0;
   opaque_.fragments.clear();
   setup_.coverage.find_owners(visibility_, opaque_.span_primitive);
   for (int block = 0; block < TileVisibility::blocks; ++block) {
@@ -73,10 +78,7 @@ void OpaqueShading::find_spans() {
 void OpaqueShading::add_block(int block, std::int32_t id) {
   const int first = std::max(block / 8 * 8, job_.drawn.top), last = std::min(block / 8 * 8 + 8, job_.drawn.bottom);
   FragmentSpan span = job_.span_at(static_cast<std::uint32_t>(first * tile_size + block % 8 * 8), id);
-  const std::size_t count = opaque_.spans.size();
-  opaque_.spans.resize(count + static_cast<std::size_t>(last - first));
-  for (std::size_t i = count; i < opaque_.spans.size(); ++i, span.y += 256, span.pixel += tile_size)
-    opaque_.spans[i] = span;
+  for (int y = first; y < last; ++y, span.y += 256, span.pixel += tile_size) opaque_.spans[span_count_++] = span;
 }
 
 void OpaqueShading::find_spans_of(int block) {
@@ -94,7 +96,7 @@ void OpaqueShading::find_spans_of(int block) {
     } else if (is_span && target_.is_per_sample) {
       add_sample_spans(pixel, owner);
     } else if (is_span) {
-      opaque_.spans.push_back(job_.span_at(pixel, owner));
+      opaque_.spans[span_count_++] = job_.span_at(pixel, owner);
     } else if (lists_) {
       list_span(row);
     } else {
@@ -109,12 +111,12 @@ void OpaqueShading::add_sample_spans(std::uint32_t pixel, std::int32_t id) {
   colors_.sum[pixel / 8] = {};
   for (int s = 0; s < job_.pass.count; ++s) {
     const Fragment at = job_.fragment_at(pixel, id, std::uint64_t{1} << s);
-    opaque_.spans.push_back({at.x, at.y, id, pixel});
+    opaque_.spans[span_count_++] = {at.x, at.y, id, pixel};
   }
 }
 
 void OpaqueShading::shade_spans() {
-  const std::vector<FragmentSpan>& spans = opaque_.spans;
+  const std::span<const FragmentSpan> spans(opaque_.spans.data(), span_count_);
   batcher_.shade(spans, [&](std::span<const std::uint32_t> numbers, const FragmentOutputs& color) {
     const auto resolve = [&](float weight, std::vector<Linear8>& to) {
       Linear8* out[FragmentBatch::groups];
@@ -132,7 +134,7 @@ void OpaqueShading::shade_spans() {
 
 // The samples of a span follow one another, and the spans of one material keep their order.
 void OpaqueShading::shade_sample_spans() {
-  const std::vector<FragmentSpan>& spans = opaque_.spans;
+  const std::span<const FragmentSpan> spans(opaque_.spans.data(), span_count_);
   const auto samples = static_cast<std::size_t>(job_.pass.count);
   std::size_t s = 0;
   batcher_.shade(spans, [&](std::span<const std::uint32_t> numbers, const FragmentOutputs& color) {
@@ -223,7 +225,7 @@ void OpaqueShading::store_listed(const FragmentOutputs& colors, std::size_t firs
 }  // namespace
 
 void add_pixel(const TileJob& job, const TileVisibility& visibility, std::uint32_t pixel, std::vector<Fragment>& out) {
-  const auto id_at = [&](int s) { return visibility.id[static_cast<std::size_t>(s) * tile_pixels + pixel]; };
+  const auto id_at = [&](int s) { return visibility.id[static_cast<std::size_t>(s) * sample_stride + pixel]; };
   if (job.pass.count == 1 || job.setup.target.is_per_sample) {
     for (int s = 0; s < job.pass.count; ++s)
       if (id_at(s) != no_primitive) out.push_back(job.fragment_at(pixel, id_at(s), std::uint64_t{1} << s));

@@ -75,7 +75,7 @@ void store_sample(const TileJob& job, const TileVisibility& visibility, std::uin
   const Target& target = job.setup.target;
   const int x = job.target_x(pixel), y = job.target_y(pixel);
   const auto s = static_cast<std::size_t>(job.pass.first + sample);
-  const std::size_t at = static_cast<std::size_t>(sample) * tile_pixels + pixel;
+  const std::size_t at = static_cast<std::size_t>(sample) * sample_stride + pixel;
   if (target.sample_color) (*target.sample_color)[s](x, y) = color;
   if (target.sample_depth) (*target.sample_depth)[s](x, y) = visibility.depth[at];
   if (target.sample_triangle)

@@ -117,7 +117,7 @@ void fill_visibility(const TileJob& job, TileVisibility& visibility, Owner owner
   for (int s = 0; s < job.pass.count; ++s)
     for (int y = 0; y < tile_size; ++y)
       for (int x = 0; x < tile_size; ++x) {
-        const auto at = static_cast<std::size_t>((s * tile_size + y) * tile_size + x);
+        const auto at = static_cast<std::size_t>(s * sample_stride + y * tile_size + x);
         visibility.id[at] = owner(s, x, y);
         visibility.depth[at] = visibility.id[at] == no_primitive ? 0.0f : 0.5f;
       }

@@ -42,8 +42,8 @@ void materialize_touched(const SampleBin& bin, TileVisibility& visibility) {
 }  // namespace
 
 VisibilityBuffer::VisibilityBuffer(int max_samples)
-    : depth_storage_(static_cast<std::size_t>(max_samples) * tile_pixels),
-      id_storage_(static_cast<std::size_t>(max_samples) * tile_pixels) {
+    : depth_storage_(static_cast<std::size_t>(max_samples) * sample_stride),
+      id_storage_(static_cast<std::size_t>(max_samples) * sample_stride) {
   depth = depth_storage_.data();
   id = id_storage_.data();
   block_min_depth = block_min_depth_storage_;
@@ -87,8 +87,9 @@ void rasterize_small(const TileJob& job, TileVisibility& visibility) {
           __builtin_prefetch(&bin->previous->depth[i]);
           __builtin_prefetch(&bin->previous->packed[i]);
         }
-        const std::uint32_t at = SampleBin::at(bin->packed[i]) - first;
-        if (at >= values) continue;  // a sample of another pass
+        const std::uint32_t value = SampleBin::at(bin->packed[i]) - first;
+        if (value >= values) continue;  // a sample of another pass
+        const std::uint32_t at = sample_place(value);
         const float z = bin->depth[i];
         const std::int32_t t = bin->id(bin->packed[i]);
         if (z < depth[at] || (z == depth[at] && t > id[at])) continue;
@@ -106,7 +107,7 @@ void write_visibility(const TileJob& job, const TileVisibility& visibility) {
         if (!job.draws(x, y)) continue;
         const auto sample = static_cast<std::size_t>(s);
         const auto pixel = static_cast<std::uint32_t>(y * tile_size + x);
-        const std::size_t at = sample * tile_pixels + pixel;
+        const std::size_t at = sample * sample_stride + pixel;
         const std::int32_t id = visibility.id[at];
         (*target.sample_triangle)[sample](job.target_x(pixel), job.target_y(pixel)) =
             id == no_primitive ? Target::no_id : static_cast<std::uint32_t>(id);
