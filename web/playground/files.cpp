@@ -85,9 +85,11 @@ std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes) {
 
 std::uint64_t decoded_image_memory(std::span<const std::uint8_t> bytes) {
   const std::optional<int2> size = find_image_size(bytes);
-  return size ? std::uint64_t{is_hdr(bytes) ? sizeof(float4) : sizeof(Rgba16)} * static_cast<std::uint64_t>(size->x) *
-                    static_cast<std::uint64_t>(size->y)
-              : 0;
+  if (!size) return 0;
+  const std::uint64_t texel = is_hdr(bytes)    ? sizeof(float4)
+                              : is_ktx2(bytes) ? ktx2_texel_memory(bytes)
+                                               : sizeof(Rgba16);
+  return texel * static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y);
 }
 std::uint64_t image_working_memory(std::span<const std::uint8_t> bytes) { return ktx2_working_memory(bytes); }
 
