@@ -133,6 +133,26 @@ TEST(Transmission, GlassBeforeTheBackgroundIsTransparent) {
   expect(alone({1, 0.2f, 0.2f, 1}, false), {1 - 0.15f, 0.2f - 0.15f, 0.2f - 0.15f, 0.85f});
 }
 
+TEST(Transmission, OpaqueGlassTransmitsBlackBeforeATransparentBackground) {
+  MaterialLayers clear{.ior = 1, .transmission = 0.75f};
+  clear.specular = 0;
+  Scene scene;
+  add_square(scene, 1, 0, glass(clear));
+  scene.environment.color = {1, 1, 1};
+  RenderOptions options{.width = width, .height = height};
+  options.opaque_glass = true;
+  options.display.is_transparent = true;
+  const auto seen = [&] {
+    return render(PreparedScene(scene), from_front(), {.samples = standard_pattern(4)}, options)
+        .color(width / 2, height / 2);
+  };
+  const Linear alone = seen();  // the diffuse quarter
+  EXPECT_NEAR(alone.r, 0.25f, 1e-3f);
+  EXPECT_EQ(alone.a, 1);
+  add_square(scene, 1, -1, glowing({0, 1, 0}));
+  EXPECT_NEAR(seen().g, 1, 1e-3f);
+}
+
 TEST(Transmission, GlassColoursTheBackground) {
   MaterialLayers clear{.ior = 1, .transmission = 1};
   clear.specular = 0;

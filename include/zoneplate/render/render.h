@@ -53,6 +53,9 @@ struct RenderOptions {
   RasterCapacity capacity;                          ///< trades memory for time; does not change any bit of the image
   std::optional<EnvironmentBackground> background;  ///< none: that of `display`
   DisplayOptions display;                           ///< from linear light to display-referred colour
+  /// Before a transparent background, transmissive surfaces keep their coverage as alpha and transmit black where
+  /// nothing is behind them; otherwise their alpha is 1 - the part of light that passes.
+  bool opaque_glass = false;
   std::optional<Moment> last;  ///< the moment from which Frame::motion is measured; none: no motion
   std::optional<Moment> next;  ///< the moment to which Frame::flow leads
   /// Called by any thread while tiles are drawn, with the fraction of them that is complete; a method that draws in

@@ -65,6 +65,8 @@ ViewUniforms view_uniforms_of(const Lighting& lighting, float3 up, const Camera&
     const auto light = [&](float code) { return b.w * (display.raw ? code : decode_srgb(code)) / display.exposure; };
     s.background = float3{light(b.x), light(b.y), light(b.z)};
   }
+  if (options.opaque_glass && !options.background && options.display.is_transparent)
+    s.background = float3{0, 0, 0}, s.has_environment_behind = true;
   s.ambient_light = lighting.ambient_light;
   s.anisotropy = options.anisotropy;
   s.texture_filter = options.texture_filter, s.specular_aa = options.specular_aa;

@@ -43,7 +43,8 @@ struct Scenario {
   bool has_background = false;
 };
 
-/// The scene that all peers render: camera as <model-viewer>, no lights but the image, three.js' ACES curve.
+/// The scene that all peers render: camera as <model-viewer>, no lights but the image, three.js' ACES curve. Most peers
+/// draw glass opaque before a transparent background.
 std::vector<std::string> render_arguments(const Scenario& s, const FidelityArgs& args, const std::string& root,
                                           int2 size, const std::string& output) {
   const SineCosine theta = sine_cosine(static_cast<double>(s.theta) * 3.14159265358979323846 / 180);
@@ -73,7 +74,7 @@ std::vector<std::string> render_arguments(const Scenario& s, const FidelityArgs&
   if (s.has_background)
     words.insert(words.end(), {"--background", "environment"});
   else
-    words.emplace_back("--no-background");
+    words.insert(words.end(), {"--no-background", "--opaque-glass"});
   return words;
 }
 

@@ -311,6 +311,11 @@ std::vector<Option> picture_options(RenderArgs& a) {
        [&](auto& text) { a.background_blur = static_cast<float>(parse_number(text, 0, 1)); }},
       {"--no-background", "", "Transparent background: the default of .exr", group, true,
        [&](auto&) { a.display.is_transparent = true; }},
+      {"--opaque-glass", "",
+       "With a transparent background, transmissive surfaces are opaque and transmit black where nothing is behind "
+       "them, "
+       "as in Babylon.js and Khronos' sample viewer; otherwise their alpha is 1 - the part of light that passes",
+       group, true, [&](auto&) { a.options.opaque_glass = true; }},
       choice_option("--tone-mapping", "CURVE",
                     "Tone-mapping curve of images that are not linear: none, aces, neutral, agx or filmic; default "
                     "neutral in the studio that a scene without lights gets, else none",

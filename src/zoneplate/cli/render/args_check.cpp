@@ -131,6 +131,8 @@ void check_args(RenderArgs& args) {
   check_environment(args);
   const std::string ending = extension_of(args.named_output());
   if (ending == ".exr" && !args.background && !args.options.background) args.display.is_transparent = true;
+  if (args.options.opaque_glass && !args.display.is_transparent)
+    throw Error(ErrorKind::Usage, "--opaque-glass requires a transparent background (--no-background)");
   if (args.output != "-" && args.stdout_format != "png")
     throw Error(ErrorKind::Usage, "--output-format requires -o -: otherwise the extension of OUT selects the format");
   if (args.options.ground == GroundKind::Shadow && !has_visibility(args.options))

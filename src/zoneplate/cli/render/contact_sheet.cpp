@@ -157,9 +157,10 @@ Syntax make_syntax(SheetArgs& args) {
                     {"--columns", "N", "Images per row; default: the number that makes the sheet closest to 4:3",
                      "Sheet", true, [&](auto& text) { args.columns = parse_whole(text, 1, 1000); }},
                     {"--title", "TEXT", "Title of the sheet", "Sheet", false, [&](auto& text) { args.title = text; }}};
-  constexpr std::string_view left_out[] = {
-      "--output",  "--output-format", "--bit-depth",       "--crop",   "--aov",       "--no-background",
-      "--verbose", "--displacement",  "--exr-compression", "--preset", "--no-config", "--dry-run"};
+  constexpr std::string_view left_out[] = {"--output",       "--output-format",   "--bit-depth",    "--crop",
+                                           "--aov",          "--no-background",   "--opaque-glass", "--verbose",
+                                           "--displacement", "--exr-compression", "--preset",       "--no-config",
+                                           "--dry-run"};
   for (Option& option : render_syntax(args.render).options) {
     const std::string first = option.names.substr(0, option.names.find(','));
     if (option.group == "Sequences" || option.group == "Batches") continue;
