@@ -98,7 +98,7 @@ TEST_F(FilterVerb, WhatCannotBeFilteredIsRefused) {
   EXPECT_EQ(
       output_,
       "zoneplate: error: --anti-aliasing: msaa needs a scene, expected a filter of images: fxaa, smaa, mlaa, cmaa2, "
-      "dlaa, ddaa, taa\n");
+      "dlaa, ddaa, taa, history-guided\n");
   for (const char* method : {"smaa:edges=depth", "smaa:mode=s2x", "analytic:order=display", "none"})
     EXPECT_EQ(run(std::string("filter a.png -o b.png --aa ") + method), 2) << method;
   EXPECT_EQ(run("filter a.png -o b.png"), 2);

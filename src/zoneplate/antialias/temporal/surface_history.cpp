@@ -51,14 +51,21 @@ SurfaceHistory::SurfaceHistory(const Options& options)
       coverage_(jitter_pattern(JitterSequence::R2, per_frame_pixel(options.coverage, options.scale))),
       reach_(static_cast<int>(std::ceil(options.scale))) {}
 
+/// Textures are sampled at the sample, not at the centre, and less filtered, since the mean of many samples filters
+/// them. An alpha test decides as it does for the shaded sample: at another mip level it covers another part of a
+/// pixel.
+void SurfaceHistory::filter_textures_for_samples(Request& request) const {
+  request.rate = Rate::Sample;
+  request.footprint = 0.25f / static_cast<float>(options_.scale);
+}
+
 Request SurfaceHistory::request(const FrameContext& context) {
   context_ = context;
   pass_ = 0;
   width_ = context.image.width, height_ = context.image.height;
   Request request;
   request.samples = {jitter_[static_cast<std::size_t>(context.index) % jitter_.size()]};
-  request.rate = Rate::Sample;                                     // textures are sampled there too, not at the centre
-  request.footprint = 0.25f / static_cast<float>(options_.scale);  // the mean of many samples filters the rest
+  filter_textures_for_samples(request);
   if (options_.scale > 1) {
     const auto side = [&](int n) { return std::max(1, static_cast<int>(n / options_.scale)); };
     request.frame = ImageExtent{side(width_), side(height_), std::nullopt};
@@ -84,6 +91,7 @@ std::optional<Request> SurfaceHistory::refine(Frame& frame) {
   Request request;
   request.samples = {coverage_[pass_++]};
   request.content = Content::Data;
+  filter_textures_for_samples(request);
   request.planes.object_id = request.planes.motion = request.planes.was_visible = true;
   return request;
 }

@@ -68,6 +68,7 @@ class SurfaceHistory : public Resolver {
   struct Cell {
     int x, y;
   };
+  void filter_textures_for_samples(Request& request) const;
   Cell cell_of(int x, int y, SamplePosition position) const;
   bool has_sample(std::uint32_t object, int x, int y) const;
   template <class Use>

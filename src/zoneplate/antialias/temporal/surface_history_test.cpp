@@ -55,6 +55,12 @@ TEST(SurfaceHistory, FollowsAChangeOfLight) {
   EXPECT_LE(rms(last_frame(moving, "oracle-taa", 9), reference), 1.5 * rms(last_frame(moving, "none", 9), reference));
 }
 
+TEST(SurfaceHistory, AlphaTestsCoverAsMuchAsInTheShadedSamples) {
+  const MovingScene moving = still(*make_builtin_scene("foliage"));
+  const LinearImage reference = last_frame(moving, "converged:samples=64", 1);
+  EXPECT_LE(rms(last_frame(moving, "oracle-taa", 16), reference), 0.3 * rms(last_frame(moving, "none", 1), reference));
+}
+
 TEST(SurfaceHistory, BitsDoNotDependOnThreads) {
   const MovingScene moving = passing_square();
   LinearImage one, three;
