@@ -5,8 +5,16 @@
 #include <cstddef>
 
 #include "zoneplate/shade/texture/filtering.h"
+#include "zoneplate/shade/texture/texture_view.h"
 
 namespace zoneplate {
+
+/// RowPitch::of, by fragment.
+template <class Int>
+[[gnu::always_inline]] inline Int row_pitches(Int width) {
+  const auto is_padded = (width > Int(RowPitch::least_padded - 1)) & ((width & Int(RowPitch::multiple - 1)) < Int(1));
+  return width + Int(RowPitch::border) + where(is_padded, Int(RowPitch::padding));
+}
 
 /// The mip level of a texture at each fragment: its size in 1/32768 texel, and the layout of its texels.
 template <class F>
@@ -21,7 +29,7 @@ template <class F, class View>
   using Int = typename F::Int;
   const std::int32_t w = t.width[level], h = t.height[level];
   const auto size = [](std::int32_t n) { return F(static_cast<float>(n) * 32768.0f); };
-  return {size(w), size(h), Int(w), Int(h), Int(w + 2), Int(t.offset[level])};
+  return {size(w), size(h), Int(w), Int(h), Int(t.pitch(level)), Int(t.offset[level])};
 }
 
 /// The level of each fragment.
@@ -30,7 +38,7 @@ template <class F, class View>
   using Int = typename F::Int;
   static_assert(View::max_levels == 16);
   const Int w = Int::look_up(t.width, level), h = Int::look_up(t.height, level);
-  return {F::from(w) * F(32768.0f), F::from(h) * F(32768.0f), w, h, w + Int(2), Int::look_up(t.offset, level)};
+  return {F::from(w) * F(32768.0f), F::from(h) * F(32768.0f), w, h, row_pitches(w), Int::look_up(t.offset, level)};
 }
 
 /// A coordinate wrapped to [0, 1]; NaN gives 0.

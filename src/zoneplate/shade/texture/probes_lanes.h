@@ -91,7 +91,7 @@ struct ProbeList {
   int first = 0, last = 0;  ///< the range of fragments
 };
 
-/// The levels that fragments read, also side by side in one vector where Joined has such vectors.
+/// The levels that fragments read, also both levels in one vector where Joined has such vectors.
 template <class F, class Joined>
 struct ProbeLevels {
   Lookup<F> lookup;
@@ -176,7 +176,7 @@ template <class F, class Joined, class View, class Filter>
       store_probe<F>(f, of, group, u, v, k, out[0]);
       continue;
     }
-    // A fragment with one probe looks it up where it would with neighbours that have one.
+    // The offset of a fragment's only probe is 0, but its product with an infinite derivative is not.
     const F all = F::load(probes.count + i + k), step = one / all, first = half * step - half, last = all - one;
     const F du = F::load(probes.du + i + k), dv = F::load(probes.dv + i + k);
     const auto has_several = all > one;
@@ -194,7 +194,8 @@ template <class F, class Joined, class View, class Filter>
   for (int n = 0; n < most; ++n) prefetch_probe(fetch, group, out[n]);
 }
 
-/// mix(list) stores the means of the probes. F has at most eight lanes, `Wide` at most sixteen.
+/// mix(list) stores the means of the probes. F has at most eight lanes, `Wide` at most sixteen; Joined joins two
+/// vectors of F to one, where an instruction set has such vectors.
 template <class F, class Wide, class Joined, class View, class Mix>
 [[gnu::always_inline]] inline void sample_anisotropic(const View& t, const SamplerState& f, const Footprint& at,
                                                       int count, Mix mix) {
