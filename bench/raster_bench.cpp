@@ -47,7 +47,7 @@ void geometry(benchmark::State& state, const char* name) {
       const double start = processor_ms();
       projected = project_draws(s.draws.draws, s.target.viewport, std::move(projected));
       const double transformed = processor_ms();
-      bins = bin_triangles(projected, s.target, {.viewport = s.target.viewport}, std::move(bins));
+      bins = bin_triangles(projected, s.target, RasterRules{}, std::move(bins));
       const double binned = processor_ms();
       vertices_ms = std::min(vertices_ms, transformed - start);
       triangles_ms = std::min(triangles_ms, binned - transformed);

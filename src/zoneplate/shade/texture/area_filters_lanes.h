@@ -167,7 +167,7 @@ struct Grid {
   Int pitch, origin;  ///< texel (0, 0) has the index `origin`
 
   [[gnu::always_inline]] Grid(Int width, Int height, Int offset, const SamplerState& f)
-      : x(width, f.mirror_u, f.clamp_u), y(height, f.mirror_v, f.clamp_v), pitch(width + Int(2)) {
+      : x(width, f.mirror_u, f.clamp_u), y(height, f.mirror_v, f.clamp_v), pitch(row_pitches(width)) {
     origin = offset + pitch + Int(1);
   }
   [[gnu::always_inline]] Int row(F number) const { return origin + y.wrapped(number) * pitch; }

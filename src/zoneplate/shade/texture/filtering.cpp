@@ -7,6 +7,7 @@
 #include "zoneplate/math/lanes.h"
 #include "zoneplate/scene/material.h"
 #include "zoneplate/shade/texture/filtering_lanes.h"
+#include "zoneplate/shade/texture/probes_lanes.h"
 #include "zoneplate/shade/texture/texture.h"
 #include "zoneplate/shade/texture/texture_view.h"
 
@@ -62,14 +63,38 @@ namespace {
 /// a + (b - a) × weight / 32768, to the nearest.
 std::int32_t mix(std::int32_t a, std::int32_t b, std::int32_t weight) { return a + (((b - a) * weight + 16384) >> 15); }
 
+/// The taps of a fragment on one level.
+struct LevelTaps {
+  std::int32_t upper, lower, right, down;
+};
+/// The taps of a fragment on both levels.
+struct FragmentTaps {
+  LevelTaps level[2];
+  std::int32_t mip_weight;
+};
+
+FragmentTaps taps_at(const Taps& taps, int i) {
+  FragmentTaps out{.level = {}, .mip_weight = taps.mip_weight[Taps::by_fours(i)]};
+  for (int n = 0; n < 2; ++n) out.level[n] = {taps.upper[n][i], taps.lower[n][i], taps.right(n, i), taps.down(n, i)};
+  return out;
+}
+FragmentTaps taps_at(const ProbeGroup& group, const ProbeTaps& taps, int i) {
+  const int at = Taps::by_fours(i);
+  FragmentTaps out{.level = {}, .mip_weight = group.mip_weight[at]};
+  for (int n = 0; n < (group.has_second ? 2 : 1); ++n) {
+    const std::int32_t upper = taps.upper[n][i], lower = group.has_pitch ? upper + group.pitch[n] : taps.lower[n][i];
+    out.level[n] = {upper, lower, taps.bilinear_weight[n][at], taps.bilinear_weight[n][at + 4]};
+  }
+  return out;
+}
+
 template <class Code>
-std::int32_t mix_level(const Code* codes, int shift, const Taps& taps, int level, int point, int channel) {
+std::int32_t mix_level(const Code* codes, int shift, const LevelTaps& taps, int channel) {
   const auto code = [&](std::int32_t texel) {
     return static_cast<std::int32_t>(codes[std::ptrdiff_t{4} * texel + channel]) << shift;
   };
-  const std::int32_t upper = taps.upper[level][point], lower = taps.lower[level][point];
-  const std::int32_t right = taps.right(level, point), down = taps.down(level, point);
-  return mix(mix(code(upper), code(lower), down), mix(code(upper + 1), code(lower + 1), down), right);
+  return mix(mix(code(taps.upper), code(taps.lower), taps.down),
+             mix(code(taps.upper + 1), code(taps.lower + 1), taps.down), taps.right);
 }
 
 /// 8 or 15 bits: their value in 1/32640 or 1/32767.
@@ -79,10 +104,9 @@ struct Codes {
   int shift;
   float unit;
 
-  std::int32_t mix_levels(const Taps& taps, int i, int channel) const {
-    const std::int32_t first = mix_level(codes, shift, taps, 0, i, channel);
-    const std::int32_t mip_weight = taps.mip_weight[Taps::by_fours(i)];
-    return mip_weight > 0 ? mix(first, mix_level(codes, shift, taps, 1, i, channel), mip_weight) : first;
+  std::int32_t mix_levels(const FragmentTaps& taps, int channel) const {
+    const std::int32_t first = mix_level(codes, shift, taps.level[0], channel);
+    return taps.mip_weight > 0 ? mix(first, mix_level(codes, shift, taps.level[1], channel), taps.mip_weight) : first;
   }
   static std::int32_t mean(std::int32_t before, std::int32_t probe, std::int32_t weight) {
     return mix(before, probe, weight);
@@ -96,11 +120,11 @@ float value_of(float value) { return value; }
 float value_of(Half half) { return half_value(half.bits); }
 
 template <class Value>
-float mix_level(const Value* values, const Taps& taps, int level, int point, int channel) {
-  const Value* const upper = values + std::ptrdiff_t{4} * taps.upper[level][point] + channel;
-  const Value* const lower = values + std::ptrdiff_t{4} * taps.lower[level][point] + channel;
-  const float right = static_cast<float>(taps.right(level, point)) * 0x1p-15f;
-  const float down = static_cast<float>(taps.down(level, point)) * 0x1p-15f;
+float mix_level(const Value* values, const LevelTaps& taps, int channel) {
+  const Value* const upper = values + std::ptrdiff_t{4} * taps.upper + channel;
+  const Value* const lower = values + std::ptrdiff_t{4} * taps.lower + channel;
+  const float right = static_cast<float>(taps.right) * 0x1p-15f;
+  const float down = static_cast<float>(taps.down) * 0x1p-15f;
   return mix(mix(value_of(upper[0]), value_of(lower[0]), down), mix(value_of(upper[4]), value_of(lower[4]), down),
              right);
 }
@@ -110,11 +134,10 @@ template <class Value>
 struct Values {
   const Value* values;
 
-  float mix_levels(const Taps& taps, int i, int channel) const {
-    const float first = mix_level(values, taps, 0, i, channel);
-    const int mip_weight = taps.mip_weight[Taps::by_fours(i)];
-    const float weight = static_cast<float>(mip_weight) * 0x1p-15f;
-    return mip_weight > 0 ? mix(first, mix_level(values, taps, 1, i, channel), weight) : first;
+  float mix_levels(const FragmentTaps& taps, int channel) const {
+    const float first = mix_level(values, taps.level[0], channel);
+    const float weight = static_cast<float>(taps.mip_weight) * 0x1p-15f;
+    return taps.mip_weight > 0 ? mix(first, mix_level(values, taps.level[1], channel), weight) : first;
   }
   static float mean(float before, float probe, std::int32_t weight) {
     return mix(before, probe, static_cast<float>(weight) * 0x1p-15f);
@@ -133,33 +156,37 @@ void with_texels(const TextureView& t, const Body& body) {
 
 void mix_taps(const TextureView& t, const Taps& taps, float* const out[4], int count) {
   with_texels(t, [&](const auto& texels) {
-    for (int i = 0; i < count; ++i)
-      for (int c = 0; c < 4; ++c) out[c][i] = texels.value(texels.mix_levels(taps, i, c));
+    for (int i = 0; i < count; ++i) {
+      const FragmentTaps at = taps_at(taps, i);
+      for (int c = 0; c < 4; ++c) out[c][i] = texels.value(texels.mix_levels(at, c));
+    }
   });
 }
 
 /// Mixes the probes of each fragment to their mean.
-void mix_probes(const TextureView& t, const ProbeTaps& of, float* const out[4]) {
+void mix_probes(const TextureView& t, const ProbeList& of, float* const out[4]) {
   with_texels(t, [&](const auto& texels) {
-    for (int i = of.first, group = 0; i < of.last; i += 8) {
-      const int end = group + 8 * of.most[(i - of.first) / 8];
+    const ProbeTaps* taps = of.taps;
+    for (int i = of.first; i < of.last; i += 8) {
+      const ProbeGroup& group = of.group[(i - of.first) / 8];
       for (int k = 0; k < 8; ++k)
         for (int c = 0; c < 4; ++c) {
-          auto mean = texels.mix_levels(of.taps, group + k, c);
-          for (int probe = group + 8 + k; probe < end; probe += 8) {
-            const int weight = of.mean_weight[Taps::by_fours(probe)];
-            if (weight > 0) mean = texels.mean(mean, texels.mix_levels(of.taps, probe, c), weight);
+          auto mean = texels.mix_levels(taps_at(group, taps[0], k), c);
+          for (int n = 1; n < group.probes; ++n) {
+            const int weight = taps[n].mean_weight[Taps::by_fours(k)];
+            if (weight > 0) mean = texels.mean(mean, texels.mix_levels(taps_at(group, taps[n], k), c), weight);
           }
           out[c][i + k] = texels.value(mean);
         }
-      group = end;
+      taps += group.probes;
     }
   });
 }
 
 void sample_anisotropic(const TextureView& t, const SamplerState& f, const Footprint& at, float* const out[4],
                         int count) {
-  zoneplate::sample_anisotropic<Float>(t, f, at, count, [&](const ProbeTaps& probes) { mix_probes(t, probes, out); });
+  zoneplate::sample_anisotropic<Float, Float, NotJoined<Float>>(
+      t, f, at, count, [&](const ProbeList& probes) { mix_probes(t, probes, out); });
 }
 
 }  // namespace

@@ -5,8 +5,16 @@
 #include <cstddef>
 
 #include "zoneplate/shade/texture/filtering.h"
+#include "zoneplate/shade/texture/texture_view.h"
 
 namespace zoneplate {
+
+/// RowPitch::of, by fragment.
+template <class Int>
+[[gnu::always_inline]] inline Int row_pitches(Int width) {
+  const auto is_padded = (width > Int(RowPitch::least_padded - 1)) & ((width & Int(RowPitch::multiple - 1)) < Int(1));
+  return width + Int(RowPitch::border) + where(is_padded, Int(RowPitch::padding));
+}
 
 /// The mip level of a texture at each fragment: its size in 1/32768 texel, and the layout of its texels.
 template <class F>
@@ -21,7 +29,7 @@ template <class F, class View>
   using Int = typename F::Int;
   const std::int32_t w = t.width[level], h = t.height[level];
   const auto size = [](std::int32_t n) { return F(static_cast<float>(n) * 32768.0f); };
-  return {size(w), size(h), Int(w), Int(h), Int(w + 2), Int(t.offset[level])};
+  return {size(w), size(h), Int(w), Int(h), Int(t.pitch(level)), Int(t.offset[level])};
 }
 
 /// The level of each fragment.
@@ -30,7 +38,7 @@ template <class F, class View>
   using Int = typename F::Int;
   static_assert(View::max_levels == 16);
   const Int w = Int::look_up(t.width, level), h = Int::look_up(t.height, level);
-  return {F::from(w) * F(32768.0f), F::from(h) * F(32768.0f), w, h, w + Int(2), Int::look_up(t.offset, level)};
+  return {F::from(w) * F(32768.0f), F::from(h) * F(32768.0f), w, h, row_pitches(w), Int::look_up(t.offset, level)};
 }
 
 /// A coordinate wrapped to [0, 1]; NaN gives 0.
@@ -119,6 +127,12 @@ struct TexelFetch {
         shift(t.unorm8 != nullptr                           ? 2
               : t.unorm15 != nullptr || t.halves != nullptr ? 3
                                                             : 4) {}
+  /// The texels so many further on.
+  TexelFetch below(std::int32_t texels) const {
+    TexelFetch moved = *this;
+    moved.codes += std::ptrdiff_t{texels} << shift;
+    return moved;
+  }
   [[gnu::always_inline]] void prefetch(std::int32_t texel) const {
     __builtin_prefetch(codes + (std::ptrdiff_t{texel} << shift));
   }
@@ -148,6 +162,7 @@ struct Lookup {
   typename F::Int first;       ///< the first level
   typename F::Int mip_weight;  ///< weight of the second level, in 1/32768
   typename F::Bool is_nearest;
+  bool is_uniform;  ///< all fragments have the same first level
 };
 
 template <class F, class View, class Filter>
@@ -155,7 +170,8 @@ template <class F, class View, class Filter>
   using Int = typename F::Int;
   const bool has_second = f.has_mips && f.blends_mips;
   at.first = first;
-  if (first.is_uniform()) {
+  at.is_uniform = first.is_uniform();
+  if (at.is_uniform) {
     at.level[0] = mip_level<F>(t, first.first());
     if (has_second) at.level[1] = mip_level<F>(t, first.first() + 1 < t.levels ? first.first() + 1 : t.levels - 1);
   } else {
@@ -165,15 +181,17 @@ template <class F, class View, class Filter>
 }
 
 /// Updates `at`, the look-up of the fragments before, which mostly read the same levels: then the texel addresses do
-/// not depend on this computation.
+/// not depend on this computation. Returns whether the levels are others.
 template <class F, class View, class Filter>
-[[gnu::always_inline]] inline void find_lookup(const View& t, const Filter& f, F lod, Lookup<F>& at) {
+[[gnu::always_inline]] inline bool find_lookup(const View& t, const Filter& f, F lod, Lookup<F>& at) {
   using Int = typename F::Int;
   const Levels<F> levels = find_levels<F>(at.last_level, f, lod);
   const F minify(f.nearest_minify ? 1.0f : 0.0f), magnify(f.nearest_magnify ? 1.0f : 0.0f);
-  if (!levels.first.equals(at.first)) set_levels(t, f, levels.first, at);
+  const bool changes = !levels.first.equals(at.first);
+  if (changes) set_levels(t, f, levels.first, at);
   at.mip_weight = min(truncate(levels.mip_weight * F(32768.0f) + F(0.5f)), Int(32767));
   at.is_nearest = select(levels.is_minified, minify, magnify) > F(0.5f);
+  return changes;
 }
 
 /// The look-up of fragments at the first level.
@@ -185,24 +203,42 @@ template <class F, class View, class Filter>
   return at;
 }
 
-/// Stores the taps of one level, and prefetches the lower texels at one or both ends of the fragments, which mostly are
-/// a row.
+/// The taps of one level: the upper and lower left texels, and the weights of the right and lower ones.
+template <class F>
+struct TapsOfLevel {
+  typename F::Int upper, lower, right, down;
+};
+
 template <class F, class Filter>
-[[gnu::always_inline]] inline void store_level(const TexelFetch& fetch, const Filter& f, const WrappedCoordinates<F>& p,
-                                               const MipLevel<F>& level, Taps& out, int which, int i) {
+[[gnu::always_inline]] inline TapsOfLevel<F> taps_of_level(const Filter& f, const WrappedCoordinates<F>& p,
+                                                           const MipLevel<F>& level) {
   using Int = typename F::Int;
   const bool nearest = may_be_nearest(f), repeats_v = !f.mirror_v && !f.clamp_v;
   const AxisTaps<F> x = axis_taps(p.u, level.width, level.columns, nearest, p.is_nearest, !f.mirror_u && !f.clamp_u);
   const AxisTaps<F> y = axis_taps(p.v, level.height, level.rows, nearest, p.is_nearest, repeats_v);
   const Int upper = level.offset + y.first * level.pitch + x.first;
   const Int below = repeats_v && !nearest ? level.pitch : select(y.is_same, Int(0), level.pitch);
-  upper.store(out.upper[which] + i);
-  x.weight.store_by_fours(y.weight, out.bilinear_weight[which], i);
-  const Int lower = upper + below;
-  lower.store(out.lower[which] + i);
-  fetch.prefetch(lower.first());
+  return {upper, upper + below, x.weight, y.weight};
+}
+
+/// Stores the taps of one level, and prefetches texels at the ends of each group of eight fragments, which mostly are a
+/// row.
+template <class F, class Filter>
+[[gnu::always_inline]] inline void store_level(const TexelFetch& fetch, const Filter& f, const WrappedCoordinates<F>& p,
+                                               const MipLevel<F>& level, Taps& out, int which, int i) {
+  const TapsOfLevel<F> taps = taps_of_level<F>(f, p, level);
+  taps.upper.store(out.upper[which] + i);
+  taps.right.store_by_fours(taps.down, out.bilinear_weight[which], i);
+  taps.lower.store(out.lower[which] + i);
+  fetch.prefetch(taps.upper.first());
+  fetch.prefetch(taps.lower.first());
   // A row of the second level has half as many texels.
-  if (which == 0) fetch.prefetch(out.lower[which][i + F::lanes - 1]);
+  if (which > 0) return;
+  const std::int32_t *const upper = out.upper[0] + i, *const lower = out.lower[0] + i;
+  for (int k = 7; k < F::lanes; k += 8) {
+    fetch.prefetch(upper[k]), fetch.prefetch(lower[k]);
+    if (k + 1 < F::lanes) fetch.prefetch(upper[k + 1]), fetch.prefetch(lower[k + 1]);
+  }
 }
 
 /// Stores the taps of fragments at (u, v), from the i-th of `out` on.
@@ -260,109 +296,6 @@ template <class F, class View>
 void find_taps(const View& t, const SamplerState& f, const Footprint& footprint, Taps& out, int count) {
   if (is_trilinear_repeat(f)) return find_all_taps<F>(t, TrilinearRepeat{}, footprint, out, count);
   find_all_taps<F>(t, f, footprint, out, count);
-}
-
-/// The longer axes of the fragments' footprints, the numbers of probes along them, and the probes' LOD.
-struct Probes {
-  alignas(64) float du[Taps::padded_capacity], dv[Taps::padded_capacity];
-  alignas(64) float count[Taps::padded_capacity], lod[Taps::padded_capacity];
-};
-
-template <class F, class View>
-[[gnu::always_inline]] inline void find_probes(const View& t, int anisotropy, const Footprint& p, int i, Probes& out) {
-  const F w(static_cast<float>(t.width[0])), h(static_cast<float>(t.height[0])), one(1.0f);
-  const float most = static_cast<float>(anisotropy);
-  const F ux = F::load(p.dudx + i), vx = F::load(p.dvdx + i), uy = F::load(p.dudy + i), vy = F::load(p.dvdy + i);
-  const F sx = ux * w, tx = vx * h, sy = uy * w, ty = vy * h;
-  const F x = min(max(sx * sx + tx * tx, F(0x1p-60f)), F(0x1p60f));
-  const F y = min(max(sy * sy + ty * ty, F(0x1p-60f)), F(0x1p60f));
-  const auto is_wide = x > y;
-  const F longer = max(x, y);
-
-  const F width = max(min(longer, max(min(x, y), one)), longer * F(1 / (most * most)));
-  const F count = max(-floor(sqrt(longer / width) * F(-2.0f / 3.0f)), one);
-  select(is_wide, ux, uy).store(out.du + i), select(is_wide, vx, vy).store(out.dv + i);
-  count.store(out.count + i);
-  (F(0.5f) * coarse_log2(width)).store(out.lod + i);
-}
-
-/// Copies the probes before i to i and on, where all fragments have the same footprint.
-template <class F>
-[[gnu::always_inline]] inline void repeat_probes(Probes& p, int i) {
-  for (float* const of : {p.du, p.dv, p.count, p.lod}) F::load(of + i - F::lanes).store(of + i);
-}
-
-/// The probes of several groups in one list of taps. Of a group, probe n of all fragments comes before probe n + 1;
-/// every fragment has as many entries as the fragment of the group with the most probes.
-struct ProbeTaps {
-  static_assert(Taps::capacity >= 8 * SamplerState::max_anisotropy);
-  Taps taps;
-  /// Weight of a probe in the mean of it and the fragment's probes before it, stored twice, in the order of by_fours;
-  /// undefined for first probes.
-  alignas(64) std::int16_t mean_weight[2 * Taps::padded_capacity];
-  int count = 0;            ///< of taps
-  int first = 0, last = 0;  ///< the range of fragments
-  int most[Taps::groups];   ///< the most probes of a fragment, by group from that of the first fragment on
-
-  bool has_room(int probes) const { return count + 8 * probes <= Taps::capacity; }
-};
-
-/// Stores the taps of the probes of eight fragments.
-template <class F, class View, class Filter>
-[[gnu::always_inline]] inline void store_probes(const View& t, const Filter& f, const Footprint& at,
-                                                const Probes& probes, int most, Lookup<F>& lookup, ProbeTaps& out) {
-  using Int = typename F::Int;
-  const TexelFetch fetch(t);
-  for (int k = 0; k < 8; k += F::lanes) {
-    const int i = out.last + k;
-    find_lookup<F>(t, f, F::load(probes.lod + i), lookup);
-    const F all = F::load(probes.count + i), step = F(1.0f) / all, first = F(0.5f) * step - F(0.5f);
-    const F du = F::load(probes.du + i), dv = F::load(probes.dv + i);
-    const F u = F::load(at.u + i) + du * first, v = F::load(at.v + i) + dv * first, step_u = du * step,
-            step_v = dv * step, last = all - F(1.0f);
-    for (int n = 0; n < most; ++n) {
-      const F number(static_cast<float>(n)), along = min(number, last);
-      const int entry = out.count + 8 * n + k;
-      store_taps<F>(fetch, f, lookup, u + step_u * along, v + step_v * along, out.taps, entry);
-      const Int weight = where(number < all, Int((32768 + (n + 1) / 2) / (n + 1)));
-      if (n > 0) weight.store_by_fours(weight, out.mean_weight, entry);
-    }
-  }
-  out.most[(out.last - out.first) / 8] = most;
-  out.count += 8 * most;
-  out.last += 8;
-}
-
-/// The stage `sample_anisotropic` of shade/texture/filtering.h; mix(taps) stores the means of the probes.
-template <class F, class View, class Mix>
-[[gnu::always_inline]] inline void sample_anisotropic(const View& t, const SamplerState& f, const Footprint& at,
-                                                      int count, Mix mix) {
-  Probes probes;
-  for (int i = 0; i < count; i += F::lanes) {
-    if (at.repeats != nullptr && at.repeats[i / 8]) {
-      repeat_probes<F>(probes, i);
-    } else {
-      find_probes<F>(t, f.anisotropy, at, i, probes);
-    }
-  }
-  ProbeTaps taps;
-  const bool usual = is_trilinear_repeat(f);
-  Lookup<F> lookup = begin_lookup<F>(t, f);
-  while (taps.last < count) {
-    taps.first = taps.last, taps.count = 0;
-    while (taps.last < count) {
-      F most = F::load(probes.count + taps.last);
-      for (int k = F::lanes; k < 8; k += F::lanes) most = max(most, F::load(probes.count + taps.last + k));
-      const int n = static_cast<int>(greatest(most));
-      if (!taps.has_room(n)) break;
-      if (usual) {
-        store_probes<F>(t, TrilinearRepeat{}, at, probes, n, lookup, taps);
-      } else {
-        store_probes<F>(t, f, at, probes, n, lookup, taps);
-      }
-    }
-    mix(taps);
-  }
 }
 
 }  // namespace zoneplate

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <type_traits>
+
 #include "zoneplate/math/halves_simd.h"
 #include "zoneplate/math/lanes_simd.h"
 #include "zoneplate/shade/texture/filtering.h"
 #include "zoneplate/shade/texture/filtering_lanes.h"
+#include "zoneplate/shade/texture/probes_lanes.h"
 #include "zoneplate/shade/texture/texture_view.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -52,19 +55,24 @@ constexpr Spread make_spread() {
 }
 constexpr Spread spread = make_spread();
 
-/// The weights by fours of vector n of the eight fragments from i on.
-HWY_INLINE V load_weights(const std::int16_t* weights, int i, [[maybe_unused]] int n) {
+/// Vector n of the weights by fours of eight fragments.
+HWY_INLINE V load_weights(const std::int16_t* weights, [[maybe_unused]] int n) {
   if constexpr (blocks == 4) {
-    const auto eight = hn::Load(hn::Half<Fixed>(), weights + 2 * i);
+    const auto eight = hn::Load(hn::Half<Fixed>(), weights);
     return combined(Fixed(), eight, eight);
   } else {
-    return hn::Load(Fixed(), weights + 2 * i + (blocks == 2 ? 0 : n / 2 * 8));
+    return hn::Load(Fixed(), weights + (blocks == 2 ? 0 : n / 2 * 8));
   }
 }
 
 HWY_INLINE V spread_weights(V weights, const std::uint8_t (&bytes)[2][32], int n) {
   const hn::Repartition<std::uint8_t, Fixed> d;
   return hn::BitCast(Fixed(), hn::TableLookupBytes(hn::BitCast(d, weights), hn::Load(d, bytes[n % 2])));
+}
+
+/// One weight of each fragment.
+HWY_INLINE V spread_each(const std::int16_t* weights, int n) {
+  return spread_weights(load_weights(weights, n), spread.right, n);
 }
 
 /// The vector whose blocks are block(0), block(1), ...
@@ -85,6 +93,18 @@ HWY_INLINE V every_second_pair(V upper, V lower) {
   const hn::Repartition<std::int32_t, Fixed> d;
   return hn::BitCast(Fixed(), every_second_word<first>(hn::BitCast(d, upper), hn::BitCast(d, lower)));
 }
+
+/// The taps of eight fragments on one level: the numbers of the upper left texels, those of the lower left ones or how
+/// many texels further on they are, and the weights by fours.
+struct ByLower {
+  const std::int32_t *upper, *lower;
+  const std::int16_t* weights;
+};
+struct ByPitch {
+  const std::int32_t* upper;
+  std::ptrdiff_t pitch;
+  const std::int16_t* weights;
+};
 
 /// The operands of the mix along x: two channels of each fragment of a block, then its other two.
 struct Sides {
@@ -149,8 +169,14 @@ struct Codes8 {
 #endif
   }
 
-  HWY_INLINE Sides sides(const std::int32_t* upper, const std::int32_t* lower, V weights, int n) const {
-    const V up = pairs(upper, n), low = pairs(lower, n), down = spread_weights(weights, spread.down, n);
+  HWY_INLINE V lower_pairs(const ByLower& taps, int n) const { return pairs(taps.lower, n); }
+  HWY_INLINE V lower_pairs(const ByPitch& taps, int n) const {
+    return Codes8{codes + 4 * taps.pitch}.pairs(taps.upper, n);
+  }
+
+  template <class At>
+  HWY_INLINE Sides sides(const At& taps, V weights, int n) const {
+    const V up = pairs(taps.upper, n), low = lower_pairs(taps, n), down = spread_weights(weights, spread.down, n);
     const V even = mixed(widened<0>(up), widened<0>(low), down), odd = mixed(widened<1>(up), widened<1>(low), down);
     return {every_second_pair<0>(odd, even), every_second_pair<1>(odd, even)};
   }
@@ -172,9 +198,14 @@ struct Codes15 {
       return hn::LoadU(hn::FixedTag<std::int16_t, 8>(), reinterpret_cast<const std::int16_t*>(from));
     });
   }
-  HWY_INLINE Sides sides(const std::int32_t* upper, const std::int32_t* lower, V weights, int n) const {
+  HWY_INLINE V lower_pairs(const ByLower& taps, int n, int p) const { return pairs(taps.lower, n, p); }
+  HWY_INLINE V lower_pairs(const ByPitch& taps, int n, int p) const {
+    return Codes15{codes + 4 * taps.pitch}.pairs(taps.upper, n, p);
+  }
+  template <class At>
+  HWY_INLINE Sides sides(const At& taps, V weights, int n) const {
     const auto rows = [&](int p) HWY_ATTR {
-      return mix(pairs(upper, n, p), pairs(lower, n, p), spread_weights(weights, spread.down_one[p], n));
+      return mix(pairs(taps.upper, n, p), lower_pairs(taps, n, p), spread_weights(weights, spread.down_one[p], n));
     };
     const hn::Repartition<std::int32_t, Fixed> d;
     const auto even = hn::BitCast(d, rows(0)), odd = hn::BitCast(d, rows(1));
@@ -184,21 +215,25 @@ struct Codes15 {
   static HWY_INLINE V mixed(V a, V b, V weight) { return mix(a, b, weight); }
 };
 
-/// Mixes one level of vector n of the eight fragments from i on.
-template <class Codes>
-HWY_INLINE V mix_level(const Codes& codes, const Taps& taps, int level, int i, int n) {
-  const V weights = load_weights(taps.bilinear_weight[level], i, n);
-  const Sides sides = codes.sides(taps.upper[level] + i, taps.lower[level] + i, weights, n);
+/// Mixes one level of vector n of eight fragments.
+template <class Codes, class At>
+HWY_INLINE V mix_level(const Codes& codes, const At& taps, int n) {
+  const V weights = load_weights(taps.weights, n);
+  const Sides sides = codes.sides(taps, weights, n);
   return Codes::mixed(sides.left, sides.right, spread_weights(weights, spread.right, n));
+}
+
+/// The taps of the eight fragments from i on, on one level.
+HWY_INLINE ByLower taps_of(const Taps& taps, int level, int i) {
+  return {taps.upper[level] + i, taps.lower[level] + i, taps.bilinear_weight[level] + 2 * i};
 }
 
 /// Mixes both levels. The result is negated if Codes::is_negative.
 template <class Codes>
 HWY_INLINE V mix_levels(const Codes& codes, const Taps& taps, bool has_second, int i, int n) {
-  const V first = mix_level(codes, taps, 0, i, n);
+  const V first = mix_level(codes, taps_of(taps, 0, i), n);
   if (!has_second) return first;
-  const V mip_weight = spread_weights(load_weights(taps.mip_weight, i, n), spread.right, n);
-  return Codes::mixed(first, mix_level(codes, taps, 1, i, n), mip_weight);
+  return Codes::mixed(first, mix_level(codes, taps_of(taps, 1, i), n), spread_each(taps.mip_weight + 2 * i, n));
 }
 
 template <class Codes>
@@ -266,22 +301,57 @@ void mix_codes(const Codes& codes, const Taps& taps, float* const to[4], int cou
   }
 }
 
-/// Mixes the probes of each fragment to their mean.
+template <class At>
+HWY_INLINE At taps_of(const ProbeGroup& group, const ProbeTaps& taps, int level) {
+  if constexpr (hwy::IsSame<At, ByPitch>()) {
+    return {taps.upper[level], group.pitch[level], taps.bilinear_weight[level]};
+  } else {
+    return {taps.upper[level], taps.lower[level], taps.bilinear_weight[level]};
+  }
+}
+
+/// Mixes vector n of one probe of eight fragments.
+template <class At, bool has_second, class Codes>
+HWY_INLINE V mix_probe(const Codes& codes, const ProbeGroup& group, const ProbeTaps& taps, int n) {
+  const V first = mix_level(codes, taps_of<At>(group, taps, 0), n);
+  if constexpr (!has_second) return first;
+  const V second = mix_level(codes, taps_of<At>(group, taps, 1), n);
+  return Codes::mixed(first, second, spread_each(group.mip_weight, n));
+}
+
+/// Mixes the probes of eight fragments to their mean, and stores it from fragment i on.
+template <class At, bool has_second, class Codes>
+HWY_INLINE void mix_probe_group(const Codes& codes, const ProbeGroup& group, const ProbeTaps* taps, float* const out[4],
+                                int i) {
+  V mean[vectors];
+  for (int n = 0; n < vectors; ++n) mean[n] = mix_probe<At, has_second>(codes, group, taps[0], n);
+  for (int probe = 1; probe < group.probes; ++probe)
+    for (int n = 0; n < vectors; ++n) {
+      const V weight = spread_each(taps[probe].mean_weight, n);
+      mean[n] = Codes::mixed(mean[n], mix_probe<At, has_second>(codes, group, taps[probe], n), weight);
+    }
+  for (int n = 0; n < vectors; ++n) mean[n] = positive<Codes>(mean[n]);
+  store_channels<Codes>(mean, out, i);
+}
+
 template <class Codes>
-void mix_probe_codes(const Codes& codes, const ProbeTaps& of, float* const to[4]) {
+void mix_probe_codes(const Codes& codes, const ProbeList& of, float* const to[4]) {
   float* const out[4] = {to[0], to[1], to[2], to[3]};
-  for (int i = of.first, entry = 0; i < of.last; i += 8) {
-    const int end = entry + 8 * of.most[(i - of.first) / 8];
-    const bool has_second = blends(of.taps, entry);
-    V mean[vectors];
-    for (int n = 0; n < vectors; ++n) mean[n] = mix_levels(codes, of.taps, has_second, entry, n);
-    for (entry += 8; entry < end; entry += 8)
-      for (int n = 0; n < vectors; ++n) {
-        const V weight = spread_weights(load_weights(of.mean_weight, entry, n), spread.right, n);
-        mean[n] = Codes::mixed(mean[n], mix_levels(codes, of.taps, has_second, entry, n), weight);
+  const ProbeTaps* taps = of.taps;
+  for (int i = of.first; i < of.last; i += 8) {
+    const ProbeGroup& group = of.group[(i - of.first) / 8];
+    if (!group.has_pitch) {
+      if (group.has_second) {
+        mix_probe_group<ByLower, true>(codes, group, taps, out, i);
+      } else {
+        mix_probe_group<ByLower, false>(codes, group, taps, out, i);
       }
-    for (int n = 0; n < vectors; ++n) mean[n] = positive<Codes>(mean[n]);
-    store_channels<Codes>(mean, out, i);
+    } else if (group.has_second) {
+      mix_probe_group<ByPitch, true>(codes, group, taps, out, i);
+    } else {
+      mix_probe_group<ByPitch, false>(codes, group, taps, out, i);
+    }
+    taps += group.probes;
   }
 }
 
@@ -301,21 +371,41 @@ HWY_INLINE Texel load_texel(const Half* values) {
   return hn::PromoteTo(Channels4(), hn::BitCast(hn::FixedTag<hwy::float16_t, 4>(), bits));
 }
 
+/// The taps of one fragment on one level; weights in 1/32768.
+struct OneTap {
+  std::int32_t upper, lower;
+  int right, down;
+};
+
+HWY_INLINE OneTap tap_of(const Taps& taps, int level, int i) {
+  return {taps.upper[level][i], taps.lower[level][i], taps.right(level, i), taps.down(level, i)};
+}
+HWY_INLINE OneTap tap_of(const ProbeGroup& group, const ProbeTaps& taps, int level, int i) {
+  const std::int32_t upper = taps.upper[level][i];
+  const std::int16_t* const weights = taps.bilinear_weight[level] + Taps::by_fours(i);
+  return {upper, group.has_pitch ? upper + group.pitch[level] : taps.lower[level][i], weights[0], weights[4]};
+}
+
 /// `Value` is float or Half.
 template <class Value>
-HWY_INLINE Texel mix_level(const Value* values, const Taps& taps, int level, int point) {
-  const Value* const upper = values + std::ptrdiff_t{4} * taps.upper[level][point];
-  const Value* const lower = values + std::ptrdiff_t{4} * taps.lower[level][point];
-  const int down = taps.down(level, point);
-  return mix_texels(mix_texels(load_texel(upper), load_texel(lower), down),
-                    mix_texels(load_texel(upper + 4), load_texel(lower + 4), down), taps.right(level, point));
+HWY_INLINE Texel mix_level(const Value* values, const OneTap& tap) {
+  const Value* const upper = values + std::ptrdiff_t{4} * tap.upper;
+  const Value* const lower = values + std::ptrdiff_t{4} * tap.lower;
+  return mix_texels(mix_texels(load_texel(upper), load_texel(lower), tap.down),
+                    mix_texels(load_texel(upper + 4), load_texel(lower + 4), tap.down), tap.right);
 }
 
 template <class Value>
 HWY_INLINE Texel mix_levels(const Value* values, const Taps& taps, int i) {
-  const Texel first = mix_level(values, taps, 0, i);
+  const Texel first = mix_level(values, tap_of(taps, 0, i));
   const int mip_weight = taps.mip_weight[Taps::by_fours(i)];
-  return mip_weight > 0 ? mix_texels(first, mix_level(values, taps, 1, i), mip_weight) : first;
+  return mip_weight > 0 ? mix_texels(first, mix_level(values, tap_of(taps, 1, i)), mip_weight) : first;
+}
+template <class Value>
+HWY_INLINE Texel mix_levels(const Value* values, const ProbeGroup& group, const ProbeTaps& taps, int i) {
+  const Texel first = mix_level(values, tap_of(group, taps, 0, i));
+  const int mip_weight = group.mip_weight[Taps::by_fours(i)];
+  return mip_weight > 0 ? mix_texels(first, mix_level(values, tap_of(group, taps, 1, i)), mip_weight) : first;
 }
 
 HWY_INLINE void store_texel(Texel mixed, float* const out[4], int i) {
@@ -331,19 +421,19 @@ void mix_values(const Value* values, const Taps& taps, float* const out[4], int 
 }
 
 template <class Value>
-void mix_probe_values(const Value* values, const ProbeTaps& of, float* const out[4]) {
-  int entry = 0;
+void mix_probe_values(const Value* values, const ProbeList& of, float* const out[4]) {
+  const ProbeTaps* taps = of.taps;
   for (int i = of.first; i < of.last; i += 8) {
-    const int end = entry + 8 * of.most[(i - of.first) / 8];
+    const ProbeGroup& group = of.group[(i - of.first) / 8];
     for (int k = 0; k < 8; ++k) {
-      Texel mean = mix_levels(values, of.taps, entry + k);
-      for (int probe = entry + 8 + k; probe < end; probe += 8) {
-        const int weight = of.mean_weight[Taps::by_fours(probe)];
-        if (weight > 0) mean = mix_texels(mean, mix_levels(values, of.taps, probe), weight);
+      Texel mean = mix_levels(values, group, taps[0], k);
+      for (int n = 1; n < group.probes; ++n) {
+        const int weight = taps[n].mean_weight[Taps::by_fours(k)];
+        if (weight > 0) mean = mix_texels(mean, mix_levels(values, group, taps[n], k), weight);
       }
       store_texel(mean, out, i + k);
     }
-    entry = end;
+    taps += group.probes;
   }
 }
 
@@ -354,17 +444,29 @@ void mix_taps(const TextureView& t, const Taps& taps, float* const out[4], int c
   mix_values(t.values, taps, out, count);
 }
 
-void mix_probes(const TextureView& t, const ProbeTaps& probes, float* const out[4]) {
+void mix_probes(const TextureView& t, const ProbeList& probes, float* const out[4]) {
   if (t.unorm8 != nullptr) return mix_probe_codes(Codes8{t.unorm8}, probes, out);
   if (t.unorm15 != nullptr) return mix_probe_codes(Codes15{t.unorm15}, probes, out);
   if (t.halves != nullptr) return mix_probe_values(t.halves, probes, out);
   mix_probe_values(t.values, probes, out);
 }
 
+/// Two vectors of eight lanes in one of sixteen.
+struct JoinedEights {
+  using Float = WideFloat;
+  static constexpr bool exists = true;
+  template <class Half>
+  static HWY_INLINE auto join(Half lower, Half upper) {
+    using Whole = std::conditional_t<hwy::IsSame<Half, HWY_NAMESPACE::Float>(), WideFloat, WideFloat::Int>;
+    return Whole(combined(hn::DFromV<decltype(Whole::v)>(), upper.v, lower.v));
+  }
+};
+using Joined = std::conditional_t<WideFloat::lanes == 16, JoinedEights, NotJoined<Float>>;
+
 void sample_anisotropic(const TextureView& t, const SamplerState& f, const Footprint& at, float* const out[4],
                         int count) {
-  zoneplate::sample_anisotropic<Float>(t, f, at, count,
-                                       [&](const ProbeTaps& probes) HWY_ATTR { mix_probes(t, probes, out); });
+  zoneplate::sample_anisotropic<Float, WideFloat, Joined>(
+      t, f, at, count, [&](const ProbeList& probes) HWY_ATTR { mix_probes(t, probes, out); });
 }
 
 }  // namespace

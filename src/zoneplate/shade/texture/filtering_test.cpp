@@ -281,7 +281,7 @@ struct Staircase {
     for (int w = width, h = height;; w = std::max(1, w / 2), h = std::max(1, h / 2)) {
       view.width[view.levels] = w, view.height[view.levels] = h;
       view.offset[view.levels] = static_cast<std::int32_t>(codes.size() / 4);
-      const auto texels = static_cast<std::size_t>((w + 2) * (h + 2));
+      const auto texels = static_cast<std::size_t>(RowPitch::of(w) * (h + 2));
       codes.resize(codes.size() + 4 * texels, static_cast<std::uint8_t>(8 * view.levels++ + 4));
       if (w == 1 && h == 1) break;
     }

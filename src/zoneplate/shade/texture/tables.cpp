@@ -16,7 +16,7 @@ namespace zoneplate {
 
 std::size_t texel_count(const TextureView& view) {
   const int last = view.levels - 1;
-  return static_cast<std::size_t>(view.offset[last] + (view.width[last] + 2) * (view.height[last] + 2) + 2);
+  return static_cast<std::size_t>(view.offset[last] + view.pitch(last) * (view.height[last] + 2) + 2);
 }
 
 RipmapTable make_ripmap(const TextureView& view) {
@@ -33,7 +33,7 @@ RipmapTable make_ripmap(const TextureView& view) {
   for (std::int32_t l = 0; l < ripmap.rows; ++l)
     for (std::int32_t k = 0; k < ripmap.columns; ++k) {
       ripmap.offset[TextureView::max_levels * l + k] = static_cast<std::int32_t>(texels);
-      texels += (std::int64_t{ripmap.width[k]} + 2) * (ripmap.height[l] + 2);
+      texels += std::int64_t{RowPitch::of(ripmap.width[k])} * (ripmap.height[l] + 2);
     }
   texels += 2;
   if (texels >= std::int64_t{1} << 31) throw std::bad_alloc();
@@ -47,8 +47,8 @@ RipmapTable make_ripmap(const TextureView& view) {
     auto* const codes = reinterpret_cast<Code*>(table.memory.data());
     ripmap.texels.*texel_pointer = codes;
     const auto row = [&](std::int32_t k, std::int32_t l, std::int32_t y) {
-      return codes +
-             std::ptrdiff_t{4} * (ripmap.offset[TextureView::max_levels * l + k] + (y + 1) * (ripmap.width[k] + 2) + 1);
+      return codes + std::ptrdiff_t{4} *
+                         (ripmap.offset[TextureView::max_levels * l + k] + (y + 1) * RowPitch::of(ripmap.width[k]) + 1);
     };
     for (std::int32_t l = 0; l < ripmap.rows; ++l)
       for (std::int32_t k = 0; k < ripmap.columns; ++k) {
@@ -72,7 +72,7 @@ RipmapTable make_ripmap(const TextureView& view) {
                 close_row(out, to.width);
               }
             });
-        const std::ptrdiff_t pitch = std::ptrdiff_t{4} * (to.width + 2);
+        const std::ptrdiff_t pitch = std::ptrdiff_t{4} * RowPitch::of(to.width);
         std::copy_n(row(k, l, to.height - 1) - 4, pitch, row(k, l, -1) - 4);
         std::copy_n(row(k, l, 0) - 4, pitch, row(k, l, to.height) - 4);
       }

@@ -59,7 +59,7 @@ void lay_out(LevelSize size, TextureView& view) {
     view.width[view.levels] = w;
     view.height[view.levels] = h;
     view.offset[view.levels++] = static_cast<std::int32_t>(texels);
-    texels += (std::int64_t{w} + 2) * (h + 2);
+    texels += std::int64_t{RowPitch::of(w)} * (h + 2);
     if (w == 1 && h == 1) break;
   }
   assert(texels + 2 < (std::int64_t{1} << 31));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -80,8 +81,8 @@ TEST(Texture, EachLevelIsTheRoundedMeanOfTheOneBefore) {
     }
 }
 
-TEST(Texture, TheBorderRepeatsTheLevel) {
-  const Texture texture(noise(12, 7, 7), TexelMeaning::Values);
+void expect_repeating_borders(int width, int height) {
+  const Texture texture(noise(width, height, 7), TexelMeaning::Values);
   const TextureView& view = texture.view();
   for (int l = 0; l < view.levels; ++l) {
     const int w = view.width[l], h = view.height[l];
@@ -89,6 +90,25 @@ TEST(Texture, TheBorderRepeatsTheLevel) {
     for (int y = -1; y <= h; ++y)
       for (int x = -1; x <= w; ++x)
         EXPECT_EQ(std::memcmp(at(x, y), at((x + w) % w, (y + h) % h), 4), 0) << x << " " << y;
+  }
+}
+
+TEST(Texture, TheBorderRepeatsTheLevel) { expect_repeating_borders(12, 7); }
+
+TEST(Texture, TheBorderOfPaddedRowsRepeatsTheLevel) {
+  EXPECT_GT(RowPitch::of(1024), 1024 + RowPitch::border);
+  expect_repeating_borders(1024, 6);
+}
+
+// A first-level cache of 32 KiB has 64 sets of eight lines of 64 bytes.
+TEST(Texture, ABlockOfPaddedRowsFitsTheFirstLevelCache) {
+  for (const int width : {512, 1024, 2048, 4096, 8192}) {
+    int lines_of_set[64] = {};
+    for (int y = 0; y < 64; ++y) {
+      const int first = 4 * y * RowPitch::of(width), last = first + 4 * 64 - 1;
+      for (int line = first / 64; line <= last / 64; ++line) ++lines_of_set[line % 64];
+    }
+    EXPECT_LE(*std::max_element(std::begin(lines_of_set), std::end(lines_of_set)), 8) << width;
   }
 }
 

@@ -7,6 +7,16 @@
 
 namespace zoneplate {
 
+/// The texels between the beginnings of two rows of a level: its width and a border of one texel on each side. Rows
+/// whose lengths are large multiples of 256 are padded, by the lines of a cache that a block of 64 texels takes: else
+/// all rows would begin in the same few sets of the first-level cache, which hold some 100 of its 512 lines.
+struct RowPitch {
+  static constexpr std::int32_t border = 2, padding = 46, least_padded = 512, multiple = 256;
+  static constexpr std::int32_t of(std::int32_t width) {
+    return width + border + (width >= least_padded && width % multiple == 0 ? padding : 0);
+  }
+};
+
 /// A texture in the form that kernels read: plain data, valid as long as the Texture.
 ///
 /// Shape     texel (x, y) of level l has the index offset[l] + (y + 1) pitch(l) + x + 1, four channels each. A level has
@@ -26,8 +36,8 @@ struct TextureView {
   std::int32_t width[max_levels] = {}, height[max_levels] = {};  ///< of each level, without its border
   std::int32_t offset[max_levels] = {};                          ///< where each level begins, in texels
 
-  /// Texels from one row to the next, border included.
-  std::int32_t pitch(int level) const { return width[level] + 2; }
+  /// Texels from one row to the next.
+  std::int32_t pitch(int level) const { return RowPitch::of(width[level]); }
   /// The number of texel (x, y) of a level; x in [-1, width], y in [-1, height].
   std::int32_t texel(int level, std::int32_t x, std::int32_t y) const {
     return offset[level] + (y + 1) * pitch(level) + x + 1;
@@ -36,7 +46,7 @@ struct TextureView {
 
 /// A ripmap: the image reduced k times along u and l times along v, for all k and l.
 ///
-/// Shape     texel (x, y) of level (k, l) has the index offset[max_levels l + k] + (y + 1) (width[k] + 2) + x + 1, with
+/// Shape     texel (x, y) of level (k, l) has the index offset[max_levels l + k] + (y + 1) RowPitch::of(width[k]) + x + 1, with
 ///           a border as in TextureView.
 /// Source    Larson and Shah, Method for generating addresses to textured graphics primitives stored in RIP maps, US
 ///           patent 5222205, 1990.
