@@ -454,7 +454,7 @@ void mix_probes(const TextureView& t, const ProbeList& probes, float* const out[
 /// Two vectors of eight lanes in one of sixteen.
 struct JoinedEights {
   using Float = WideFloat;
-  static constexpr bool exists = true;
+  [[maybe_unused]] static constexpr bool exists = true;
   template <class Half>
   static HWY_INLINE auto join(Half lower, Half upper) {
     using Whole = std::conditional_t<hwy::IsSame<Half, HWY_NAMESPACE::Float>(), WideFloat, WideFloat::Int>;
