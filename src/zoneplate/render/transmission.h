@@ -7,7 +7,7 @@
 #include "zoneplate/math/mat.h"
 #include "zoneplate/raster/tile/rasterize.h"
 #include "zoneplate/render/prepared_scene.h"
-#include "zoneplate/render/view.h"
+#include "zoneplate/render/render.h"
 #include "zoneplate/scene/camera.h"
 #include "zoneplate/shade/backdrop/backdrop.h"
 #include "zoneplate/shade/cast/ground.h"

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -69,7 +70,8 @@ const float* begin_of(const Plane<float>& plane, int y) {
 /// Row y of the colours in a plane that has four rows, one for each channel, for a row of pixels.
 template <class Rows>
 auto colors_of(Rows& rows, int y, int margin) {
-  return ColorPlanes{rows.row(4 * (y + margin)).data() + margin, std::ptrdiff_t{rows.width()}};
+  auto* const red = rows.row(4 * (y + margin)).data() + margin;
+  return ColorPlanes<std::remove_pointer_t<decltype(red)>>{red, std::ptrdiff_t{rows.width()}};
 }
 
 /// Encoded rows of a frame in bands, each with the rows above and below, so that a band stays in a processor's cache

@@ -179,7 +179,8 @@ TEST(LookUp, AboutTheDirectionOfALobeIsNearTheReflectedLight) {
     float roughness;
     double bound;
   } cases[] = {{0.5f, 0.97}, {0.7f, 0.85}, {0.85f, 0.6}, {1, 0.4}};
-  for (const auto& [roughness, bound] : cases) {
+  for (const auto& c : cases) {
+    const float roughness = c.roughness;
     double bent = 0, mirrored = 0;
     for (std::uint32_t k = 0; k < 60; ++k) {
       const auto direction = [&](std::uint32_t seed) {
@@ -197,7 +198,7 @@ TEST(LookUp, AboutTheDirectionOfALobeIsNearTheReflectedLight) {
       bent += error(lobe_direction(lanes(n), lanes(v), F(roughness)));
       mirrored += error(lanes(n * (2 * dot(n, v)) - v));
     }
-    EXPECT_LT(std::sqrt(bent / mirrored), bound) << roughness;
+    EXPECT_LT(std::sqrt(bent / mirrored), c.bound) << roughness;
   }
 }
 
