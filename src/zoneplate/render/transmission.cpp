@@ -45,7 +45,8 @@ void join(Layer& layer, const Layer& nearer) {
 std::vector<Layer> layers_of(std::span<const Draw> draws, std::span<const DepthRange> ranges, std::size_t most) {
   std::vector<Layer> single;
   for (std::size_t i = 0; i < draws.size(); ++i) single.push_back({ranges[i], {draws[i]}});
-  std::ranges::stable_sort(single, [](const Layer& a, const Layer& b) { return a.range.far > b.range.far; });
+  std::stable_sort(single.begin(), single.end(),
+                   [](const Layer& a, const Layer& b) { return a.range.far > b.range.far; });
   std::vector<Layer> layers;
   for (const Layer& next : single) {
     if (!layers.empty() && next.range.far >= layers.back().range.near)
