@@ -127,7 +127,7 @@ struct TexelFetch {
         shift(t.unorm8 != nullptr                           ? 2
               : t.unorm15 != nullptr || t.halves != nullptr ? 3
                                                             : 4) {}
-  /// The texels so many further on.
+  /// The same texels, beginning `texels` texels later in memory.
   TexelFetch below(std::int32_t texels) const {
     TexelFetch moved = *this;
     moved.codes += std::ptrdiff_t{texels} << shift;
