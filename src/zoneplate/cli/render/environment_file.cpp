@@ -15,6 +15,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/out_of_memory.h"
+#include "zoneplate/cli/render/item_process.h"
 #include "zoneplate/formats/import/image_file.h"
 #include "zoneplate/formats/import/import_budget.h"
 #include "zoneplate/os/file.h"
@@ -176,16 +177,19 @@ struct EnvironmentSource {
 
 }  // namespace
 
-Map Environments::load(const RenderArgs& args, const Store& store) const {
+Map Environments::load(const RenderArgs& args, const Store& store, const Progress& progress) const {
   const MappedFileWatch watch;
   const EnvironmentSource source(args);
-  const Map map =
-      find_or_make(args.cache, source.key(args), store, [&] { return PreparedEnvironment(source.cube(args)); });
+  const Map map = find_or_make(args.cache, source.key(args), store, [&] {
+    CubeImage cube;
+    within_import_time(args.hdri_file, args.load.limits, [&] { cube = source.cube(args); });
+    return PreparedEnvironment(cube, progress);
+  });
   watch.check(args.hdri_file);
   return map;
 }
 
-void Environments::complete(RenderArgs& args, const Store& store) {
+void Environments::complete(RenderArgs& args, const Store& store, const Progress& progress) {
   args.lighting.studio = [this, cache = args.cache, store] {
     if (!studio_) studio_ = find_or_make(cache, studio_key_number(), store, prepare_studio);
     return studio_;
@@ -195,7 +199,7 @@ void Environments::complete(RenderArgs& args, const Store& store) {
   const std::string key =
       fmt::format("{} {}", args.hdri_layout ? static_cast<int>(*args.hdri_layout) : -1, args.hdri_file);
   if (key != key_) {
-    map_ = load(args, store);
+    map_ = load(args, store, progress);
     key_ = key;
   }
   args.lighting.environment->map = map_;

@@ -39,18 +39,21 @@ class Environments {
  public:
   /// Takes the bytes of an environment that was not in the cache, by its key.
   using Store = std::function<void(std::uint64_t key, std::span<const std::uint8_t> bytes)>;
+  using Progress = std::function<void(double done)>;
 
   /// Reads and filters the image of --hdri-file, if it is given, into the environment of `args.lighting`, and lets the
   /// default light take its studio from here. Both are taken from the cache of `args`, or else prepared and given to
-  /// `store`, if it is not empty.
+  /// `store`, if it is not empty. While that image is filtered, `progress` takes the fraction that is complete, if it
+  /// is not empty.
   ///
   /// Requires  this object and `store` outlive the use of `args`.
-  /// Errors    ErrorKind::Input naming the file: missing, no image, or too large for --max-memory or --max-pixels.
-  void complete(RenderArgs& args, const Store& store = {});
+  /// Errors    ErrorKind::Input naming the file: missing, no image, too large for --max-memory or --max-pixels, or not
+  ///           read within --max-import-seconds, which does not count the time of filtering.
+  void complete(RenderArgs& args, const Store& store = {}, const Progress& progress = {});
 
  private:
   using Map = std::shared_ptr<const PreparedEnvironment>;
-  Map load(const RenderArgs& args, const Store& store) const;
+  Map load(const RenderArgs& args, const Store& store, const Progress& progress) const;
 
   std::string key_;  ///< of `map_`: its files and layout
   Map map_, studio_;

@@ -11,6 +11,7 @@ namespace zoneplate::cli {
 enum class ItemSender::Kind : std::uint8_t {
   Progress,
   HasRead,
+  BeginsToRead,
   File,
   FilmFrame,
   Environment,
@@ -102,6 +103,10 @@ void ItemSender::has_read() {
   is_past_reading_ = true;
   send(Kind::HasRead, 0, 0, {});
 }
+void ItemSender::begins_to_read() {
+  is_past_reading_ = false;
+  send(Kind::BeginsToRead, 0, 0, {});
+}
 void ItemSender::file(int frame, int layer, std::span<const std::uint8_t> bytes) {
   send(Kind::File, frame, layer, bytes);
 }
@@ -138,6 +143,8 @@ std::optional<std::vector<std::uint8_t>> receive_message(const std::string& plac
     if (events.progress) events.progress(stage, std::clamp(header.first / progress_steps, 0.0, 1.0));
   } else if (header.kind == Kind::HasRead && events.has_read) {
     events.has_read();
+  } else if (header.kind == Kind::BeginsToRead && events.begins_to_read) {
+    events.begins_to_read();
   } else if (header.kind == Kind::File && events.file && header.first >= -1 && header.second >= -1) {
     events.file(header.first, header.second, header.size, read);
   } else if (header.kind == Kind::FilmFrame && events.film_frame) {

@@ -30,8 +30,10 @@ class ItemSender {
   void mute_progress() { sends_progress_ = false; }
   /// Reports that `stage` begins when the fraction `done` of the whole work, in [0, 1], is complete.
   void progress(std::string_view stage, double done);
-  /// Reports that reading is complete, so that its time limit no longer applies.
+  /// Reports that reading is complete, so that its time limit no longer applies; or that the next file is read, for
+  /// which the limit begins anew. A job begins by reading.
   void has_read();
+  void begins_to_read();
   /// Sends a whole file. `frame` is its number in a sequence, or -1; `layer` is its index among the data passes, or -1
   /// for the image. The receiver determines the file's name from both.
   void file(int frame, int layer, std::span<const std::uint8_t> bytes);
@@ -47,7 +49,7 @@ class ItemSender {
   void failure(ErrorKind kind, const std::string& message);
   void needs_library(Library library, const std::string& message);
 
-  /// Whether the current job has called has_read.
+  /// Whether the current job does not read.
   bool is_past_reading() const { return is_past_reading_; }
   void begin_job() { is_past_reading_ = false; }
 
@@ -71,7 +73,7 @@ struct ItemEvents {
   std::function<void(int frame, int layer, std::uint64_t size, const Read& read)> file;
   std::function<void(std::uint64_t size, const Read& read)> film_frame;
   std::function<void(std::uint64_t key, std::uint64_t size, const Read& read)> environment;
-  std::function<void()> has_read;
+  std::function<void()> has_read, begins_to_read;
   std::function<void(Library library, const std::string& message)> needs_library;
 };
 

@@ -44,10 +44,9 @@ ItemProcess::ItemProcess(ItemLimits limits, std::size_t jobs, Work work)
 ItemProcess::~ItemProcess() = default;
 
 void ItemProcess::check_time() const {
-  const double seconds = watch_.ms() / 1000;
-  if (!has_read_ && seconds > limits_.load.seconds + grace)
+  if (!has_read_ && reading_.ms() / 1000 > limits_.load.seconds + grace)
     throw Error(ErrorKind::Input, late_reading(limits_.name, limits_.load));
-  if (seconds > limits_.seconds + grace) throw Error(ErrorKind::Failed, late_item(limits_));
+  if (watch_.ms() / 1000 > limits_.seconds + grace) throw Error(ErrorKind::Failed, late_item(limits_));
 }
 
 void ItemProcess::start(std::size_t first) {
@@ -117,10 +116,11 @@ void ItemProcess::begin_again_with(Library library, const std::string& message) 
 
 std::vector<std::uint8_t> ItemProcess::next(ItemEvents events) {
   const std::size_t job = next_++;
-  watch_ = Stopwatch();
+  watch_ = reading_ = Stopwatch();
   has_read_ = false;
   std::optional<std::pair<Library, std::string>> needed;
   events.has_read = [&] { has_read_ = true; };
+  events.begins_to_read = [&] { has_read_ = false, reading_ = Stopwatch(); };
   events.needs_library = [&](Library library, const std::string& message) { needed.emplace(library, message); };
   try {
     if (!child_) start(job);

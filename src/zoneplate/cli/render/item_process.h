@@ -65,7 +65,7 @@ class ItemProcess {
   Work work_;
   std::size_t next_ = 0;
   std::unique_ptr<LimitedChild> child_;
-  Stopwatch watch_;
+  Stopwatch watch_, reading_;
   bool has_read_ = false;
 };
 

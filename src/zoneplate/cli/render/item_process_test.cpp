@@ -164,6 +164,16 @@ TEST(ItemProcess, TimeIsKeptWithAndWithoutItsHelp) {
   };
   EXPECT_EQ(ending_of(polite, hurried), late);
   EXPECT_EQ(ending_of([](ItemSender&) { sleep_seconds(100); }, hurried), late);
+  // The limit of reading counts neither what happens between files nor the file before.
+  hurried.load.seconds = 1;
+  const auto between_files = [](ItemSender& sender) {
+    sleep_seconds(0.9), sender.has_read(), sleep_seconds(1), sender.begins_to_read(), sleep_seconds(0.1);
+    throw Error(ErrorKind::Input, "read");
+  };
+  EXPECT_EQ(ending_of(between_files, hurried), (Ending{ErrorKind::Input, "read"}));
+  const auto late_second = [](ItemSender& sender) { sender.has_read(), sender.begins_to_read(), sleep_seconds(100); };
+  hurried.load.seconds = 0.05;
+  EXPECT_EQ(ending_of(late_second, hurried), late);
 
   ItemLimits short_item = small_limits();
   short_item.seconds = 0.05;

@@ -11,40 +11,86 @@ namespace {
 
 using Node = LightTree::Node;
 
-/// The light from the square of a face about a point, with sides of this width.
+float3 direction_of(const Node& n) { return {n.direction[0], n.direction[1], n.direction[2]}; }
+
+float3 centre_of(const Node& n) { return {n.centre[0], n.centre[1], n.centre[2]}; }
+
+void set(float (&to)[3], float3 v) { to[0] = v.x, to[1] = v.y, to[2] = v.z; }
+
+/// The even light from the square of a face about a point, with sides of this width.
 Node square(int face, float s, float t, float width, float3 radiance) {
   const float3 p = cube::point(face, s, t);
   const float distance2 = dot(p, p), distance = std::sqrt(distance2);
+  Node out{};
   // The area over the cube of the distance.
-  const float angle = width * width / (distance2 * distance);
-  const float3 d = p * (1 / distance), light = radiance * angle;
-  return {{d.x, d.y, d.z}, angle, {light.x, light.y, light.z}, 1};
+  out.solid_angle = width * width / (distance2 * distance);
+  out.spread = out.even_spread = out.solid_angle / 12;
+  out.prominence = 1;
+  set(out.direction, p * (1 / distance));
+  set(out.light, radiance * out.solid_angle);
+  return out;
 }
 
-/// The mean of the quadratic B-spline over a texel.
-float3 mean_in_texel(const BorderedCube& points, int face, int x, int y) {
-  const auto in_row = [&](int row) {
-    return points.at(face, x, row) * (2.0f / 3) +
-           (points.at(face, x - 1, row) + points.at(face, x + 1, row)) * (1.0f / 6);
-  };
-  return in_row(y) * (2.0f / 3) + (in_row(y - 1) + in_row(y + 1)) * (1.0f / 6);
+/// The quadratic B-spline over a texel: its mean, and the first moments about the centre, in texels.
+struct TexelMoments {
+  float3 mean, along_s, along_t;
+};
+TexelMoments moments_of(const BorderedCube& points, int face, int x, int y) {
+  constexpr float inner = 2.0f / 3, outer = 1.0f / 6, slope = 1.0f / 24;
+  float3 mean[3], along_s[3];
+  for (int k = 0; k < 3; ++k) {
+    const float3 before = points.at(face, x - 1, y + k - 1), after = points.at(face, x + 1, y + k - 1);
+    mean[k] = points.at(face, x, y + k - 1) * inner + (after + before) * outer;
+    along_s[k] = (after - before) * slope;
+  }
+  return {mean[1] * inner + (mean[0] + mean[2]) * outer, along_s[1] * inner + (along_s[0] + along_s[2]) * outer,
+          (mean[2] - mean[0]) * slope};
 }
 
+float sum_of(float3 c) { return c.x + c.y + c.z; }
 float power(const Node& n) { return n.light[0] + n.light[1] + n.light[2]; }
+
+/// The light from a texel.
+Node leaf(const BorderedCube& points, int face, int x, int y) {
+  const TexelMoments moments = moments_of(points, face, x, y);
+  const float s = cube::centre(x, points.side), t = cube::centre(y, points.side);
+  const float width = 2 / static_cast<float>(points.side), total = sum_of(moments.mean);
+  Node out = square(face, s, t, width, moments.mean);
+  if (!(total > 0)) return out;
+  const float3 centre = direction_of(out);
+  const float3 of_light = normalize(
+      cube::point(face, s + width * (sum_of(moments.along_s) / total), t + width * (sum_of(moments.along_t) / total)));
+  set(out.direction, of_light);
+  const float3 away = centre - of_light;
+  set(out.centre, away);
+  out.even_spread += dot(away, away) * 0.5f;
+  return out;
+}
 
 Node sum(const Node* const (&parts)[4]) {
   Node all{};
   float total = 0;
   for (const Node* part : parts) total += power(*part);
-  float3 direction{0, 0, 0};
+  const auto weight = [&](const Node& part) { return total > 0 ? power(part) : part.solid_angle; };
+  float3 direction{0, 0, 0}, centre{0, 0, 0};
+  float weights = 0;
   for (const Node* part : parts) {
     all.solid_angle += part->solid_angle;
     for (int c = 0; c < 3; ++c) all.light[c] += part->light[c];
-    const float weight = total > 0 ? power(*part) : part->solid_angle;
-    direction = direction + float3{part->direction[0], part->direction[1], part->direction[2]} * weight;
+    direction = direction + direction_of(*part) * weight(*part);
+    weights += weight(*part);
+    centre = centre + (direction_of(*part) + centre_of(*part)) * part->solid_angle;
   }
   direction = normalize(direction);
-  all.direction[0] = direction.x, all.direction[1] = direction.y, all.direction[2] = direction.z;
+  for (const Node* part : parts) {
+    const float3 away = direction_of(*part) - direction;
+    const float half_square = dot(away, away) * 0.5f;
+    all.spread += (part->spread + half_square) * (weight(*part) / weights);
+    all.even_spread +=
+        (part->even_spread + dot(centre_of(*part), away) + half_square) * (part->solid_angle / all.solid_angle);
+  }
+  set(all.direction, direction);
+  set(all.centre, normalize(centre) - direction);
   return all;
 }
 
@@ -91,10 +137,7 @@ LightTree make_light_tree(const CubeImage& cube) {
         first[row * static_cast<std::size_t>(side) + static_cast<std::size_t>(x)] = node(face, x, y);
     });
   };
-  fill(cube.side, [&](int face, int x, int y) {
-    return square(face, cube::centre(x, cube.side), cube::centre(y, cube.side), 2 / static_cast<float>(cube.side),
-                  mean_in_texel(tree.texels, face, x, y));
-  });
+  fill(cube.side, [&](int face, int x, int y) { return leaf(tree.texels, face, x, y); });
   for (int side = cube.side / 2; side > 0; side /= 2)
     fill(side, [&](int face, int x, int y) {
       const auto part = [&](int dx, int dy) { return &tree.node(2 * side, face, 2 * x + dx, 2 * y + dy); };
@@ -103,7 +146,8 @@ LightTree make_light_tree(const CubeImage& cube) {
     });
   const float3 mean = tree.mean();
   const float threshold = std::max(mean.x + mean.y + mean.z, 1e-30f);
-  for (Node& n : tree.nodes) n.prominence = std::sqrt(std::max(power(n) / (n.solid_angle * threshold), 1.0f));
+  for (Node& n : tree.nodes)
+    n.prominence = std::sqrt(std::sqrt(std::max(power(n) / (n.solid_angle * threshold), 1.0f)));
   return tree;
 }
 

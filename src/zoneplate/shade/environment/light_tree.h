@@ -8,14 +8,17 @@
 
 namespace zoneplate {
 
-/// The light of a cube map as a quadtree on each face: each node has the light of the four below it, so that an
-/// integral over all directions needs small nodes only where its weight changes quickly.
+/// The light of a cube map as a quadtree on each face: each node has the light of the four below it, and its moments,
+/// so that an integral over all directions needs small nodes only where its weight changes quickly.
 struct LightTree {
   struct Node {
     float direction[3];  ///< unit; the mean of the directions, weighted by the light from them
     float solid_angle;
-    float light[3];    ///< radiance × solid angle
-    float prominence;  ///< the square root of its radiance relative to the mean over all directions, at least 1
+    float light[3];     ///< radiance × solid angle
+    float spread;       ///< variance of the directions along one axis, weighted by the light
+    float centre[3];    ///< from `direction` to the unit mean of the directions that counts all alike
+    float even_spread;  ///< their mean square distance from `direction` along one axis
+    float prominence;   ///< the fourth root of its radiance relative to the mean over all directions, at least 1
   };
   int side = 0;             ///< nodes along an edge of the finest level, a power of two
   std::vector<Node> nodes;  ///< by level, from one node a face to `side` × `side`; then by face and row

@@ -53,8 +53,8 @@ class Levels {
   }
 
  private:
-  static constexpr float density = 0.9f;  ///< least number of levels per octave of α²
-  int side_, finest_;                     ///< of level 0, and the greatest of the others
+  static constexpr float density = 1.22f;  ///< least number of levels per octave of α²
+  int side_, finest_;                      ///< of level 0, and the greatest of the others
   int count_;
   float sharpness_, per_octave_;
 };
@@ -62,12 +62,12 @@ class Levels {
 /// Of samples, in texels.
 constexpr int border = 4;
 
-/// The light of the tree filtered by the lobe, in the directions of the texels of a cube map with the border that
+/// The light of the tree filtered by each lobe, in the directions of the texels of cube maps with the border that
 /// fit_spline needs, by blocks of 4 × 4 texels.
-BorderedCube filtered(const LightTree& tree, float alpha, int side) {
+std::vector<BorderedCube> filtered(const LightTree& tree, const Lobes& lobes, int side) {
   const PrefilterKernels& kernels = PrefilterKernels::of();
-  BorderedCube out(side, border);
-  const int blocks = out.pitch() / 4;
+  std::vector<BorderedCube> out(static_cast<std::size_t>(lobes.count), BorderedCube(side, border));
+  const int blocks = out[0].pitch() / 4;
   parallel_for(static_cast<std::size_t>(cube::faces * blocks), [&](std::size_t row) {
     const int face = static_cast<int>(row) / blocks, first_y = static_cast<int>(row) % blocks * 4 - border;
     for (int first_x = -border; first_x < side + border; first_x += 4) {
@@ -77,13 +77,25 @@ BorderedCube filtered(const LightTree& tree, float alpha, int side) {
             normalize(cube::point(face, cube::centre(first_x + i % 4, side), cube::centre(first_y + i / 4, side)));
         directions.x[i] = d.x, directions.y[i] = d.y, directions.z[i] = d.z;
       }
-      RadianceBlock light;
-      kernels.filter(tree, {.alpha = alpha}, directions, light);
-      for (int i = 0; i < DirectionBlock::size; ++i)
-        out.at(face, first_x + i % 4, first_y + i / 4) = {light.r[i], light.g[i], light.b[i]};
+      RadianceBlock light[Lobes::most];
+      kernels.filter(tree, lobes, directions, light);
+      for (std::size_t a = 0; a < out.size(); ++a)
+        for (int i = 0; i < DirectionBlock::size; ++i)
+          out[a].at(face, first_x + i % 4, first_y + i / 4) = {light[a].r[i], light[a].g[i], light[a].b[i]};
     }
   });
   return out;
+}
+
+/// The lobes of a level and those after it that share its cube map's size.
+Lobes lobes_from(const Levels& levels, int level) {
+  // Errors of whole texels vanish in lobes of about their size.
+  constexpr float coarse = 0.4f, fine = 0.28f;
+  Lobes lobes{{levels.alpha(level)}, 1, levels.alpha(level) * static_cast<float>(levels.side(0)) < 4 ? coarse : fine};
+  while (lobes.count < Lobes::most && level + lobes.count < levels.count() &&
+         levels.side(level + lobes.count) == levels.side(level))
+    lobes.alpha[lobes.count] = levels.alpha(level + lobes.count), ++lobes.count;
+  return lobes;
 }
 
 /// A function of directions at the texels of a cube map.
@@ -136,7 +148,7 @@ float3 control_point(int level, int levels, const At& at) {
 }
 
 /// A change of the filter changes its version.
-constexpr char magic[8] = {'z', 'p', 'e', 'n', 'v', '0', '0', '5'};
+constexpr char magic[8] = {'z', 'p', 'e', 'n', 'v', '0', '0', '6'};
 
 }  // namespace
 
@@ -147,7 +159,7 @@ struct PreparedEnvironment::Header {
   std::uint64_t hash;  ///< of the texels
 };
 
-PreparedEnvironment::PreparedEnvironment(const CubeImage& cube) {
+PreparedEnvironment::PreparedEnvironment(const CubeImage& cube, const std::function<void(double)>& progress) {
   const Levels levels(cube.side);
   texels_.resize(3 * levels.lay_out(view_) + 1);
   const auto first = [&](int level) { return texels_.data() + 3 * static_cast<std::size_t>(view_.offset[level]); };
@@ -159,10 +171,13 @@ PreparedEnvironment::PreparedEnvironment(const CubeImage& cube) {
     first(0)[3 * i] = texel.x, first(0)[3 * i + 1] = texel.y, first(0)[3 * i + 2] = texel.z;
   }
   std::vector<BorderedCube> samples(1);
-  for (int level = 1; level < levels.count(); ++level) {
-    samples.push_back(filtered(tree, levels.alpha(level), view_.side[level]));
-    fit_spline(samples.back(), first(level));
+  for (int level = 1; level < levels.count(); level = static_cast<int>(samples.size())) {
+    if (progress) progress(static_cast<double>(view_.offset[level]) / view_.offset[levels.count()]);
+    for (BorderedCube& of_level : filtered(tree, lobes_from(levels, level), levels.side(level)))
+      samples.push_back(std::move(of_level));
   }
+  for (int level = 1; level < levels.count(); ++level)
+    fit_spline(samples[static_cast<std::size_t>(level)], first(level));
   std::copy(first(levels.count() - 1), first(levels.count()), first(levels.count()));
 
   // One spline along the levels.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -20,8 +21,10 @@ struct Environment;
 /// Exact     the same bits for any number of threads and any instruction set.
 class PreparedEnvironment {
  public:
+  /// `progress` takes the fraction that is complete, in [0, 1].
+  ///
   /// Requires  the side is a power of two from 32 to 512.
-  explicit PreparedEnvironment(const CubeImage& cube);
+  explicit PreparedEnvironment(const CubeImage& cube, const std::function<void(double)>& progress = {});
 
   /// The radiance multiplied and turned as `environment` says; its image is this one.
   EnvironmentView view(const Environment& environment, float3 up, const float4x4& world_from_camera = {}) const;

@@ -82,7 +82,7 @@ TEST(Prefilter, IsTheIntegralOfTheLobe) {
                                   static_cast<float>(std::sin(k * 2.4))});
       for (int i = 0; i < DirectionBlock::size; ++i) block.x[i] = n.x, block.y[i] = n.y, block.z[i] = n.z;
       RadianceBlock light;
-      PrefilterKernels::of().filter(tree, {.alpha = roughness * roughness}, block, light);
+      PrefilterKernels::of().filter(tree, {.alpha = {roughness * roughness}}, block, &light);
       const Mean mean = brute_force(image.as<float4>(), n, static_cast<double>(roughness) * roughness);
       EXPECT_NEAR(light.r[0] / mean.r, 1, bound) << roughness << ' ' << k;
       EXPECT_NEAR(light.b[15] / mean.b, 1, bound) << roughness << ' ' << k;
@@ -211,10 +211,10 @@ TEST(Prefilter, EveryInstructionSetGivesTheSameBits) {
       block.x[i] = n.x, block.y[i] = n.y, block.z[i] = n.z;
     }
     RadianceBlock expected;
-    PrefilterKernels::scalar.filter(tree, {.alpha = alpha}, block, expected);
+    PrefilterKernels::scalar.filter(tree, {.alpha = {alpha}}, block, &expected);
     for (const Isa isa : supported_isas()) {
       RadianceBlock light;
-      PrefilterKernels::of(isa).filter(tree, {.alpha = alpha}, block, light);
+      PrefilterKernels::of(isa).filter(tree, {.alpha = {alpha}}, block, &light);
       for (int i = 0; i < DirectionBlock::size; ++i) {
         EXPECT_EQ(light.r[i], expected.r[i]) << name_of(isa) << i;
         EXPECT_EQ(light.b[i], expected.b[i]) << name_of(isa) << i;
