@@ -35,6 +35,23 @@ TEST(Lighting, APhongSceneIsAsBrightAsOneWithoutLight) {
   EXPECT_FLOAT_EQ(phong.lights[0].intensity * 3.14159265f, unlit.lights[0].intensity);
 }
 
+TEST(Lighting, SurfacesWithoutAMaterialHaveMoreContrast) {
+  Scene plain, white;
+  plain.materials.push_back({.model = ShadingModel::BlinnPhong, .is_default = true});
+  white.materials.push_back({.model = ShadingModel::BlinnPhong});
+  // Of a surface that faces the key light, and of one that no light reaches.
+  const auto brightest = [](const Scene& scene) {
+    const Lighting lighting = make_lighting(scene);
+    return lighting.environment.factor().x + lighting.lights.front().intensity;
+  };
+  const auto darkest = [](const Scene& scene) { return make_lighting(scene).environment.factor().x; };
+  EXPECT_NEAR(brightest(plain), brightest(white), 0.05f);
+  EXPECT_LT(darkest(plain), 0.6f * darkest(white));
+  EXPECT_EQ(make_lighting(plain).ambient_light.x, darkest(plain));
+  plain.materials.push_back({.model = ShadingModel::BlinnPhong});
+  EXPECT_EQ(darkest(plain), darkest(white));
+}
+
 TEST(Lighting, MetallicRoughnessIsLitByTheStudio) {
   Scene scene;
   scene.materials.push_back({.model = ShadingModel::MetallicRoughness});
