@@ -76,6 +76,55 @@ TEST_F(Options, QualityMakesFilesSmaller) {
   EXPECT_EQ(image("a.png"), image("b.png"));
 }
 
+TEST_F(Options, FewPointsAreAHundredthOfTheHeightWide) {
+  write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\np 1 2 3 4\n");
+  const auto area = [&](const std::string& options) {
+    EXPECT_EQ(run("points.obj -o points.png --size 400 --aa none --quiet " + options).code, 0);
+    const Rgba8Image picture = image("points.png");
+    const Rgba8 background = picture(0, 0);
+    return std::ranges::count_if(picture.values(), [&](Rgba8 c) { return c != background; });
+  };
+  EXPECT_EQ(area(""), 4 * 4 * 4);
+  EXPECT_EQ(area("--point-size 1"), 4);
+  EXPECT_EQ(area("--point-size 6"), 4 * 6 * 6);
+}
+
+TEST_F(Options, TexturesOfFilesAreFilteredWithAnisotropy4) {
+  // Stripes along the view, on a floor seen at a grazing angle: without probes they are blurred to grey.
+  Rgba8Image stripes(256, 256);
+  for (int y = 0; y < 256; ++y)
+    for (int x = 0; x < 256; ++x) {
+      const auto code = static_cast<std::uint8_t>(x / 4 % 2 == 0 ? 255 : 0);
+      stripes(x, y) = {code, code, code, 255};
+    }
+  const std::vector<std::uint8_t> png = encode_png(stripes, {});
+  write("stripes.png", {png.begin(), png.end()});
+  write("floor.mtl", "newmtl floor\nKd 1 1 1\nmap_Kd stripes.png\n");
+  write("floor.obj",
+        "mtllib floor.mtl\nusemtl floor\nv -1 0 1\nv 1 0 1\nv 1 0 -1\nv -1 0 -1\n"
+        "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n");
+  const auto floor = [&](const std::string& options) {
+    EXPECT_EQ(
+        run("floor.obj -o floor.png --size 400 --camera-azimuth-angle 0 --camera-elevation-angle 8 --quiet " + options)
+            .code,
+        0);
+    return image("floor.png");
+  };
+  const auto contrast = [](const Rgba8Image& picture) {
+    int low = 255, high = 0;
+    for (int x = 190; x < 210; ++x) {
+      const int code = picture(x, 200).r;
+      low = std::min(low, code), high = std::max(high, code);
+    }
+    return high - low;
+  };
+  const Rgba8Image usual = floor("");
+  EXPECT_GT(contrast(usual), 2 * contrast(floor("--anisotropy 1")));
+  EXPECT_EQ(usual, floor("--anisotropy 4"));
+  EXPECT_EQ(floor("--quality fast"), floor("--aa msaa:n=4 --anisotropy 1"));
+  EXPECT_EQ(floor("--quality best --quality default"), usual);
+}
+
 TEST_F(Options, SurfacesWithoutAMaterialTakeTheOneOfTheOptions) {
   write("a.stl", stl);
   const auto color = [&](const std::string& options) {

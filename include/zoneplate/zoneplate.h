@@ -281,8 +281,11 @@ typedef struct zoneplate_render_options {
   zoneplate_shadows shadows;     ///< ZONEPLATE_NO_SHADOWS by default
   int32_t occlusion_samples;     ///< rays of ambient occlusion; 0: none
   int32_t has_shadow_ground;     ///< 1: a ground that is visible only where light is missing
-  int32_t anisotropy;            ///< probes of texture filters; 0: 1
+  int32_t anisotropy;            ///< most probes of texture filters; 0: 4, or the own value of a built-in scene
   int32_t keeps_back_faces;      ///< 1: back faces of single-sided materials are drawn
+  /// Pixels along a side of the squares of points; 0: the size with which all points would cover a sixteenth of the
+  /// image, from 1 to a hundredth of its height.
+  float point_size;
 } zoneplate_render_options;
 
 /// Renders an image with the arrays "color" and those of the data passes. `camera` null: the default view, as of

@@ -87,7 +87,8 @@ constexpr Field render_fields[] = {FIELD(zoneplate_render_options, width, Int),
                                    FIELD(zoneplate_render_options, occlusion_samples, Int),
                                    FIELD(zoneplate_render_options, has_shadow_ground, Flag),
                                    FIELD(zoneplate_render_options, anisotropy, Int),
-                                   FIELD(zoneplate_render_options, keeps_back_faces, Flag)};
+                                   FIELD(zoneplate_render_options, keeps_back_faces, Flag),
+                                   FIELD(zoneplate_render_options, point_size, Float)};
 #undef FIELD
 
 /// Scene() is empty; Scene(path, **options) loads a file or makes a built-in scene.

@@ -50,6 +50,21 @@ class Render(unittest.TestCase):
                 self.assertEqual(made.read_bytes(), expected.read_bytes())
                 self.assertEqual(image.encode(ending), expected.read_bytes())
 
+    def test_points_have_the_size_of_the_command(self):
+        path = self.folder / "points.obj"
+        path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\np 1 2 3 4\n")
+        sizes = set()
+        for arguments, options in ([], {}), (["--point-size", "9"], {"point_size": 9}):
+            expected, made = self.folder / "command.png", self.folder / "python.png"
+            command(path, "--size", "400x400", "-o", expected, *arguments)
+            image = zoneplate.render(path, size=(400, 400), **options)
+            image.save(made)
+            self.assertEqual(made.read_bytes(), expected.read_bytes())
+            sizes.add(int((image.rgb != image.rgb[0, 0]).any(axis=-1).sum()))
+        self.assertEqual(len(sizes), 2)
+        with self.assertRaises(zoneplate.UsageError):
+            zoneplate.render(path, size=(64, 64), point_size=-1)
+
     def test_arrays_give_the_image_of_a_file(self):
         vertices = np.array([[0, 1, 0], [-1, 0, 1], [1, 0, 1], [1, 0, -1], [-1, 0, -1]])
         faces = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]])

@@ -483,8 +483,9 @@ def render(
     shadows: str = "none",
     ambient_occlusion: int = 0,
     shadow_ground: bool = False,
-    anisotropy: int = 1,
+    anisotropy: int = 0,
     cull_back_faces: bool = True,
+    point_size: float = 0.0,
 ) -> Image:
     """Renders an image of a scene: a Scene, the path of a model, or a trimesh object.
 
@@ -501,6 +502,9 @@ def render(
     environment  a colour whose light from all directions replaces the default light
     shadows      "none", "map", "hard" or "soft"; `ambient_occlusion`: rays, 0: none
     shadow_ground  a ground that is visible only where it is in shadow
+    anisotropy   the most probes of texture filters; 0: 4, or the own value of a built-in scene
+    point_size   pixels along a side of the squares of points; 0: the size with which all points would cover a sixteenth
+                 of the image, from 1 to a hundredth of its height
 
     Other Python threads run while an image is rendered.
     """
@@ -531,5 +535,6 @@ def render(
             has_shadow_ground=shadow_ground,
             anisotropy=anisotropy,
             keeps_back_faces=not cull_back_faces,
+            point_size=point_size,
         )
     )

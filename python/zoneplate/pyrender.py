@@ -235,8 +235,6 @@ class OffscreenRenderer:
     """
 
     def __init__(self, viewport_width: int, viewport_height: int, point_size: float = 1.0, aa: str = "msaa:n=8"):
-        if point_size != 1.0:
-            raise _native.UsageError("point_size: only 1 is supported")
         self.viewport_width, self.viewport_height, self.point_size, self.aa = viewport_width, viewport_height, point_size, aa
 
     def render(
@@ -269,6 +267,7 @@ class OffscreenRenderer:
             aa="none" if only_data else self.aa,
             aovs=["depth", "object-id"] if flags & RenderFlags.SEG else ["depth"],
             cull_back_faces=not flags & RenderFlags.SKIP_CULL_FACES,
+            point_size=self.point_size,
             shadows="hard" if flags & RenderFlags.SHADOWS_ALL else "none",
             **options,
         )

@@ -35,9 +35,8 @@ std::span<const Param> look_params() {
        .names = frequencies},
       {.name = "texture-filter", .meaning = "of all textures, in place of the scene's own", .names = filters},
       {.name = "anisotropy",
-       .meaning = "maximum anisotropy of the scene's own texture filters",
-       .value = 1,
-       .low = 1,
+       .meaning = "maximum anisotropy of texture filters; 0: 4, or the own value of a built-in scene",
+       .low = 0,
        .high = 16},
       {.name = "specular-aa",
        .meaning = "highlights are widened by the normals' variance in a pixel",
@@ -63,7 +62,7 @@ void set_look(std::string_view text, RenderOptions& options) {
   options.shading_frequency = static_cast<ShadingFrequency>(settings.integer("shading-frequency"));
   if (const std::string_view filter = settings.chosen("texture-filter"); filter != "sampler")
     options.texture_filter = parse_texture_filter(filter);
-  options.anisotropy = settings.integer("anisotropy");
+  if (const int most = settings.integer("anisotropy"); most > 0) options.anisotropy = most;
   options.specular_aa = static_cast<SpecularAntialiasing>(settings.integer("specular-aa"));
   options.shadows.method = static_cast<ShadowMethod>(settings.integer("shadows"));
   options.shadows.angle = 3.0f * (3.14159265f / 180);

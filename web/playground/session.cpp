@@ -34,6 +34,7 @@
 #include "zoneplate/report/json.h"
 #include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/scene/builtin/make.h"
+#include "zoneplate/scene/usual_options.h"
 #include "zoneplate/shade/environment/layout.h"
 #include "zoneplate/shade/environment/prepared_environment.h"
 #include "zoneplate/upscale/upscaler.h"
@@ -117,7 +118,7 @@ class Session {
   std::shared_ptr<const PreparedEnvironment> environment_;  ///< of a file, in place of that of any scene; or null
   std::vector<std::uint8_t> prepared_;                      ///< of the last prepare_environment
   std::string name_;
-  bool has_own_camera_ = false, moves_ = false;
+  bool is_builtin_ = false, has_own_camera_ = false, moves_ = false;
   std::optional<PreparedScene> still_;
   std::unique_ptr<Sequence> sequence_;
   bool has_sequence_view_ = false;
@@ -196,7 +197,7 @@ void Session::set_scene(Scene made, const std::string& name, std::optional<Scene
 void Session::set_builtin(const std::string& text) {
   std::optional<Scene> made = make_builtin_scene(text);
   if (!made) throw Error(ErrorKind::Usage, text + ": no scene of this name");
-  has_own_camera_ = !made->cameras.empty();
+  is_builtin_ = true, has_own_camera_ = !made->cameras.empty();
   std::optional<SceneLoader> loader;
   if (!made->animations.empty() && text.find(':') == std::string::npos) {
     const auto load = [this, text](double seconds) {
@@ -236,7 +237,7 @@ void Session::set_model(const std::string& file) {
   } else {
     throw Error(ErrorKind::Usage, file + ": the page reads .glb, .gltf, .obj, .ply and .stl");
   }
-  has_own_camera_ = false;
+  is_builtin_ = false, has_own_camera_ = false;
   set_scene(std::move(made), file, std::move(loader));
 }
 
@@ -255,6 +256,9 @@ Camera Session::still_camera() const {
 RenderSettings Session::settings() const {
   RenderSettings out;
   out.options.width = width_, out.options.height = height_;
+  // What the command `render` chooses where its user does not.
+  out.options.anisotropy = is_builtin_ ? 1 : usual_anisotropy;
+  out.options.point_size = usual_point_size(scene(), width_, height_);
   out.options.display.background = background_;
   out.options.display.mapping = tone_mapping_;
   set_look(look_, out.options);

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <thread>
@@ -58,6 +61,28 @@ std::vector<std::uint8_t> png_by_renderer(const char* name, const char* method) 
   const DisplayOptions display{.mapping = light.tone_mapping, .background = default_background};
   const RenderedImage image = renderer.render(camera, {.options = {.width = 96, .height = 64, .display = display}});
   return encode_png(image.display, {.has_alpha = false});
+}
+
+TEST(Capi, PointsHaveTheSizeOfTheOptionsOrTheUsualOne) {
+  const std::string path = testing::TempDir() + "zoneplate_capi_points.obj";
+  std::ofstream(path) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\np 1 2 3 4\n";
+  const SceneHandle scene = load(path.c_str());
+  std::remove(path.c_str());
+  zoneplate_render_options options = small;
+  options.width = options.height = 400;
+  options.method = "none";
+  options.passes = "coverage";
+  const auto area = [&](float point_size) {
+    options.point_size = point_size;
+    const ImageHandle image = render(scene.get(), options);
+    const auto* const coverage = static_cast<const float*>(array(image, "coverage").data);
+    return std::count_if(coverage, coverage + 400 * 400, [](float part) { return part > 0; });
+  };
+  EXPECT_EQ(area(0), 4 * 4 * 4);
+  EXPECT_EQ(area(1), 4);
+  options.point_size = -1;
+  zoneplate_image* image = nullptr;
+  EXPECT_EQ(zoneplate_render(scene.get(), nullptr, &options, &image), ZONEPLATE_USAGE);
 }
 
 TEST(Capi, RendersTheBytesOfTheRenderer) {

@@ -38,6 +38,7 @@ struct zoneplate_scene {
   /// Errors    ErrorKind::Usage naming what is invalid in the scene; OutOfMemory.
   zoneplate::PreparedScene prepared();
 
+  bool is_builtin = false;
   bool uses_own_camera = false;                 ///< a built-in scene with a camera, which is its default view
   std::optional<zoneplate::float4> background;  ///< of built-in scenes that are defined on one
 

@@ -13,6 +13,7 @@
 #include "zoneplate/render/aov.h"
 #include "zoneplate/render/lighting.h"
 #include "zoneplate/render/view.h"
+#include "zoneplate/scene/usual_options.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::capi {
@@ -109,7 +110,9 @@ RenderSettings settings_of(const zoneplate_render_options& o, const zoneplate_sc
                   fmt::format("crop: the rectangle is not inside the image of {}x{}", options.width, options.height));
   }
   options.cull_back_faces = o.keeps_back_faces == 0;
-  options.anisotropy = o.anisotropy == 0 ? options.anisotropy : std::clamp(o.anisotropy, 1, 16);
+  options.anisotropy = o.anisotropy != 0 ? std::clamp(o.anisotropy, 1, 16) : scene.is_builtin ? 1 : usual_anisotropy;
+  if (o.point_size != 0 && !(o.point_size >= 0.01f && o.point_size <= 1024))
+    throw Error(ErrorKind::Usage, fmt::format("point_size: {} is not between 0.01 and 1024", o.point_size));
   options.shadows.method = at(shadows, o.shadows, "shadows");
   options.occlusion.samples = std::clamp(o.occlusion_samples, 0, 4096);
   options.ground = o.has_shadow_ground != 0 ? GroundKind::Shadow : GroundKind::None;
@@ -168,6 +171,8 @@ std::unique_ptr<zoneplate_image> render_image(zoneplate_scene& scene, const zone
   const std::optional<ToneMapping> tone_mapping = tone_mapping_of(o.tone_mapping);
   const PreparedScene prepared = scene.prepared();
   const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
+  settings.options.point_size =
+      o.point_size != 0 ? o.point_size : usual_point_size(prepared.scene(), options.width, options.height);
   const Lighting light = make_lighting(prepared.scene(), lighting);
   settings.options.display.mapping = tone_mapping.value_or(light.tone_mapping);
   Renderer renderer(prepared.lit(light), std::move(method));

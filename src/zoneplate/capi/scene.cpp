@@ -246,9 +246,9 @@ zoneplate_status zoneplate_scene_load(const char* name, const zoneplate_load_opt
     const LoadOptions load = load_options_of(options);
     const std::string file = &required(name, "name");
     auto out = std::make_unique<zoneplate_scene>(load_scene(file, load));
-    const bool is_builtin = load.format.empty() && is_builtin_scene(file);
-    out->uses_own_camera = is_builtin && out->read([](const Scene& s) { return !s.cameras.empty(); });
-    if (is_builtin && file == "triangles") out->background = {0, 0, 0, 1};
+    out->is_builtin = load.format.empty() && is_builtin_scene(file);
+    out->uses_own_camera = out->is_builtin && out->read([](const Scene& s) { return !s.cameras.empty(); });
+    if (out->is_builtin && file == "triangles") out->background = {0, 0, 0, 1};
     required(scene, "scene") = out.release();
   });
 }

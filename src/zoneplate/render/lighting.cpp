@@ -36,6 +36,13 @@ Lighting three_lights(const Scene& scene) {
   const auto is_made_of_it = [](const Material& m) { return is_phong(m.model); };
   if (!scene.materials.empty() && std::all_of(scene.materials.begin(), scene.materials.end(), is_made_of_it))
     for (Light& light : lighting.lights) light.intensity /= pi;
+  // Surfaces without a material, as in STL files, are all white: more of their light comes from the key light, whose
+  // shading alone shows their form.
+  constexpr float plain_key = 1.2f, plain_environment = 0.14f;
+  if (!scene.materials.empty() && std::ranges::all_of(scene.materials, &Material::is_default)) {
+    lighting.lights.front().intensity *= plain_key;
+    lighting.environment.color = {plain_environment, plain_environment, plain_environment};
+  }
   return lighting;
 }
 

@@ -103,15 +103,32 @@ struct Directions {
   }
 };
 
+/// The angle of sample i about an axis; the golden ratio spreads the angles.
+float turn_of(int i) { return 2 * pi * static_cast<float>(static_cast<std::uint32_t>(i) * 0x9E3779B9u) * 0x1p-32f; }
+
 /// Sample i of `count` microfacet normals about n, distributed as D(h) (n·h).
 float3 microfacet(float3 n, float alpha, int i, int count) {
   const float3 x = normalize(cross(std::abs(n.y) < 0.9f ? float3{0, 1, 0} : float3{1, 0, 0}, n)), y = cross(n, x);
-  const float share = (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
-  // The golden ratio spreads the turns.
-  const float turn = 2 * pi * static_cast<float>(static_cast<std::uint32_t>(i) * 0x9E3779B9u) * 0x1p-32f;
+  const float share = (static_cast<float>(i) + 0.5f) / static_cast<float>(count), turn = turn_of(i);
   const float sine2 = alpha * alpha * share / (1 + (alpha * alpha - 1) * share);
   const float across = std::sqrt(sine2);
   return n * std::sqrt(1 - sine2) + x * (across * cos(turn)) + y * (across * sin(turn));
+}
+
+/// Sample i of `count` microfacet normals about n, distributed as those that the viewer sees. Their mirror images of
+/// the viewer cover a lobe evenly at grazing views too, where most of microfacet() are hidden.
+///
+/// Source    Dupuy and Benyoub, Sampling Visible GGX Normals with Spherical Caps, HPG 2023.
+float3 visible_microfacet(float3 n, float3 v, float alpha, int i, int count) {
+  const float nv = dot(n, v);
+  const float3 x = normalize(v - n * nv, normalize(cross(std::abs(n.y) < 0.9f ? float3{0, 1, 0} : float3{1, 0, 0}, n)));
+  const float3 y = cross(n, x);
+  // In a space where the surface is smooth, that is, its lobe a hemisphere, with v in the plane of x and n.
+  const float3 smooth = normalize(float3{alpha * dot(v, x), 0, nv});
+  const float share = (static_cast<float>(i) + 0.5f) / static_cast<float>(count), turn = turn_of(i);
+  const float up = (1 - share) * (1 + smooth.z) - smooth.z, across = std::sqrt(std::max(1 - up * up, 0.0f));
+  const float3 h = float3{across * cos(turn), across * sin(turn), up} + smooth;
+  return normalize(x * (alpha * h.x) + y * (alpha * h.y) + n * std::max(h.z, 0.0f));
 }
 
 float3 mirrored(float3 v, float3 h) { return h * (2 * dot(v, h)) - v; }
@@ -171,16 +188,17 @@ LinearImage ball_of(int side, const Reflected& reflected) {
 
 constexpr float3 viewer{0, 0, 1};
 
-/// ∫ L f (n·l) dl by samples of the lobe.
+/// ∫ L f (n·l) dl by samples of the visible microfacets: each weighs what its shadows leave of it, G₂ / G₁.
 float3 integral(const EnvironmentView& view, float rough, float3 n) {
-  const float alpha = rough * rough;
+  const float alpha = rough * rough, nv = std::max(n.z, 1e-4f);
+  const float all = 2 * (nv + std::sqrt(nv * nv * (1 - alpha * alpha) + alpha * alpha));
   Directions lobe(samples);
   float weight[samples];
   for (int i = 0; i < samples; ++i) {
-    const float3 h = microfacet(n, alpha, i, samples), l = mirrored(viewer, h);
-    const float nl = std::max(dot(n, l), 0.0f), vh = std::max(dot(viewer, h), 0.0f), nh = std::max(dot(n, h), 1e-6f);
+    const float3 l = mirrored(viewer, visible_microfacet(n, viewer, alpha, i, samples));
+    const float nl = std::max(dot(n, l), 0.0f);
     lobe.set(i, l);
-    weight[i] = smith(F(nl), F(std::max(n.z, 1e-4f)), F(alpha)).v * nl * 4 * vh / nh;
+    weight[i] = smith(F(nl), F(nv), F(alpha)).v * nl * all;
   }
   lobe.look_up(view, sample_roughness);
   float3 sum{0, 0, 0};

@@ -93,12 +93,12 @@ Lesson make(const DemoSize& size, const Settings&) {
   figure.rows[0].push_back(
       {large(codes.image),
        fmt::format("Blended in sRGB values\nThin white lines look like ropes: pixels that are half covered "
-                   "are too dark. The image has {} % of the lines' light.",
+                   "are too dark. The image has {}\u00a0% of the lines' light.",
                    number(100 * codes.light / true_light, 0))});
   figure.rows[0].push_back(
       {large(light.image),
        fmt::format("Blended in linear light\nCoverage is light, which is encoded for the display last: "
-                   "{} % of the lines' light.",
+                   "{}\u00a0% of the lines' light.",
                    number(100 * light.light / true_light, 0))});
   figure.rows[0].push_back(
       {patches(side),
@@ -106,7 +106,7 @@ Lesson make(const DemoSize& size, const Settings&) {
        "with them, because it has half of the light of white. Code 128 on the left is darker."});
   figure.rows[0].push_back(
       plot_panel(curve_plot(), side, side,
-                 fmt::format("Coverage and light\nA pixel that is half covered has {} % of the light of white if "
+                 fmt::format("Coverage and light\nA pixel that is half covered has {}\u00a0% of the light of white if "
                              "sRGB values are blended.",
                              number(100 * static_cast<double>(decode_srgb(0.5f)), 0)),
                  plot_width));

@@ -77,7 +77,8 @@ std::string coverage_text(const Texture& texture, float cutoff) {
     for (int y = 0; y < view.height[l]; ++y)
       for (int x = 0; x < view.width[l]; ++x)
         if (static_cast<float>(view.unorm15[std::ptrdiff_t{4} * view.texel(l, x, y) + 3]) >= cutoff * 32767) ++passing;
-    text += fmt::format("{}{} %", l > 0 ? ", " : "", number(100.0 * passing / (view.width[l] * view.height[l]), 0));
+    text +=
+        fmt::format("{}{}\u00a0%", l > 0 ? ", " : "", number(100.0 * passing / (view.width[l] * view.height[l]), 0));
   }
   return text;
 }

@@ -121,20 +121,22 @@ void add_rows(const Scene& scene, const char* name, std::span<const std::pair<Sp
     const double change = flicker(image, shot(turned, "msaa:n=8", kind));
     const double energy = mean_of(image) / mean_of(reference) - 1;
     const std::string heading(std::string_view(caption).substr(0, std::string_view(caption).find('\n')));
-    add(image, fmt::format("{} Error {} %, flicker {} %.", caption, number(100 * error, 2), number(100 * change, 2)));
+    add(image, fmt::format("{} Error {}\u00a0%, flicker {}\u00a0%.", caption, number(100 * error, 2),
+                           number(100 * change, 2)));
     table.rows.push_back({name, heading, number(100 * error, 2) + " %", number(100 * change, 2) + " %",
                           (energy > 0 ? "+" : "") + number(100 * energy, 1) + " %"});
   }
   const double change = flicker(reference, shot(turned, reference_method, SpecularAntialiasing::None));
   table.rows.push_back({name, "256 samples", "", number(100 * change, 2) + " %", ""});
-  add(reference, fmt::format("256 samples a pixel\nThe reference. Flicker {} %.", number(100 * change, 2)));
+  add(reference, fmt::format("256 samples a pixel\nThe reference. Flicker {}\u00a0%.", number(100 * change, 2)));
   figure.rows.push_back(std::move(pictures));
   if (!crops.empty()) figure.rows.push_back(std::move(crops));
 }
 
-/// The metal in lights so weak that few highlights are clipped to white.
+/// The metal in lights so weak that few highlights are clipped to white, with all of its objects in a square image.
 Scene metal() {
   Scene scene = scene_of("metal");
+  scene.cameras.at(0).vertical_fov = 0.68f;
   for (Light& light : scene.lights) light.intensity *= 0.15f;
   return scene;
 }

@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "zoneplate/cli/demo/demo.h"
+#include "zoneplate/cli/demo/lit_ball.h"
 #include "zoneplate/cli/demo/picture.h"
+#include "zoneplate/math/transform.h"
 #include "zoneplate/scene/builtin/shapes.h"
 #include "zoneplate/signal/pattern/pattern.h"
 
@@ -35,13 +37,14 @@ Rgba8Image pattern_picture(const std::string& parameters, int side) {
   return shown(make_pattern(fmt::format("perlin:size={},cell={},{}", side, side / 8.0, parameters)));
 }
 
+/// A smooth ball in the studio, its axis turned towards the viewer.
 Scene sphere(const SolidTexture& texture) {
-  Scene scene = scene_of("sphere:triangles=30000");
-  Material& material = scene.materials.front();
-  material = {};
+  Material material;
   material.metallic = 0, material.roughness = 0.35f;
   material.solid_texture = texture;
-  scene.lights.clear();
+  Scene scene = lit_ball(material, 256, 128);
+  scene.instances.front().world_from_object = rotation({1, 0, 0}, 0.7f) * rotation({0, 1, 0}, 0.5f);
+  scene.lights.clear(), scene.ambient_light = {};
   return scene;
 }
 

@@ -32,7 +32,7 @@ struct Row {
   const char* meaning;
 };
 constexpr std::array<Row, 7> reduced = {
-    {{"nearest", "One texel: false patterns far away, jagged squares near by."},
+    {{"nearest", "One texel: false patterns far away, jagged edges near by."},
      {"bilinear", "Four texels of the full image: far away each pixel still misses nearly all texels under it."},
      {"trilinear", "Mip levels by the longer side of the footprint: no aliasing, but blur towards the horizon."},
      {"ripmap", "Levels reduced along u and v separately: helps along the axes only, and this board lies across them."},
@@ -70,7 +70,7 @@ void add_boards(const Scene& scene, int side, int crop_y, std::array<double, 8>&
     std::vector<Panel> pictures, crops;
     for (std::size_t i = 4 * half; i < 4 * half + 4; ++i) {
       const std::string caption = i == 7 ? "1024 samples a pixel\nThe reference."
-                                         : fmt::format("{}\n{} Error {} %.", reduced[i].filter, reduced[i].meaning,
+                                         : fmt::format("{}\n{} Error {}\u00a0%.", reduced[i].filter, reduced[i].meaning,
                                                        number(100 * all[i].error, 1));
       const int x = side / 2, y = crop_y;
       pictures.push_back({marked(all[i].picture, x, y, factor, side), caption});
@@ -104,7 +104,7 @@ std::array<double, 4> add_enlarged(int side, Figure& figure) {
         image(x, y) = {c.x, c.y, c.z, 1};
       }
     errors[i] = rms_difference(luminance_of(image), luminance_of(original));
-    row.push_back({shown(image), fmt::format("{}, enlarged 9 times\n{} Error {} %.", enlarged_by[i].filter,
+    row.push_back({shown(image), fmt::format("{}, enlarged 9 times\n{} Error {}\u00a0%.", enlarged_by[i].filter,
                                              enlarged_by[i].meaning, number(100 * errors[i], 2))});
   }
   figure.rows.push_back(std::move(row));

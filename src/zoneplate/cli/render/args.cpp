@@ -73,7 +73,9 @@ using Choices = std::vector<std::string_view>;
 /// The options of a level of --quality: 0 fast, 1 default, 2 best.
 void set_quality(RenderArgs& a, int level) {
   const RenderArgs usual;
-  a.method = level == 0 ? "msaa:n=4" : level == 1 ? usual.method : "msaa:n=16";
+  a.method = level == 0 ? "msaa:n=4" : level == 1 ? usual.method : "msaa:n=16,alpha=samples";
+  if (level == 1) a.anisotropy.reset();
+  if (level != 1) a.anisotropy = level == 0 ? 1 : 16;
   a.options.shadows = level == 2 ? parse_shadows("soft:samples=64") : usual.options.shadows;
   a.options.occlusion = level == 2 ? parse_occlusion("rays") : usual.options.occlusion;
   a.options.ground = level == 2 ? GroundKind::Shadow : usual.options.ground;
@@ -283,9 +285,10 @@ std::vector<Option> picture_options(RenderArgs& a) {
          a.options.width = size.x, a.options.height = size.y;
        }},
       {"--quality", "LEVEL",
-       "Sets several options, which other options change: fast is --aa msaa:n=4; default; best is --aa msaa:n=16 "
-       "--shadows soft:samples=64 --ambient-occlusion rays --ground shadow; the compression of files is --jpeg-quality "
-       "and --webp-quality",
+       "Sets several options, which other options change: fast is --aa msaa:n=4 --anisotropy 1; default; best is --aa "
+       "msaa:n=16,alpha=samples --anisotropy 16 --shadows soft:samples=64 --ambient-occlusion rays --ground shadow; "
+       "the "
+       "compression of files is --jpeg-quality and --webp-quality",
        group, true, [&](auto& text) { set_quality(a, parse_quality(text)); }, Choices{"fast", "default", "best"}},
       {"--anti-aliasing,--aa", "METHOD",
        "Method with its parameters, for example ssaa:n=4 (zoneplate list methods); default msaa:n=8", group, true,
@@ -478,10 +481,13 @@ std::vector<Option> scene_options(RenderArgs& a) {
           [&](std::size_t i) { a.options.ground = i == 1 ? GroundKind::Shadow : GroundKind::None; }),
       {"--no-cull", "", "Draw back faces of single-sided materials", group, false,
        [&](auto&) { a.options.cull_back_faces = false; }},
-      {"--point-size", "PX", "Size of points, which are drawn as squares; default 1", group, false,
-       [&](auto& text) { a.options.point_size = static_cast<float>(parse_number(text, 0.01, 1024)); }},
-      {"--anisotropy", "N", "Maximum anisotropy of texture filtering, 1 to 16; default 1, or the scene's own value",
-       group, false, [&](auto& text) { a.options.anisotropy = parse_whole(text, 1, 16); }},
+      {"--point-size", "PX",
+       "Size of points, which are drawn as squares; default: the size with which all points would cover a sixteenth of "
+       "the image, from 1 to a hundredth of its height",
+       group, false, [&](auto& text) { a.point_size = static_cast<float>(parse_number(text, 0.01, 1024)); }},
+      {"--anisotropy", "N",
+       "Maximum anisotropy of texture filtering, 1 to 16; default 4, or the own value of a built-in scene", group,
+       false, [&](auto& text) { a.anisotropy = parse_whole(text, 1, 16); }},
       {"--texture-filter", "FILTER",
        "Filter of all textures, in place of the scene's own: " + texture_filter_names() +
            "; for example ewa:anisotropy=16 (zoneplate list texture-filters)",

@@ -62,10 +62,12 @@ struct RenderArgs {
   FileOptions file;
   std::string stdout_format = "png";
   std::string method = "msaa:n=8";
-  bool has_method = false;             ///< --anti-aliasing is given
-  std::string upscaler;                ///< follows the method; check_args appends it to `method`
-  std::optional<double> render_scale;  ///< of `upscaler`
-  RenderOptions options;
+  bool has_method = false;                  ///< --anti-aliasing is given
+  std::string upscaler;                     ///< follows the method; check_args appends it to `method`
+  std::optional<double> render_scale;       ///< of `upscaler`
+  RenderOptions options;                    ///< `anisotropy` and `point_size` are set by set_usual_options
+  std::optional<int> anisotropy;            ///< none: usual_anisotropy, or the own one of a built-in scene
+  std::optional<float> point_size;          ///< none: usual_point_size
   DisplayOptions display;                   ///< `mapping` is set from `tone_mapping`, by the scene's light
   std::optional<ToneMapping> tone_mapping;  ///< none: that of the light, see Lighting
   bool meters_exposure = false;             ///< --exposure auto: `display.exposure` is set by metered_exposure

@@ -67,6 +67,7 @@ std::vector<std::uint8_t> render_cell(RenderArgs render, ItemSender& sender) {
   if (!render.hdri_file.empty()) environments.complete(render, [](std::uint64_t, std::span<const std::uint8_t>) {});
   within_import_time(render.input, render.load.limits, [&] { scene = load_scene(render.input, render.load); });
   sender.has_read();
+  set_usual_options(render, scene);
   render.view.up = render.up.value_or(scene.up);
   const bool has_own_view = is_builtin_scene(render.input) && !scene.cameras.empty();
   if (has_own_view && !render.view.index && !render.view.position) render.view.index = 0;
@@ -179,7 +180,7 @@ void run_contact_sheet(std::span<const std::string> arguments) {
   SheetArgs args;
   args.render.options.width = 200, args.render.options.height = 150;
   args.render.background = float4{0.267f, 0.267f, 0.267f, 1};
-  args.render.options.point_size = 3, args.render.options.line_width = 1.5f;  // single pixels would hardly be visible
+  args.render.point_size = 3, args.render.options.line_width = 1.5f;  // single pixels would hardly be visible
   Syntax syntax = make_syntax(args);
   if (!parse(syntax, arguments)) return;
   if (syntax.found_operands.empty()) throw Error(ErrorKind::Usage, "no input: give models or built-in scenes");

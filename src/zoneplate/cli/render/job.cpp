@@ -72,6 +72,7 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   }
   summary.times.emplace_back("textures", texture_watch.ms());
   const Scene& scene = scene_->scene();
+  set_usual_options(args, scene);
   args.view.up = args.up.value_or(scene.up);
   const bool has_own_view = is_builtin_scene(args.input) && !scene.cameras.empty();
   if (has_own_view && !args.view.index && !args.view.position) args.view.index = 0;

@@ -23,6 +23,7 @@
 #include "zoneplate/image/auto_exposure.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/scene/geometry/displacement.h"
+#include "zoneplate/scene/usual_options.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -136,6 +137,12 @@ void convert_materials(const RenderArgs& args, Scene& scene) {
     for (Material& material : scene.materials) convert_material(material, *args.shading_model);
   if (args.displacement) displace_surfaces(scene, {.tolerance = *args.displacement});
   if (!args.solid_texture.empty()) set_solid_texture(args.solid_texture, scene);
+}
+
+void set_usual_options(RenderArgs& args, const Scene& scene) {
+  RenderOptions& options = args.options;
+  options.point_size = args.point_size.value_or(usual_point_size(scene, options.width, options.height));
+  options.anisotropy = args.anisotropy.value_or(is_builtin_scene(args.input) ? 1 : usual_anisotropy);
 }
 
 ToneMapping set_look(const RenderArgs& args, Scene& scene) {

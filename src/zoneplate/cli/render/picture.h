@@ -54,6 +54,9 @@ void check_passes(const RenderArgs& args, const Request& request);
 /// Converts the materials of a loaded scene to the shading model of the arguments.
 void convert_materials(const RenderArgs& args, Scene& scene);
 
+/// Sets those of `args.options` that the user leaves to the scene: `point_size` and `anisotropy`.
+void set_usual_options(RenderArgs& args, const Scene& scene);
+
 /// Changes the materials and the lighting of a loaded scene according to the arguments. The tone curve for it.
 ToneMapping set_look(const RenderArgs& args, Scene& scene);
 

@@ -193,6 +193,7 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
   Sequence sequence = plan.sequence();
   Renderer renderer(sequence.scene(plan.frames().front()), std::move(method));
   args.display.mapping = plan.tone_mapping();
+  set_usual_options(args, renderer.scene().scene());
   summary.warnings = renderer.scene().scene().warnings;
   if (!plan.note().empty()) summary.warnings.push_back(plan.note());
   if (!is_numbered && plan.frames().size() == 1 && !is_one_frame(args.sequence))

@@ -19,11 +19,11 @@ struct Box {
 };
 
 constexpr Box boxes[] = {
-    {{-0.58f, 0.62f, 0.53f}, 0.42f, 0.36f, 3.0f, 0.12f},   // key
-    {{0.10f, 1.00f, -0.20f}, 0.80f, 0.26f, 1.2f, 0.20f},   // overhead
-    {{1.00f, 0.12f, 0.42f}, 0.36f, 0.80f, 0.9f, 0.25f},    // card
-    {{-0.80f, 0.22f, -0.78f}, 0.13f, 0.90f, 3.0f, 0.20f},  // strips
-    {{0.78f, 0.30f, -0.80f}, 0.13f, 0.90f, 3.2f, 0.20f},
+    {{-0.58f, 0.62f, 0.53f}, 0.42f, 0.36f, 3.2f, 0.12f},   // key
+    {{0.10f, 1.00f, -0.20f}, 0.80f, 0.26f, 1.4f, 0.20f},   // overhead
+    {{1.00f, 0.12f, 0.42f}, 0.36f, 0.80f, 1.0f, 0.25f},    // card
+    {{-0.64f, 0.22f, -0.94f}, 0.13f, 0.90f, 3.0f, 0.20f},  // strips
+    {{0.62f, 0.30f, -0.96f}, 0.13f, 0.90f, 3.0f, 0.20f},
 };
 
 float smooth(float from, float to, float x) {
@@ -45,7 +45,7 @@ float light_of(const Box& box, float3 d) {
 float radiance(float3 d) {
   // Walls that darken a little towards the floor's horizon, with a reflector behind the viewer, and the glow of the
   // floor before the viewer.
-  const float walls = 0.10f + 0.06f * smooth(-0.1f, 1, d.y) + 0.16f * smooth(0.25f, 1, d.z);
+  const float walls = 0.12f + 0.06f * smooth(-0.1f, 1, d.y) + 0.40f * smooth(0.25f, 1, d.z);
   const float floor = 0.20f * smooth(0.02f, -0.75f, d.y) * (0.8f + 0.2f * d.z);
   float sum = walls + floor;
   for (const Box& box : boxes) sum += light_of(box, d);

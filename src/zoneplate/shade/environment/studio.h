@@ -13,15 +13,15 @@ class PreparedEnvironment;
 float3 studio_key();
 
 /// The illuminance of the light from there that goes with the studio's environment, in lux.
-inline constexpr float studio_key_lux = 1.6f;
+inline constexpr float studio_key_lux = 1.7f;
 
 /// The angle from the middle of that light to its edge, in radians: somewhat less than that of the soft box.
 inline constexpr float studio_key_radius = 0.25f;
 
 /// The radiance of a photographer's studio, neutral grey: a large soft box above on the left in front, a panel
-/// overhead, a white card on the right, two strips behind that draw outlines, a dim reflector behind the viewer, and a
+/// overhead, a white card on the right, two strips behind that draw outlines, a reflector behind the viewer, and a
 /// floor that glows. The boxes and the light are made for the Neutral curve, under which a white surface that faces
-/// the light is just below white, and one that faces the viewer keeps five sixths of its colour's light.
+/// the light is just below white, and one that faces the viewer has its own colour.
 ///
 /// Space     that of the camera: x right, y up, z towards the viewer.
 CubeImage studio_cube(int side);

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/scene/usual_options.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "zoneplate/scene/scene.h"
+
+namespace zoneplate {
+
+float usual_point_size(const Scene& scene, int width, int height) {
+  double points = 0;
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    if (mesh.topology == Topology::Points) points += static_cast<double>(mesh.primitives());
+  }
+  constexpr double part = 1.0 / 16;
+  const double area = part * width * height / std::max(points, 1.0), most = height / 100.0;
+  return static_cast<float>(std::max(std::min(std::sqrt(area), most), 1.0));
+}
+
+}  // namespace zoneplate

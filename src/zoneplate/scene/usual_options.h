@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+namespace zoneplate {
+
+struct Scene;
+
+/// The maximum anisotropy of texture filtering for models of files whose user names none. It keeps floors and sides
+/// sharp that are seen at a grazing angle, and costs time at these alone.
+/// Source    model-viewer and Babylon.js, which have the same default.
+inline constexpr int usual_anisotropy = 4;
+
+/// The size of points whose user names none, in pixels: squares of this size for all points of the scene would cover a
+/// sixteenth of the image. Few points are visible, and dense clouds keep their detail.
+///
+/// Edges     at least 1, and at most a hundredth of the image's height
+float usual_point_size(const Scene& scene, int width, int height);
+
+}  // namespace zoneplate
