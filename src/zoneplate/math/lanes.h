@@ -89,6 +89,7 @@ struct Int {
   friend Int operator-(Int a, Int b) { return a.v - b.v; }
   friend Int operator*(Int a, Int b) { return a.v * b.v; }
   friend Bool operator<(Int a, Int b) { return {a.v < b.v}; }
+  friend Bool operator==(Int a, Int b) { return {a.v == b.v}; }
   friend Bool operator>(Int a, Int b) { return {a.v > b.v}; }
   friend Int operator&(Int a, Int b) { return a.v & b.v; }
   friend Int operator|(Int a, Int b) { return a.v | b.v; }
@@ -131,6 +132,31 @@ struct Lane {
   static void load_quads(const At& at, Lane (&out)[4]) {
     for (int c = 0; c < 4; ++c) out[c] = static_cast<T>(at(0)[c]);
   }
+  /// Four values for every lane, in an order of their own, for sums of quads that need not be split before.
+  class Quads {
+   public:
+    /// The quad of each lane starts at at(lane).
+    template <class At>
+    static Quads load(const At& at) {
+      return {at(0)[0], at(0)[1], at(0)[2], at(0)[3]};
+    }
+    static Quads zeros() { return {0, 0, 0, 0}; }
+    /// out[c] is element c of each lane's quad.
+    void split(Lane (&out)[4]) const {
+      for (int c = 0; c < 4; ++c) out[c] = value_[c];
+    }
+    friend Quads operator*(Quads q, Lane w) {
+      return {q.value_[0] * w.v, q.value_[1] * w.v, q.value_[2] * w.v, q.value_[3] * w.v};
+    }
+    friend Quads operator+(Quads a, Quads b) {
+      return {a.value_[0] + b.value_[0], a.value_[1] + b.value_[1], a.value_[2] + b.value_[2],
+              a.value_[3] + b.value_[3]};
+    }
+
+   private:
+    Quads(T a, T b, T c, T d) : value_{a, b, c, d} {}
+    T value_[4];
+  };
   friend Lane operator+(Lane a, Lane b) { return a.v + b.v; }
   friend Lane operator-(Lane a, Lane b) { return a.v - b.v; }
   friend Lane operator*(Lane a, Lane b) { return a.v * b.v; }

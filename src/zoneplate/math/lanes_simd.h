@@ -83,6 +83,7 @@ struct IntVector {
   friend HWY_INLINE Int operator*(Int a, Int b) { return Int(hn::Mul(a.v, b.v)); }
   friend HWY_INLINE Bool operator<(Int a, Int b) { return {hn::RebindMask(FloatTag(), hn::Lt(a.v, b.v))}; }
   friend HWY_INLINE Bool operator>(Int a, Int b) { return {hn::RebindMask(FloatTag(), hn::Gt(a.v, b.v))}; }
+  friend HWY_INLINE Bool operator==(Int a, Int b) { return {hn::RebindMask(FloatTag(), hn::Eq(a.v, b.v))}; }
   friend HWY_INLINE Int operator&(Int a, Int b) { return Int(hn::And(a.v, b.v)); }
   friend HWY_INLINE Int operator|(Int a, Int b) { return Int(hn::Or(a.v, b.v)); }
   template <int bits>
@@ -125,16 +126,43 @@ struct FloatVector {
     hn::StoreInterleaved4(v[0].v, v[1].v, v[2].v, v[3].v, FloatTag(), p);
   }
   static HWY_INLINE Float gather(const float* table, Int i) { return Float(hn::GatherIndex(FloatTag(), table, i.v)); }
+  /// Register k has the quads of lanes k and k + 4.
+  class Quads {
+   public:
+    template <class At>
+    static HWY_INLINE Quads load(const At& at) {
+      const FloatTag d;
+      const auto quad = [&](int lane) HWY_ATTR { return hn::LoadU(hn::FixedTag<float, 4>(), at(lane)); };
+      return {every_fourth_quad(d, quad, 0), every_fourth_quad(d, quad, 1), every_fourth_quad(d, quad, 2),
+              every_fourth_quad(d, quad, 3)};
+    }
+    static HWY_INLINE Quads zeros() {
+      const auto zero = hn::Zero(FloatTag());
+      return {zero, zero, zero, zero};
+    }
+    HWY_INLINE void split(Float (&out)[4]) const {
+      const FloatTag d;
+      const auto xy02 = hn::InterleaveLower(d, r0, r2), xy13 = hn::InterleaveLower(d, r1, r3);
+      const auto zw02 = hn::InterleaveUpper(d, r0, r2), zw13 = hn::InterleaveUpper(d, r1, r3);
+      out[0].v = hn::InterleaveLower(d, xy02, xy13), out[1].v = hn::InterleaveUpper(d, xy02, xy13);
+      out[2].v = hn::InterleaveLower(d, zw02, zw13), out[3].v = hn::InterleaveUpper(d, zw02, zw13);
+    }
+    friend HWY_INLINE Quads operator*(Quads q, Float w) {
+      return {hn::Mul(q.r0, hn::Broadcast<0>(w.v)), hn::Mul(q.r1, hn::Broadcast<1>(w.v)),
+              hn::Mul(q.r2, hn::Broadcast<2>(w.v)), hn::Mul(q.r3, hn::Broadcast<3>(w.v))};
+    }
+    friend HWY_INLINE Quads operator+(Quads a, Quads b) {
+      return {hn::Add(a.r0, b.r0), hn::Add(a.r1, b.r1), hn::Add(a.r2, b.r2), hn::Add(a.r3, b.r3)};
+    }
+
+   private:
+    using Register = hn::Vec<FloatTag>;
+    HWY_INLINE Quads(Register a, Register b, Register c, Register d) : r0(a), r1(b), r2(c), r3(d) {}
+    Register r0, r1, r2, r3;
+  };
   template <class At>
   static HWY_INLINE void load_quads(const At& at, Float (&out)[4]) {
-    const FloatTag d;
-    const auto quad = [&](int lane) HWY_ATTR { return hn::LoadU(hn::FixedTag<float, 4>(), at(lane)); };
-    const auto r0 = every_fourth_quad(d, quad, 0), r1 = every_fourth_quad(d, quad, 1);
-    const auto r2 = every_fourth_quad(d, quad, 2), r3 = every_fourth_quad(d, quad, 3);
-    const auto xy02 = hn::InterleaveLower(d, r0, r2), xy13 = hn::InterleaveLower(d, r1, r3);
-    const auto zw02 = hn::InterleaveUpper(d, r0, r2), zw13 = hn::InterleaveUpper(d, r1, r3);
-    out[0].v = hn::InterleaveLower(d, xy02, xy13), out[1].v = hn::InterleaveUpper(d, xy02, xy13);
-    out[2].v = hn::InterleaveLower(d, zw02, zw13), out[3].v = hn::InterleaveUpper(d, zw02, zw13);
+    Quads::load(at).split(out);
   }
   friend HWY_INLINE Float operator+(Float a, Float b) { return Float(hn::Add(a.v, b.v)); }
   friend HWY_INLINE Float operator-(Float a, Float b) { return Float(hn::Sub(a.v, b.v)); }

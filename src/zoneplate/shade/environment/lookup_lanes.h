@@ -43,7 +43,43 @@ template <class F>
   return {{before * before * F(0.5f), F(0.75f) - u * u, after * after * F(0.5f)}};
 }
 
+/// The spline over the nine control points from `texel` on, in rows of `step` floats.
+template <class F>
+[[gnu::always_inline]] inline Vector<F> light_in_cell(const float* texel, std::int32_t step,
+                                                      const SplineWeights<F>& across, const SplineWeights<F>& down) {
+  const auto in_row = [&](const float* t) {
+    const auto at = [&](int c) { return Vector<F>{F(t[3 * c]), F(t[3 * c + 1]), F(t[3 * c + 2])} * across.of[c]; };
+    return at(0) + at(1) + at(2);
+  };
+  return in_row(texel) * down.of[0] + in_row(texel + step) * down.of[1] + in_row(texel + 2 * step) * down.of[2];
+}
+
+/// The same where every lane has its own first control point and step.
+template <class F>
+[[gnu::always_inline]] inline Vector<F> light_in_cells(const float* texels, const std::int32_t* offset,
+                                                       const std::int32_t* step, const SplineWeights<F>& across,
+                                                       const SplineWeights<F>& down) {
+  using Quads = typename F::Quads;
+  alignas(64) const float* texel[F::lanes];
+  for (int lane = 0; lane < F::lanes; ++lane) texel[lane] = texels + offset[lane];
+  const auto in_row = [&] {
+    const auto at = [&](int c) { return Quads::load([&](int lane) { return texel[lane] + 3 * c; }) * across.of[c]; };
+    return at(0) + at(1) + at(2);
+  };
+  Quads sum = in_row() * down.of[0];
+  for (int r = 1; r < 3; ++r) {
+    for (int lane = 0; lane < F::lanes; ++lane) texel[lane] += step[lane];
+    sum = sum + in_row() * down.of[r];
+  }
+  F light[4];
+  sum.split(light);
+  return {light[0], light[1], light[2]};
+}
+
 /// The spline of a level each at places.
+///
+/// Neighbouring fragments are often in one cell of the spline, or in two or three, whose control points are loaded
+/// once.
 template <class F>
 [[gnu::always_inline]] inline Vector<F> cube_light(const EnvironmentView& e, const CubePlace<F>& place,
                                                    typename F::Int level) {
@@ -53,22 +89,20 @@ template <class F>
   const F x = (place.s + F(1.0f)) * half, y = (place.t + F(1.0f)) * half;
   const Int column = min(truncate(x), side - Int(1)), row = min(truncate(y), side - Int(1));
   const auto across = spline_weights(x - F::from(column) - F(0.5f)), down = spline_weights(y - F::from(row) - F(0.5f));
-  const Int first = Int::gather(e.offset, level) + (place.face * pitch + row) * pitch + column;
+  const Int first = (Int::gather(e.offset, level) + (place.face * pitch + row) * pitch + column) * Int(3);
 
-  const F zero(0.0f);
-  Vector<F> sum{zero, zero, zero};
-  for (int r = 0; r < 3; ++r) {
-    alignas(64) std::int32_t index[F::lanes];
-    ((first + pitch * Int(r)) * Int(3)).store(index);
-    Vector<F> in_row{zero, zero, zero};
-    for (int c = 0; c < 3; ++c) {
-      F texel[4];
-      F::load_quads([&](int lane) { return e.texels + index[lane] + 3 * c; }, texel);
-      in_row = in_row + Vector<F>{texel[0], texel[1], texel[2]} * across.of[c];
-    }
-    sum = sum + in_row * down.of[r];
-  }
-  return sum;
+  alignas(64) std::int32_t offset[F::lanes], step[F::lanes];
+  first.store(offset), (pitch * Int(3)).store(step);
+  const auto is_in = [&](int lane) { return first == Int(offset[lane]); };
+  const auto in_cell_of = [&](int lane) { return light_in_cell<F>(e.texels + offset[lane], step[lane], across, down); };
+  constexpr int middle = F::lanes / 2, last = F::lanes - 1;
+  const auto in_first = is_in(0);
+  if (all(in_first)) return in_cell_of(0);
+  const auto in_last = is_in(last);
+  if (all(in_first | in_last)) return select(in_first, in_cell_of(0), in_cell_of(last));
+  if (all(in_first | in_last | is_in(middle)))
+    return select(in_first, in_cell_of(0), select(in_last, in_cell_of(last), in_cell_of(middle)));
+  return light_in_cells<F>(e.texels, offset, step, across, down);
 }
 
 /// The direction in the environment's image of a direction in the world.
