@@ -81,7 +81,7 @@ async function run() {
     const key = work.scene + work.filter;
     if (!sources[work.scene])
       sources[work.scene] =
-        upload(new Uint8Array(await (await fetch('/scene/' + work.scene)).arrayBuffer()), width, height);
+        upload(new Uint8Array(await (await fetch('/file/' + work.scene)).arrayBuffer()), width, height);
     if (!filters[key]) {
       filters[key] = await makeFilter(work.filter, width, height, sources[work.scene], to);
       timeFrames(filters[key], to, 1);  // compiles the shaders
