@@ -122,6 +122,7 @@ constexpr ShownGolden shown_goldens[] = {
     {"fillblend", "msaa:n=8", Look::Plain, 33, 17, 0x32faac927114c39au},
     {"wires", "smaa:preset=ultra", Look::Plain, 256, 144, 0x74a6215838fdb98du},
     {"near-axis", "smaa:mode=s2x", Look::Plain, 97, 61, 0xa8ae0447dc068cc4u},
+    {"wheel", "smaa-exact:mode=4x", Look::Plain, 97, 61, 0xd0617c449097fb77u},
     {"thin-diagonal", "mlaa", Look::Plain, 97, 61, 0xf90fa67923f6d520u},
     {"thin-diagonal", "mlaa:kind=reshetov", Look::Transparent, 33, 17, 0x988c04161ee64b86u},
     {"teapot", "cmaa2", Look::Aces, 97, 61, 0x7f18341ce4e7a919u},

@@ -95,10 +95,10 @@ TEST_F(FilterVerb, WhatCannotBeFilteredIsRefused) {
   ASSERT_EQ(run("triangles -o a.png --size 16x16"), 0) << output_;
   ASSERT_EQ(run("triangles -o a.exr --size 16x16"), 0) << output_;
   EXPECT_EQ(run("filter a.png -o b.png --aa msaa"), 2);
-  EXPECT_EQ(
-      output_,
-      "zoneplate: error: --anti-aliasing: msaa needs a scene, expected a filter of images: fxaa, smaa, mlaa, cmaa2, "
-      "dlaa, ddaa, taa, history-guided\n");
+  EXPECT_EQ(output_,
+            "zoneplate: error: --anti-aliasing: msaa needs a scene, expected a filter of images: fxaa, smaa, "
+            "smaa-exact, mlaa, "
+            "cmaa2, dlaa, ddaa, taa, history-guided\n");
   for (const char* method : {"smaa:edges=depth", "smaa:mode=s2x", "analytic:order=display", "none"})
     EXPECT_EQ(run(std::string("filter a.png -o b.png --aa ") + method), 2) << method;
   EXPECT_EQ(run("filter a.png -o b.png"), 2);

@@ -179,7 +179,7 @@ Request TemporalAccumulation::request(const FrameContext& context) {
   request.planes.object_id = true;
   request.planes.motion = !options_.follows_camera;
   request.planes.last_position = tests_surfaces();
-  request.is_display_referred = options_.smooths_new_pixels;
+  request.is_display_referred = options_.new_pixels != NewPixels::Sample;
   return request;
 }
 
@@ -455,9 +455,11 @@ LinearImage TemporalAccumulation::resolve(Frame& frame) {
 }
 
 DisplayImage TemporalAccumulation::post_process(DisplayImage image, const Frame&) {
-  if (!options_.smooths_new_pixels) return image;
+  if (options_.new_pixels == NewPixels::Sample) return image;
+  SmaaOptions options;
+  if (options_.new_pixels == NewPixels::SmaaExact) options.exact_offset = offset_from_centre(sample());
   DisplayImage smooth =
-      filter_encoded(image, Mixing::Linear, [](const Rgba8Image& i) { return apply_smaa(i, nullptr, {}); });
+      filter_encoded(image, Mixing::Linear, [&](const Rgba8Image& i) { return apply_smaa(i, nullptr, options); });
   // A pixel of n frames is the mean of n samples: SMAA stands for those that it lacks.
   for_each_row(image.height(), [&](int y) {
     for (int x = 0; x < image.width(); ++x) {

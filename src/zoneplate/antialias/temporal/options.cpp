@@ -101,7 +101,7 @@ constexpr std::string_view rests[] = {"test", "trust"};
 constexpr std::string_view blends[] = {"fixed", "count", "contrast", "velocity", "confidence", "motion"};
 constexpr std::string_view weightings[] = {"none", "luma", "compressed"};
 constexpr std::string_view ranges[] = {"linear", "compressed"};
-constexpr std::string_view news[] = {"sample", "smaa"};
+constexpr std::string_view news[] = {"sample", "smaa", "smaa-exact"};
 constexpr std::string_view currents[] = {"point", "unjitter", "gauss"};
 
 constexpr Param params[] = {
@@ -172,7 +172,9 @@ constexpr Param params[] = {
      .low = -4,
      .high = 0,
      .decimals = 2},
-    {.name = "new", .meaning = "pixels without history: their sample, or that filtered by SMAA", .names = news},
+    {.name = "new",
+     .meaning = "pixels without history: their sample, or that filtered by SMAA or smaa-exact",
+     .names = news},
     {.name = "frames", .meaning = "frames that are rendered for a still image", .value = 32, .low = 2, .high = 4096},
 };
 
@@ -194,11 +196,12 @@ TemporalOptions temporal_options(const Settings& s) {
   choose("rectify", p.rectification), choose("box", p.box), choose("space", p.is_ycocg), choose("reject", p.rejection);
   choose("rest", p.trusts_rest);
   choose("blend", p.blend), choose("weigh", p.weighting), choose("range", p.is_compressed);
-  choose("frames", o.settling_frames), choose("new", o.smooths_new_pixels);
+  choose("frames", o.settling_frames), choose("new", o.new_pixels);
   set("tolerance", p.tolerance), set("alpha", p.least_weight), set("sharpen", o.sharpening), set("bias", o.bias);
   if (s.is_given("gamma")) p.gamma = p.moving_gamma = static_cast<float>(s.number("gamma"));
-  if (o.smooths_new_pixels && p.blend != Parts::Blend::Count)
-    throw Error(ErrorKind::Usage, "taa: new=smaa is for blend=count, which counts the frames of a pixel");
+  if (o.new_pixels != NewPixels::Sample && p.blend != Parts::Blend::Count)
+    throw Error(ErrorKind::Usage,
+                "taa: new=smaa and new=smaa-exact are for blend=count, which counts the frames of a pixel");
   return o;
 }
 

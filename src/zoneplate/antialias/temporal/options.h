@@ -16,6 +16,13 @@ enum class CurrentFilter {
   Gauss,     ///< exp(-2.29 d²) of the distance to the pixel's centre in pixels
 };
 
+/// What pixels without history are; those of two frames are so to a quarter.
+enum class NewPixels {
+  Sample,     ///< their sample
+  Smaa,       ///< that of the image filtered by SMAA
+  SmaaExact,  ///< that of the image filtered with SMAA's edges and the areas for the frame's sample
+};
+
 /// The options of temporal antialiasing.
 struct TemporalOptions {
   TemporalParts parts;
@@ -25,7 +32,7 @@ struct TemporalOptions {
   bool follows_camera = false;  ///< motion is that of a scene at rest, from depths and cameras
   float bias = 0;               ///< mip levels that textures are blurrier than for one sample per pixel
   float sharpening = 0;
-  bool smooths_new_pixels = false;  ///< those without history, by SMAA
+  NewPixels new_pixels = NewPixels::Sample;
   int settling_frames = 64;
 };
 

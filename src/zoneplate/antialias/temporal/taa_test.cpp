@@ -141,12 +141,14 @@ TEST(Taa, NewPixelsMayBeSmoothedBySmaa) {
     }
     return std::sqrt(sum);
   };
-  const auto samples = frames("taa"), smoothed = frames("taa:new=smaa");
-  const auto reference = frames("converged:samples=64")[0];
-  EXPECT_LT(error(smoothed[0], reference), 0.8 * error(samples[0], reference));
-  EXPECT_LT(error(smoothed[1], reference), error(samples[1], reference));
-  EXPECT_TRUE(std::ranges::equal(smoothed[3].values(), samples[3].values()));
-  EXPECT_THROW(frames("taa:new=smaa,blend=fixed"), Error);
+  const auto samples = frames("taa"), reference = frames("converged:samples=64");
+  for (const std::string method : {"taa:new=smaa", "taa:new=smaa-exact"}) {
+    const auto smoothed = frames(method);
+    EXPECT_LT(error(smoothed[0], reference[0]), 0.8 * error(samples[0], reference[0]));
+    EXPECT_LT(error(smoothed[1], reference[0]), error(samples[1], reference[0]));
+    EXPECT_TRUE(std::ranges::equal(smoothed[3].values(), samples[3].values()));
+    EXPECT_THROW(frames(method + ",blend=fixed"), Error);
+  }
 }
 
 // A wall that fills the image, seen by a camera that moves by fractions of a pixel.

@@ -5,7 +5,8 @@
 // It preserves corners, detects diagonals, and smooths long edges better than FXAA. Weaknesses: details thinner than a
 // pixel: thin wires stay broken, and an edge longer than the search is split in two. S2x improves wires and steep
 // edges; long isolated edges have a greater error than with one sample, because the original's areas for off-centre
-// samples are the mean of each step's line and of two halves.
+// samples are the mean of each step's line and of two halves, and ignore the offset along the edge (see
+// smaa_exact.cpp).
 //
 // Source: Jimenez, Echevarria, Sousa, Gutierrez, SMAA: Enhanced Subpixel Morphological Antialiasing, Eurographics 2012;
 // code v2.8: 1x, S2x, T2x, 4x and predicated thresholds. Edges are detected on encoded values, colours blended in
@@ -90,8 +91,9 @@ constexpr Param params[] = {
 /// The contents of the predication buffer.
 enum class Predication { None, Depth, Objects };
 
-SmaaOptions options_of(const Settings& s) {
+SmaaOptions options_of(const Settings& s, SmaaAreas areas) {
   SmaaOptions o;
+  if (areas == SmaaAreas::Exact) o.exact_offset = float2{0, 0};
   for (const Preset& p : presets)
     if (p.name == s.chosen("preset"))
       o.threshold = p.threshold, o.steps = p.steps, o.diagonal_steps = p.diagonal_steps,
@@ -208,7 +210,9 @@ class SmaaSubsamples : public Resolver {
  private:
   DisplayImage filtered(const Frame& frame, std::size_t s) const {
     SmaaOptions options = options_;
-    options.slots = subsamples_.of_frame(context_.index)[s].slots;
+    const Subsample& subsample = subsamples_.of_frame(context_.index)[s];
+    options.slots = subsample.slots;
+    if (options.exact_offset) options.exact_offset = offset_from_centre(subsample.position);
     return filter_encoded(make_display(frame.sample_color[s], frame.display), mixing_of(options),
                           [&](const Rgba8Image& i) { return apply_smaa(i, &frame.sample_depth[s], options); });
   }
@@ -248,29 +252,30 @@ class SmaaSubsamples : public Resolver {
   Plane<float> last_speed_;
 };
 
-std::unique_ptr<Resolver> make(const Settings& s) {
-  const SmaaOptions options = options_of(s);
+constexpr std::string_view variants[] = {"edges=color", "mode=s2x", "mode=t2x", "mode=4x", "predication=depth"};
+
+}  // namespace
+
+std::unique_ptr<Resolver> make_smaa(const Settings& s, SmaaAreas areas, const std::string& method) {
+  const SmaaOptions options = options_of(s, areas);
   const auto predication = static_cast<Predication>(s.integer("predication"));
   if (options.is_predicated && (options.edges == SmaaOptions::Edges::Depth || s.chosen("mode") != "1x"))
-    throw Error(ErrorKind::Usage, "smaa: predication is for luma and color edges of mode=1x");
+    throw Error(ErrorKind::Usage, method + ": predication is for luma and color edges of mode=1x");
   if (!options.is_predicated && (s.is_given("pthreshold") || s.is_given("pscale") || s.is_given("pstrength")))
-    throw Error(ErrorKind::Usage, "smaa: pthreshold, pscale and pstrength are predication's: give predication=depth");
+    throw Error(ErrorKind::Usage,
+                method + ": pthreshold, pscale and pstrength are predication's: give predication=depth");
   if (s.chosen("mode") == "s2x") return std::make_unique<SmaaSubsamples>(options, Subsamples{two, 2});
   if (s.chosen("mode") == "t2x") return std::make_unique<SmaaSubsamples>(options, Subsamples{two, 1});
   if (s.chosen("mode") == "4x") return std::make_unique<SmaaSubsamples>(options, Subsamples{four, 2});
   return std::make_unique<Smaa>(options, predication);
 }
 
-constexpr std::string_view variants[] = {"edges=color", "mode=s2x", "mode=t2x", "mode=4x", "predication=depth"};
-
-}  // namespace
-
 Method smaa() {
   return {.name = "smaa",
           .summary = "edges followed to their ends, pixels blended by the area under the line through them",
           .source = "Jimenez 2012, SMAA 2.8",
           .params = params,
-          .make = make,
+          .make = [](const Settings& s) { return make_smaa(s, SmaaAreas::Tables, "smaa"); },
           .variants = variants};
 }
 

@@ -3,10 +3,14 @@
 
 #include <array>
 #include <memory>
+#include <optional>
+#include <string>
 
 #include "zoneplate/antialias/post/edge_rows.h"
 #include "zoneplate/antialias/post/weight_rows.h"
 #include "zoneplate/image/rgb.h"
+#include "zoneplate/math/vec.h"
+#include "zoneplate/render/method.h"
 
 namespace zoneplate::antialias {
 
@@ -23,8 +27,10 @@ struct SmaaOptions {
   int diagonal_steps = 8;               ///< search steps of one pixel along a diagonal; 0: none; at most 20
   int corner_rounding = 25;             ///< percent; 100: corners are not detected
   std::array<int, 4> slots = {};        ///< area tables for left edges, top edges and the two diagonals
-  bool mixes_light = true;              ///< blend linear light, otherwise encoded values
-  bool is_postprocessing = false;       ///< for tests: the rounded areas and signed corner distances of another program
+  /// Areas in closed form for samples at this offset from the pixel's centre, in pixels; none: those of the tables.
+  std::optional<float2> exact_offset = {};
+  bool mixes_light = true;         ///< blend linear light, otherwise encoded values
+  bool is_postprocessing = false;  ///< for tests: the rounded areas and signed corner distances of another program
 };
 
 // The three passes, with the names of the paper and its code:
@@ -44,6 +50,11 @@ struct SmaaOptions {
 /// Edge detection, on the sRGB-encoded image or (Edges::Depth) on depth in [0, 1]. `depth` is the predication buffer,
 /// of any unit, if `is_predicated` is set; a difference that is NaN (of two infinities) is below any threshold.
 EdgePlane smaa_edge_detection(const Rgba8Image& image, const Plane<float>* depth, const SmaaOptions& options);
+
+/// The offset of a sample from the pixel's centre, for SmaaOptions::exact_offset.
+inline float2 offset_from_centre(SamplePosition sample) {
+  return {static_cast<float>(sample.x) / 256 - 0.5f, static_cast<float>(sample.y) / 256 - 0.5f};
+}
 
 struct SmaaTables;
 
@@ -77,5 +88,16 @@ Rgba8Image apply_smaa(const Rgba8Image& image, const Plane<float>* depth, const 
 
 /// The greatest distance between a pixel and one that it affects.
 int smaa_reach(const SmaaOptions& options);
+
+/// Where SMAA's areas come from.
+enum class SmaaAreas {
+  Tables,  ///< the area tables of the reference
+  Exact,   ///< closed forms for the position of the sample (exact_areas.h)
+};
+
+/// SMAA with one of its modes, by the parameters of `smaa`; `method` is the name of the method in messages.
+///
+/// Errors    ErrorKind::Usage for predication with other modes, or its parameters without it.
+std::unique_ptr<Resolver> make_smaa(const Settings& settings, SmaaAreas areas, const std::string& method);
 
 }  // namespace zoneplate::antialias

@@ -178,6 +178,15 @@ AreaPair diagonal_area(int pattern, int left, int right, double offset_x, double
   return lines.count == 2 ? half(sum) : sum;
 }
 
+std::int32_t diagonal_lines_of(int left_code, int right_code) {
+  const auto is_pattern = [&](const Cell& cell) { return cell.x == left_code && cell.y == right_code; };
+  const DiagonalLines& lines = diagonal_lines[std::ranges::find_if(diagonal_cells, is_pattern) - diagonal_cells];
+  const auto bits = [](const DiagonalLine& line) {
+    return static_cast<std::int32_t>(line.from.x + 2 * line.from.y + 4 * line.to.x + 8 * line.to.y);
+  };
+  return bits(lines.line[0]) | bits(lines.line[lines.count - 1]) << 4;
+}
+
 namespace {
 
 constexpr double orthogonal_offsets[7] = {0, -0.25, 0.25, -0.125, 0.125, -0.375, 0.375};

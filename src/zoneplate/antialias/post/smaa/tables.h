@@ -28,6 +28,13 @@ AreaPair orthogonal_area(int pattern, int left, int right, double offset, bool i
 /// Exact     fractions of a grid of 30 × 30 points, as in the reference generator.
 AreaPair diagonal_area(int pattern, int left, int right, double offset_x, double offset_y);
 
+/// The lines of a diagonal pattern, by the codes of the edges that cross its ends: 1 the left edge, 2 the top one, 3
+/// both.
+///
+/// Shape     bits 0 to 3: x and y of a line's first point, and of its last one relative to the diagonal's length; bits 4
+///           to 7: the same of another line, whose areas are averaged with the first one's.
+std::int32_t diagonal_lines_of(int left_code, int right_code);
+
 /// The rounding of areas to 8 bits.
 enum class AreaRounding {
   Down,     ///< as in SMAA's own table
