@@ -160,6 +160,43 @@ TEST(Motion, SignsAndUnits) {
   EXPECT_EQ(frame.motion(2, 2), (float2{0, 0}));  // nothing is there
 }
 
+TEST(Motion, FollowsATextureThatMovesOverItsSurface) {
+  // An upright square of 4 m at 20 pixels a metre, on which the texture's image is repeated four times along each axis.
+  Scene scene = load_scene("checkerboard");
+  scene.meshes.resize(1), scene.instances.resize(1);
+  scene.meshes[0] = {.position = {{-2, -2, 0}, {2, -2, 0}, {2, 2, 0}, {-2, 2, 0}},
+                     .normal = std::vector<float3>(4, {0, 0, 1}),
+                     .uv0 = {{0, 1}, {1, 1}, {1, 0}, {0, 0}},
+                     .index = {0, 1, 2, 0, 2, 3}};
+  scene.instances[0] = {};
+  const auto image_of = [&](float2 offset, float rotation) {
+    Scene out = scene;
+    TextureUse& use = out.materials[static_cast<std::size_t>(out.meshes[0].material)].base_color_texture;
+    use.image = 0, use.scale = {4, 4}, use.offset = offset, use.rotation = rotation;
+    return out;
+  };
+  const Camera camera{
+      .world_from_camera = translation({0, 0, 5}), .is_orthographic = true, .half_height = 2.5f, .near = 1, .far = 10};
+  const auto seen = [&](const Scene& last, const Scene& now, const Scene& next) {
+    const Moment before{std::make_shared<const Scene>(last), camera},
+        after{std::make_shared<const Scene>(next), camera};
+    const RenderOptions options{.width = 120, .height = 100, .last = before, .next = after};
+    return render(PreparedScene(now), camera, {.planes = followed}, options);
+  };
+  // An offset of 0.1 of a metre moves the image by 2 pixels the other way; one of 1 is that of 0.
+  const Frame frame = seen(image_of({0, 0}, 0), image_of({0.1f, 0.2f}, 0), image_of({1, 0.2f}, 0));
+  EXPECT_NEAR(frame.motion(60, 50).x, -2, 1e-4f);
+  EXPECT_NEAR(frame.motion(60, 50).y, -4, 1e-4f);
+  EXPECT_NEAR(frame.flow(60, 50).x, 2, 1e-4f);
+  EXPECT_NEAR(frame.flow(60, 50).y, 0, 1e-4f);
+  // A quarter of a turn about the texture's origin, the upper left corner of the square: the point of (u, v) has the
+  // texel that was at (v, -u).
+  const Frame turned = seen(image_of({0, 0}, 0), image_of({0, 0}, 1.57079633f), image_of({0, 0}, 1.57079633f));
+  EXPECT_NEAR(turned.motion(60, 50).x, 0, 1e-3f);
+  EXPECT_NEAR(turned.motion(60, 50).y, 81, 1e-3f);
+  EXPECT_EQ(turned.flow(60, 50), (float2{0, 0}));
+}
+
 TEST(Motion, NothingMovesWithoutALastMoment) {
   const Scene scene = load_scene("cyclic");
   const Look look{scene, camera_of(scene)};

@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: Apache-2.0
 # Sourced by the programs that compare with WebGL in Chromium, with `root` and `program` set: installs packages, and with
 # npm, into build/webgl, what package.json names; sets `modules` to that folder.
 . "$root/cmake/setup.sh"

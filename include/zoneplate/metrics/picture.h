@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+
 #include "zoneplate/image/rgb.h"
 
 #pragma GCC visibility push(default)
@@ -12,6 +14,9 @@ struct Picture {
   DisplayImage display;          ///< straight alpha
   LinearImage linear;            ///< premultiplied
   bool is_scene_linear = false;  ///< `display` was made from `linear`, not the other way round
+  /// 1 where a surface was hidden, or outside the image, in the frame before. Only of references that the renderer has
+  /// made as frames of a sequence; otherwise empty.
+  Plane<std::uint8_t> is_uncovered = {};
 
   /// Pixels in a row; both images have the same size.
   int width() const { return display.width(); }

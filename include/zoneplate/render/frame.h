@@ -74,7 +74,8 @@ struct Frame {
   Plane<float3>
       last_position;  ///< of the surface point in the last frame, as `position`; where it had none, `position`
   /// 1 where the last frame's camera saw the surface point: within the image, and no surface with an opacity above one
-  /// half lay before it. By rays to the triangles of the last frame.
+  /// half lay before it. By rays to the triangles of the last frame. If it is requested, all data are those at the
+  /// nearest sample: another surface may hide the pixel's centre.
   Plane<std::uint8_t> was_visible;
   Plane<float> coverage;  ///< in [0, 1]
   /// The components of the colour, premultiplied by its alpha: diffuse, specular, transmission, emission, as in

@@ -90,6 +90,7 @@ TEST(EveryMetric, APictureIsPerfectlyLikeItself) {
   // A sudden change, after which nothing changes.
   std::vector<Picture> film(8, make_picture(noise(1, 180, 177)));
   film[0] = make_picture(noise(2, 180, 177));
+  for (Picture& picture : film) picture.is_uncovered = Plane<std::uint8_t>(180, 177, std::uint8_t{1});
   for (const Metric& metric : metrics()) {
     const auto frames = std::span(film).first(std::min(film.size(), static_cast<std::size_t>(metric.frames)));
     const auto score = metric.measure(frames, frames, Settings(metric.params));

@@ -246,6 +246,7 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
   target.alpha = request.alpha;
   target.centroid = request.centroid;
   target.is_per_sample = request.rate == Rate::Sample;
+  target.has_data_at_samples = request.planes.was_visible;
   if (request.footprint > 0 && (options.sample_footprint || !target.is_per_sample))
     target.spacing = request.footprint;
   else if (target.is_per_sample && options.sample_footprint)

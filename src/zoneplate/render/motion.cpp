@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "zoneplate/raster/geometry/triangle_facing.h"
 #include "zoneplate/ray/trace.h"
 #include "zoneplate/shade/cast/casters.h"
+#include "zoneplate/shade/surface/material_plan.h"
 
 namespace zoneplate {
 namespace {
@@ -161,12 +163,77 @@ std::optional<Double3> place_of(const Mixture& point, std::uint32_t instance, co
   return transformed(placed.world_from_object, sum);
 }
 
-/// The motion of a point on the screen from one moment to another.
-float2 step_between(const Seen& from, const Seen& to, const Mixture& point, std::uint32_t instance, const Mesh& mesh,
+/// The way in texture coordinates, before any map, from a point at one moment to the point that has the same texel at
+/// another one: matrix * uv + offset.
+struct TextureStep {
+  double xx = 1, xy = 0, yx = 0, yy = 1, x = 0, y = 0;
+  int uv_set = 0;
+};
+
+/// The whole repetitions of an image do not count: an offset that returns from 1 to 0 is no motion.
+double without_repetitions(double offset, Wrap wrap) {
+  const double period = wrap == Wrap::Repeat ? 1 : wrap == Wrap::Mirror ? 2 : 0;
+  return period > 0 ? offset - period * std::floor(offset / period + 0.5) : offset;
+}
+
+/// Of every material whose base colour's texture moves over its surfaces between two moments.
+std::vector<std::optional<TextureStep>> texture_steps(const Scene& now, const Scene& other) {
+  std::vector<std::optional<TextureStep>> out(now.materials.size());
+  for (std::size_t i = 0; i < std::min(out.size(), other.materials.size()); ++i) {
+    const TextureUse &here = now.materials[i].base_color_texture, &there = other.materials[i].base_color_texture;
+    const bool is_same = here.image >= 0 && here.image == there.image && here.uv_set == there.uv_set;
+    if (!is_same || (here.offset == there.offset && here.scale == there.scale && here.rotation == there.rotation))
+      continue;
+    const CoordinateMap map = coordinate_map(here), back = coordinate_map(there);
+    const auto &a = map.m, &b = back.m;
+    const double determinant = 1.0 * b[0] * b[4] - 1.0 * b[1] * b[3];
+    if (determinant == 0) continue;
+    const double x = without_repetitions(1.0 * a[2] - b[2], here.sampler.wrap_u);
+    const double y = without_repetitions(1.0 * a[5] - b[5], here.sampler.wrap_v);
+    const auto u_of = [&](double mapped_u, double mapped_v) {
+      return (b[4] * mapped_u - b[1] * mapped_v) / determinant;
+    };
+    const auto v_of = [&](double mapped_u, double mapped_v) {
+      return (b[0] * mapped_v - b[3] * mapped_u) / determinant;
+    };
+    out[i] = TextureStep{.xx = u_of(a[0], a[3]),
+                         .xy = u_of(a[1], a[4]),
+                         .yx = v_of(a[0], a[3]),
+                         .yy = v_of(a[1], a[4]),
+                         .x = u_of(x, y),
+                         .y = v_of(x, y),
+                         .uv_set = here.uv_set};
+  }
+  return out;
+}
+
+/// The point of a triangle's plane to which its texture's step leads from `point`.
+Mixture after_step(const Mixture& point, const Mesh& mesh, const TextureStep& step) {
+  const std::vector<float2>& uv = step.uv_set == 0 ? mesh.uv0 : mesh.uv1;
+  if (mesh.topology != Topology::Triangles || uv.empty()) return point;
+  const float2 a = uv[point.vertex[0]], b = uv[point.vertex[1]], c = uv[point.vertex[2]];
+  const double bx = 1.0 * b.x - a.x, by = 1.0 * b.y - a.y, cx = 1.0 * c.x - a.x, cy = 1.0 * c.y - a.y;
+  const double determinant = bx * cy - by * cx;
+  if (determinant == 0) return point;
+  const double u = a.x + (point.weight[1] * bx + point.weight[2] * cx);
+  const double v = a.y + (point.weight[1] * by + point.weight[2] * cy);
+  const double dx = ((step.xx * u + step.xy * v) + step.x) - a.x, dy = ((step.yx * u + step.yy * v) + step.y) - a.y;
+  const double at_b = (dx * cy - dy * cx) / determinant, at_c = (bx * dy - by * dx) / determinant;
+  return {point.vertex, {(1 - at_b) - at_c, at_b, at_c}};
+}
+
+/// A point at a moment.
+struct PointAt {
+  const Seen& seen;
+  const Mixture& point;
+};
+
+/// The motion on the screen from a point at one moment to a point at another.
+float2 step_between(const PointAt& from, const PointAt& to, std::uint32_t instance, const Mesh& mesh,
                     Viewport viewport) {
-  const auto at = [&](const Seen& seen) -> std::optional<Place> {
-    const std::optional<Double3> place = place_of(point, instance, *seen.scene, mesh);
-    return place ? on_screen(seen.clip_from_world, *place, viewport) : std::nullopt;
+  const auto at = [&](const PointAt& p) -> std::optional<Place> {
+    const std::optional<Double3> place = place_of(p.point, instance, *p.seen.scene, mesh);
+    return place ? on_screen(p.seen.clip_from_world, *place, viewport) : std::nullopt;
   };
   const auto start = at(from), end = at(to);
   if (!start || !end) return {0, 0};
@@ -182,6 +249,7 @@ void add_surface_points(const Moment& now, const Planes& planes, const RenderOpt
   const Seen seen(now, aspect), last(options.last ? *options.last : now, aspect),
       next(options.next ? *options.next : now, aspect);
   const PointFinder finder(seen, viewport);
+  const auto last_steps = texture_steps(*seen.scene, *last.scene), next_steps = texture_steps(*seen.scene, *next.scene);
   if (planes.position) frame.position = {width, height, float3{}};
   if (planes.motion) frame.motion = {width, height, float2{}};
   if (planes.flow) frame.flow = {width, height, float2{}};
@@ -197,12 +265,18 @@ void add_surface_points(const Moment& now, const Planes& planes, const RenderOpt
                                         {frame.x + x + place.x / 256.0, frame.y + y + place.y / 256.0});
       const Mesh& mesh = now.scene->meshes[static_cast<std::size_t>(now.scene->instances[instance].mesh)];
       if (planes.position) frame.position(x, y) = narrowed(*place_of(point, instance, *now.scene, mesh));
+      const auto material = static_cast<std::size_t>(mesh.material);
+      const auto stepped = [&](const auto& steps) {
+        return steps[material] ? after_step(point, mesh, *steps[material]) : point;
+      };
+      const Mixture last_point = stepped(last_steps);
       if (!frame.last_position.empty()) {
-        const std::optional<Double3> before = place_of(point, instance, *last.scene, mesh);
+        const std::optional<Double3> before = place_of(last_point, instance, *last.scene, mesh);
         frame.last_position(x, y) = narrowed(before ? *before : *place_of(point, instance, *now.scene, mesh));
       }
-      if (planes.motion) frame.motion(x, y) = step_between(last, seen, point, instance, mesh, viewport);
-      if (planes.flow) frame.flow(x, y) = step_between(seen, next, point, instance, mesh, viewport);
+      if (planes.motion) frame.motion(x, y) = step_between({last, last_point}, {seen, point}, instance, mesh, viewport);
+      if (planes.flow)
+        frame.flow(x, y) = step_between({seen, point}, {next, stepped(next_steps)}, instance, mesh, viewport);
     }
   });
 }

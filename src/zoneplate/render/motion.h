@@ -17,8 +17,9 @@ class TextureSet;
 ///
 /// The surface point of a pixel lies at `frame.data_position`, as all of its data do; where the primitive does not
 /// reach that position because coverage and positions are rounded, it is the nearest point of the primitive's outline.
-/// Instances and vertices of two moments correspond by their indices. An instance or vertex without a counterpart has
-/// no motion, nor has a point that is not in front of the other moment's camera.
+/// Where the coordinates of the base colour's texture move over a surface, the point moves with the texture, in the
+/// plane of its triangle. Instances and vertices of two moments correspond by their indices. An instance or vertex
+/// without a counterpart has no motion, nor has a point that is not in front of the other moment's camera.
 ///
 /// Units     position: metres, world. motion: output pixels, x right, y down, the point's position now minus its
 ///           position at the last moment; flow: its next position minus the one now. Both are without jitter, and 0 in

@@ -50,6 +50,9 @@ void cut_out(RenderedImage& image, const Crop& whole, const Crop& crop) {
   image.data.x = crop.x, image.data.y = crop.y;
 }
 
+/// Whether planes of the next frame show what has changed since this one.
+bool reads_last_moment(const Planes& planes) { return planes.motion || planes.last_position || planes.was_visible; }
+
 bool is_same(const std::optional<Crop>& a, const std::optional<Crop>& b) {
   if (!a || !b) return !a && !b;
   return a->x == b->x && a->y == b->y && a->width == b->width && a->height == b->height;
@@ -236,8 +239,8 @@ RenderedImage Renderer::render(const Camera& camera, const RenderSettings& setti
   Frame data = rounds.take_data();
   if (request.frame && are_planes_requested) out.data = render_data(camera, request, settings, out.counts);
   if (settings.planes.any_light()) render_light(camera, settings, out.counts, data);
-  end_frame(camera, request.planes.motion || settings.planes.motion, request, are_planes_requested && !request.frame,
-            data);
+  end_frame(camera, reads_last_moment(request.planes | settings.planes), request,
+            are_planes_requested && !request.frame, data);
   if (are_planes_requested && !request.frame) out.data = std::move(data);
   if (request.halo > 0 && options.crop && !request.frame) cut_out(out, *options.crop, *settings.options.crop);
   return out;
@@ -292,7 +295,7 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
   for (Linear& c : sum.values()) c = c * weight;
   finish(std::move(sum), rounds.frame, settings.form, out);
   Frame data = rounds.take_data();
-  end_frame(camera, request.planes.motion, request, false, data);
+  end_frame(camera, reads_last_moment(request.planes), request, false, data);
   if (request.halo > 0 && options.crop && !request.frame) cut_out(out, *options.crop, *settings.options.crop);
   return out;
 }

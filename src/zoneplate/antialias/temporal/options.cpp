@@ -84,8 +84,12 @@ TemporalOptions bevy() {
           .length = 8};
 }
 
-/// The project's own choice of parts. Textures are as sharp as for the 16 samples of the jitter's period.
-TemporalOptions best() { return {.parts = {.trusts_rest = true}, .bias = -2, .settling_frames = 32}; }
+/// The project's own choice of parts. Textures are as sharp as for the 16 samples of the jitter's period. The box of
+/// the variance reaches beyond the neighbours' colours, and so does Catmull-Rom's history at the edges of what moves:
+/// without the limit by extremes, dark objects have black edges.
+TemporalOptions best() {
+  return {.parts = {.box = Parts::Box::Both, .trusts_rest = true}, .bias = -2, .settling_frames = 32};
+}
 
 constexpr std::string_view presets[] = {"best", "karis", "inside", "salvi", "three", "playcanvas", "bevy"};
 constexpr TemporalOptions (*makers[])() = {best, karis, inside, salvi, three, playcanvas, bevy};

@@ -97,10 +97,7 @@ template <class F, class Differences>
   using Box = antialias::TemporalParts::Box;
   if (box == Box::Extremes) return extremes<F>(d);
   if (box == Box::Rounded) return rounded_extremes<F>(d);
-  const DifferenceBox<F> spread = variance_box(d, gamma);
-  if (box == Box::Variance) return spread;
-  const DifferenceBox<F> limits = extremes<F>(d);
-  return {min(max(spread.low, limits.low), limits.high), max(min(spread.high, limits.high), limits.low)};
+  return variance_box(d, gamma);
 }
 
 /// The colour on the way from the box's centre to `d` that is inside the box.
@@ -126,11 +123,16 @@ template <class F>
   using Rectification = antialias::TemporalParts::Rectification;
   if (parts.rectification == Rectification::None) return history;
   const bool is_turned = parts.is_ycocg;
-  const DifferenceBox<F> box =
-      is_turned ? box_of([&](int k) { return scaled_ycocg_of(around.difference(k)); }, parts.box, gamma)
-                : box_of([&](int k) { return around.difference(k); }, parts.box, gamma);
+  const auto turned = [&](int k) { return scaled_ycocg_of(around.difference(k)); };
+  const auto plain = [&](int k) { return around.difference(k); };
+  const DifferenceBox<F> box = is_turned ? box_of(turned, parts.box, gamma) : box_of(plain, parts.box, gamma);
   const Rgba<F> difference = history - around.middle, d = is_turned ? scaled_ycocg_of(difference) : difference;
-  const Rgba<F> inside = parts.rectification == Rectification::Clip ? clipped(d, box) : min(max(d, box.low), box.high);
+  Rgba<F> inside = parts.rectification == Rectification::Clip ? clipped(d, box) : min(max(d, box.low), box.high);
+  // After the clip, so that its centre stays the mean.
+  if (parts.box == antialias::TemporalParts::Box::Both) {
+    const DifferenceBox<F> limits = is_turned ? extremes<F>(turned) : extremes<F>(plain);
+    inside = min(max(inside, limits.low), limits.high);
+  }
   const Rgba<F> moved = around.middle + (is_turned ? rgb_of_scaled(inside) : inside);
   return select(inside == d, history, max(moved, Rgba<F>::all(F(0.0f))));
 }

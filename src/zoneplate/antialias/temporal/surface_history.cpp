@@ -259,13 +259,18 @@ bool SurfaceHistory::has_changed(std::uint32_t object, int x, int y) const {
   return std::abs(sum.luma) > deviations * std::sqrt(sum.variance) + sum.tolerance;
 }
 
-/// The mean of the object's samples around a pixel, or within twice that distance.
+/// The colour of the object's samples around a pixel, interpolated bilinearly where all of the frame's samples are of
+/// the object; where there are none, of those at up to 2, 4 or 8 times that distance.
 SurfaceHistory::Layer SurfaceHistory::borrowed(std::uint32_t object, int x, int y) const {
-  for (const int reach : {reach_, 2 * reach_}) {
+  for (const float times : {1.0f, 2.0f, 4.0f, 8.0f}) {
+    const float radius = times * std::max(2.0f, static_cast<float>(options_.scale));
+    const auto weight_along = [radius](int distance) { return 1 - static_cast<float>(std::abs(distance)) / radius; };
     Layer out{.object = object};
     float count = 0;
-    for_samples_around(object, x, y, reach, [&](int i, int j) {
-      if (is_finite(color_(i, j))) out.color = sum_of(out.color, color_(i, j)), ++count;
+    for_samples_around(object, x, y, static_cast<int>(std::ceil(radius)) - 1, [&](int i, int j) {
+      if (!is_finite(color_(i, j))) return;
+      const float weight = weight_along(i - x) * weight_along(j - y);
+      out.color = sum_of(out.color, scaled(color_(i, j), weight)), count += weight;
     });
     if (count == 0) continue;
     out.color = scaled(out.color, 1 / count);
@@ -276,13 +281,24 @@ SurfaceHistory::Layer SurfaceHistory::borrowed(std::uint32_t object, int x, int 
   return {};
 }
 
+/// The colour of an object without samples in a pixel: the mean of what was borrowed in n frames, which counts as
+/// n / (n + 1) of a sample.
+SurfaceHistory::Layer SurfaceHistory::guessed(const Layer& past, std::uint32_t object, int x, int y) const {
+  Layer out = borrowed(object, x, y);
+  if (past.frames == 0 || out.frames == 0) return past.frames > 0 ? past : out;
+  out.color = sum_of(scaled(past.color, past.frames), scaled(out.color, 1 - past.frames));
+  out.luma = luma_of(out.color), out.square = out.luma * out.luma;
+  out.frames = 1 / (2 - past.frames);
+  return out;
+}
+
 /// The colour of an object of this frame; its `frames` are 0 if nothing shows it.
 SurfaceHistory::Layer SurfaceHistory::updated(const Presence& presence, int x, int y) const {
   const bool is_shaded = has_sample(presence.object, x, y) && is_finite(color_(x, y));
   Layer past;
   if (!context_.is_first && !has_changed(presence.object, x, y))
     past = is_shaded ? changes_(x, y).past : past_of(presence, x, y);
-  if (!is_shaded) return past.frames > 0 ? past : borrowed(presence.object, x, y);
+  if (!is_shaded) return past.frames >= 1 ? past : guessed(past, presence.object, x, y);
   const Linear& color = color_(x, y);
   const float luma = luma_of(color);
   const float before = std::min(past.frames, static_cast<float>(options_.most - 1));

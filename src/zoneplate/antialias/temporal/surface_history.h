@@ -41,7 +41,7 @@ class SurfaceHistory : public Resolver {
   struct Layer {
     Linear color{0, 0, 0, 0};
     float luma = 0, square = 0;  ///< means over the samples
-    float frames = 0;            ///< of which the colour is a mean; 0: there is none
+    float frames = 0;            ///< of which the colour is a mean; 0: there is none; below 1: of other pixels' samples
     std::uint32_t object = 0;
   };
   /// An object in a pixel of this frame.
@@ -82,6 +82,7 @@ class SurfaceHistory : public Resolver {
   void find_changes();
   bool has_changed(std::uint32_t object, int x, int y) const;
   Layer borrowed(std::uint32_t object, int x, int y) const;
+  Layer guessed(const Layer& past, std::uint32_t object, int x, int y) const;
   Layer updated(const Presence& presence, int x, int y) const;
 
   Options options_;

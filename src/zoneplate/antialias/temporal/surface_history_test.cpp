@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <memory>
+#include <utility>
+
 #include "zoneplate/antialias/temporal/sequences_for_test.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/scene/builtin/builtin.h"
@@ -59,6 +63,60 @@ TEST(SurfaceHistory, AlphaTestsCoverAsMuchAsInTheShadedSamples) {
   const MovingScene moving = still(*make_builtin_scene("foliage"));
   const LinearImage reference = last_frame(moving, "converged:samples=64", 1);
   EXPECT_LE(rms(last_frame(moving, "oracle-taa", 16), reference), 0.3 * rms(last_frame(moving, "none", 1), reference));
+}
+
+/// Counts the samples of surfaces at rest which, by the rays, the last frame has not seen.
+class HiddenSamples : public Resolver {
+ public:
+  HiddenSamples(int& hidden, int& all) : hidden_(hidden), all_(all) {}
+  Request request(const FrameContext&) override {
+    Request request;
+    request.samples = {{40, 200}};
+    request.rate = Rate::Sample;
+    request.planes.object_id = request.planes.was_visible = true;
+    return request;
+  }
+  LinearImage resolve(Frame& frame) override {
+    for (std::size_t i = 0; i < frame.object_id.values().size(); ++i) {
+      if (frame.object_id.values()[i] == Frame::no_id) continue;
+      ++all_;
+      if (frame.was_visible.values()[i] == 0) ++hidden_;
+    }
+    return std::move(frame.color);
+  }
+
+ private:
+  int &hidden_, &all_;
+};
+
+// Behind the rods of the fence, another surface lies at the pixels' centres than at their samples.
+TEST(SurfaceHistory, SamplesOfASceneAtRestWereVisible) {
+  const MovingScene moving = still(*make_builtin_scene("wires"));
+  int hidden = 0, all = 0;
+  Renderer renderer(PreparedScene(moving.scene(0)), std::make_unique<HiddenSamples>(hidden, all));
+  for (int i = 0; i < 2; ++i) renderer.render(moving.camera(i), moving.settings());
+  EXPECT_GT(all, moving.width * moving.height);
+  EXPECT_LE(hidden, all / 1000) << hidden << " of " << all;
+}
+
+// A bar a fifth of a pixel wide, which moves by one pixel in sixteen rows: most rows have no sample of it near.
+TEST(SurfaceHistory, AFirstFrameHasAllOfAThinObject) {
+  MovingScene moving = square_before_wall([](int) { return float2{0, 0}; });
+  const Scene wall = moving.scene(0);
+  moving.scene = [wall](int) {
+    constexpr float pixel = 1 / 32.0f, half = 0.1f * pixel, lean = 2 * pixel;
+    Scene scene = wall;
+    Mesh bar;
+    add_quad(bar, {{-half - lean, -1, -1}, {half - lean, -1, -1}, {half + lean, 1, -1}, {-half + lean, 1, -1}});
+    scene.meshes.pop_back(), scene.instances.pop_back();
+    add_part(scene, unlit("bar", {0, 0, 0}), std::move(bar));
+    return scene;
+  };
+  const LinearImage image = last_frame(moving, "oracle-taa", 1);
+  for (int y = 0; y < moving.height; ++y) {
+    const float least = std::ranges::min(image.row(y), {}, &Linear::g).g;
+    ASSERT_LT(least, 0.29f) << "row " << y;  // of 0.3
+  }
 }
 
 TEST(SurfaceHistory, BitsDoNotDependOnThreads) {

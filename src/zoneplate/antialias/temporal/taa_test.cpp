@@ -122,6 +122,21 @@ TEST(Taa, ASwitchedLightLeavesNoHistory) {
   EXPECT_LE(error, rms(last_frame(moving, "taa:rest=test", frames), reference));
 }
 
+// Catmull-Rom's history falls below both colours at the edges of what moves.
+TEST(Taa, ADarkObjectHasNoBlackEdge) {
+  MovingScene moving = square_before_wall([](int i) {
+    return float2{1.3f * static_cast<float>(i), 0.7f * static_cast<float>(i)};
+  });
+  const auto bright = moving.scene;
+  moving.scene = [bright](int i) {
+    Scene scene = bright(i);
+    scene.materials[0].base_color = {0.8f, 0.8f, 0.8f, 1}, scene.materials[1].base_color = {0.1f, 0.1f, 0.1f, 1};
+    return scene;
+  };
+  for (const LinearImage& image : film(moving, "taa", 8))
+    for (const Linear& c : image.values()) ASSERT_GE(c.g, 0.0999f);
+}
+
 TEST(Taa, NewPixelsMayBeSmoothedBySmaa) {
   const MovingScene moving = still(*make_builtin_scene("thin-diagonal"));
   const auto frames = [&](const std::string& method) {

@@ -121,6 +121,20 @@ TEST_F(CompareVerb, JudgesAsTheMetricsVerbDoes) {
   EXPECT_EQ(parsed_json(again.out)["scenes"][0]["methods"][0]["metrics"]["flip"]["value"], 0);
 }
 
+TEST_F(CompareVerb, MeasuresWhereSurfacesWereHidden) {
+  const ProgramAnswer answer =
+      run("compare disocclusion --aa none,ssaa:n=4 --frames 3 --size 64x48 --reference ssaa:n=4 --metric disocclusion "
+          "-o out --json");
+  ASSERT_EQ(answer.code, 0) << answer.out;
+  const auto json = parsed_json(answer.out);
+  const auto value = [&](int method) {
+    return json["scenes"][0]["methods"][static_cast<std::size_t>(method)]["metrics"]["disocclusion"]["value"]
+        .get<double>();
+  };
+  EXPECT_GT(value(0), 0.05);
+  EXPECT_EQ(value(1), 0);
+}
+
 TEST_F(CompareVerb, TimesOfStagesAreThoseOfTheTurnThatCounts) {
   const ProgramAnswer answer =
       run("compare teapot --aa none,fxaa,ssaa:n=4,resolve=display --size 320x240 --turns 4 -o out"

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <memory>
+#include <utility>
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
@@ -92,15 +94,59 @@ Trial filmed(const TrialSetup& stage, const std::string& method, const std::func
   return trial;
 }
 
+/// Keeps where the pixels' surfaces were hidden in the last frame: at their centres, for surfaces but not for the
+/// background.
+class UncoveredPixels : public Resolver {
+ public:
+  explicit UncoveredPixels(std::vector<Plane<std::uint8_t>>& frames) : frames_(frames) {}
+  Request request(const FrameContext& context) override {
+    is_first_ = context.is_first;
+    Request request;
+    request.samples = {SamplePosition{}};
+    request.planes.object_id = request.planes.was_visible = true;
+    return request;
+  }
+  LinearImage resolve(Frame& frame) override {
+    Plane<std::uint8_t> out(frame.color.width(), frame.color.height());
+    for (std::size_t i = 0; i < out.values().size() && !is_first_; ++i)
+      out.values()[i] = frame.object_id.values()[i] != Frame::no_id && frame.was_visible.values()[i] == 0 ? 1 : 0;
+    frames_.push_back(std::move(out));
+    return std::move(frame.color);
+  }
+
+ private:
+  bool is_first_ = false;
+  std::vector<Plane<std::uint8_t>>& frames_;
+};
+
+std::vector<Plane<std::uint8_t>> uncovered_pixels(const TrialSetup& stage) {
+  std::vector<Plane<std::uint8_t>> out;
+  std::optional<Renderer> renderer;
+  for (int i = 0; i < stage.frames; ++i) {
+    SceneView view = stage.view(i);
+    if (renderer)
+      renderer->set_scene(std::move(view.scene));
+    else
+      renderer.emplace(std::move(view.scene), std::make_unique<UncoveredPixels>(out));
+    renderer->render(view.camera, stage.settings);
+  }
+  return out;
+}
+
 void judge(Trial& trial, const SceneTrials& scene, const TrialOptions& options) {
   const auto frame_of = [](const std::vector<Rgba8Image>& film, const Rgba8Image& picture, std::size_t i) {
     return picture_of(film.empty() ? picture : film[i]);
   };
-  const metrics::Comparands pictures{
-      .count = std::max<std::size_t>(trial.film.size(), 1),
-      .reference = [&](std::size_t i) { return frame_of(scene.reference_film, scene.reference_picture, i); },
-      .test = [&](std::size_t i) { return frame_of(trial.film, trial.picture, i); },
-      .are_frames = !trial.film.empty()};
+  const metrics::Comparands pictures{.count = std::max<std::size_t>(trial.film.size(), 1),
+                                     .reference =
+                                         [&](std::size_t i) {
+                                           metrics::Picture picture =
+                                               frame_of(scene.reference_film, scene.reference_picture, i);
+                                           if (i < scene.uncovered.size()) picture.is_uncovered = scene.uncovered[i];
+                                           return picture;
+                                         },
+                                     .test = [&](std::size_t i) { return frame_of(trial.film, trial.picture, i); },
+                                     .are_frames = !trial.film.empty()};
   metrics::Comparison comparison = metrics::compare(pictures, options.metrics, metrics::Unfit::Leave);
   trial.results = std::move(comparison.results);
   if (!trial.film.empty()) trial.error_map = flip_map(scene.reference_picture, trial.picture);
@@ -202,6 +248,9 @@ SceneTrials run_trials(const TrialSetup& stage, const TrialOptions& options, con
   SceneTrials out;
   out.turns = stage.frames > 1 ? stage.frames : options.turns;
   set_reference(stage, options, progress, out);
+  const bool measures_uncovered = std::ranges::any_of(
+      options.metrics, [](const metrics::Choice& choice) { return choice.metric->name == "disocclusion"; });
+  if (stage.frames > 1 && measures_uncovered) out.uncovered = uncovered_pixels(stage);
   Plane<float> sum(out.reference_picture.width(), out.reference_picture.height());
   for (const std::string& method : options.methods) {
     const auto step = progress(method);

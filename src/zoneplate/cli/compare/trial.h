@@ -50,7 +50,8 @@ struct SceneTrials {
   std::string reference;           ///< a method's text, or a file
   Rgba8Image reference_picture;
   std::vector<Rgba8Image> reference_film;
-  std::optional<double> reference_ms;  ///< nothing for a file
+  std::vector<Plane<std::uint8_t>> uncovered;  ///< by frame: Picture::is_uncovered; empty if no metric uses it
+  std::optional<double> reference_ms;          ///< nothing for a file
   std::optional<double> reference_processor_ms;
   std::uint64_t reference_shaded = 0;
   int turns = 0;       ///< turns of each method, if its time budget suffices

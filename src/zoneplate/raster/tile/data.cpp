@@ -83,8 +83,11 @@ void write_data(const TileJob& job, FragmentBatcher& batcher, bool is_shaded, Ti
     NearestSurface& nearest = data.nearest[pixel];
     if (nearest.id == no_primitive) continue;
     const bool is_whole = nearest.first_owns == job.setup.samples();
-    const bool moves = is_whole && !(nearest.position == SamplePosition{});
-    if (moves) nearest.position = {};
+    const SamplePosition place = job.setup.target.has_data_at_samples ? nearest.sample
+                                 : is_whole                           ? SamplePosition{}
+                                                                      : nearest.position;
+    const bool moves = !(nearest.position == place);
+    if (moves) nearest.position = place;
     if (moves || !is_shaded) data.fragments.push_back(job.fragment_at(pixel, nearest.id, 0, nearest.position));
   }
   if (job.setup.stores_shaded_data()) {

@@ -35,7 +35,8 @@ struct Target {
   const DisplayTransform* display_transform = nullptr;
 
   // The data of a pixel come from one point of the surface that owns its nearest sample: at the pixel's centre if the
-  // surface owns all samples, otherwise where it is shaded for that sample.
+  // surface owns all samples, otherwise where it is shaded for that sample; or always at the sample itself.
+  bool has_data_at_samples = false;
   Plane<SamplePosition>* data_position = nullptr;  ///< position of that point in the pixel
   Plane<float>* reversed_depth = nullptr;
   Plane<float3>* normal = nullptr;

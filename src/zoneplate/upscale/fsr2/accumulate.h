@@ -13,6 +13,7 @@ struct Fsr2AccumulateFrame {
   std::int32_t width, height;  ///< of the output
   bool is_first;               ///< there is no history
   bool rectifies;
+  bool has_lanczos;               ///< otherwise history is bilinear, and the frame's kernel has no negative lobes
   float exposure, exposure_root;  ///< the exposure to the power of 1/6
   float kernel_max;               ///< the narrowest kernel: output pixels per frame pixel, at most 1.99
   float box_scale;                ///< standard deviations to which the history of still pixels is clamped

@@ -46,7 +46,19 @@ template <class F>
   const F width = F(static_cast<float>(frame.width)), height = F(static_cast<float>(frame.height));
   const auto place = [](F at, F size) { return max(F(0.0f), min(size, at * size - F(0.5f))); };
   const Neighbours<F, 4> taps(frame.width, frame.height, place(u, width), place(v, height), 1);
-  sample_by_lanczos(frame.history, taps, epsilon, out);
+  if (frame.has_lanczos) return sample_by_lanczos(frame.history, taps, epsilon, out);
+  F corner[4][4];
+  for (int k = 0; k < 4; ++k) taps.load(frame.history, 1 + k % 2, 1 + k / 2, corner[k]);
+  for (int c = 0; c < 4; ++c)
+    out[c] =
+        mixed(mixed(corner[0][c], corner[1][c], taps.right), mixed(corner[2][c], corner[3][c], taps.right), taps.below);
+}
+
+/// A kernel of the square of a distance, at most 4, without negative lobes: (1 - x² / 4)⁴, nearly a Gaussian.
+template <class F>
+[[gnu::always_inline]] inline F bell_of_square(F x2) {
+  const F a = F(1.0f) - F(0.25f) * min(x2, F(4.0f)), square = a * a;
+  return square * square;
 }
 
 /// A lock of a thin feature: what is left of its life, and the shading when it began.
@@ -55,8 +67,8 @@ struct Lock {
   F life, luma;
 };
 
-/// The frame's samples around an output pixel: their mean by Lanczos' kernel with its weight, their range, and mean and
-/// deviation by a Gaussian.
+/// The frame's samples around an output pixel: their mean by Lanczos' kernel, or by a bell, with its weight, their
+/// range, and mean and deviation by a Gaussian.
 template <class F>
 struct Upsampled {
   Color<F> color, least, most, mean, deviation;
@@ -64,7 +76,8 @@ struct Upsampled {
 };
 
 template <class F>
-[[gnu::always_inline]] inline Upsampled<F> upsample(const Fsr2AccumulateRow& row, std::size_t i, F kernel, F curve) {
+[[gnu::always_inline]] inline Upsampled<F> upsample(const Fsr2AccumulateRow& row, std::size_t i, F kernel, F curve,
+                                                    bool has_lanczos) {
   using Int = typename F::Int;
   Upsampled<F> out;
   F dx[3], ex[3], dy[3], ey[3];
@@ -82,7 +95,8 @@ template <class F>
       F pixel[4];
       load_pixels<F>([&](int lane) { return row.prepared[r] + column[lane]; }, pixel);
       const F is_inside = F::load(row.is_column[k] + i) * F(row.is_row[r]);
-      const F w = is_inside * lanczos_of_square(kernel2 * (dx[k] * dx[k] + dy[r] * dy[r])), box = ex[k] * ey[r];
+      const F distance = kernel2 * (dx[k] * dx[k] + dy[r] * dy[r]), box = ex[k] * ey[r];
+      const F w = is_inside * (has_lanczos ? lanczos_of_square(distance) : bell_of_square(distance));
       const bool is_first = k == 0 && r == 0;
       for (int c = 0; c < 3; ++c) {
         sum.c[c] = sum.c[c] + pixel[c] * w;
@@ -192,7 +206,7 @@ template <class F>
   const F kernel_min = max(one, (one + kernel_max) * F(0.3f));
   const F kernel = mixed(kernel_max, kernel_min, max(zero, max(F(0.25f) * clip, kernel_reactive)));
   const F curve = mixed(F(-2.0f), F(-3.0f), saturated(velocity / F(50.0f)));
-  const Upsampled<F> samples = upsample<F>(row, i, kernel, curve);
+  const Upsampled<F> samples = upsample<F>(row, i, kernel, curve, frame.has_lanczos);
   const F weight = samples.weight;
 
   const auto has_lumas = is_old & (F(0.1f) > max(max(clip, mask), change));

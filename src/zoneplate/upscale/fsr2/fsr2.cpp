@@ -24,7 +24,11 @@ constexpr Param params[] = {
     real_param("exposure", "factor of the colours; 0: from the mean luminance", 0, 0, 1e6),
     {.name = "locks", .meaning = "thin features keep their history", .value = 1, .names = switches},
     {.name = "rectify", .meaning = "history is clamped to the colours around", .value = 1, .names = switches},
-    {.name = "clip", .meaning = "surfaces that were hidden drop their history", .value = 1, .names = switches}};
+    {.name = "clip", .meaning = "surfaces that were hidden drop their history", .value = 1, .names = switches},
+    {.name = "lanczos",
+     .meaning = "Lanczos' kernels; off: bilinear history, and a kernel without negative lobes",
+     .value = 1,
+     .names = switches}};
 
 }  // namespace
 
@@ -43,6 +47,7 @@ Upscaler fsr2() {
                             .locks = is_on("locks"),
                             .rectifies = is_on("rectify"),
                             .clips_depth = is_on("clip"),
+                            .has_lanczos = is_on("lanczos"),
                             .exposure = static_cast<float>(s.number("exposure"))});
           }};
 }

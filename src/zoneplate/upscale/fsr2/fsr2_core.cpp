@@ -263,6 +263,7 @@ void Fsr2::rectify_and_blend(const FsrFrame& frame) {
       .height = height_,
       .is_first = is_first,
       .rectifies = options_.rectifies,
+      .has_lanczos = options_.has_lanczos,
       .exposure = passes_.exposure,
       .exposure_root = positive_power(passes_.exposure, 1.0f / 6),
       .kernel_max = std::min(1.99f, 1 / ratio_x),

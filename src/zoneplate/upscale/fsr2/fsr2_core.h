@@ -11,6 +11,7 @@ struct Fsr2Options {
   bool locks = true;                ///< thin features keep their history; for measurements of what that contributes
   bool rectifies = true;            ///< history is clamped to the colours of the frame's neighbourhood; likewise
   bool clips_depth = true;          ///< disoccluded pixels drop their history; likewise
+  bool has_lanczos = true;          ///< Lanczos' kernels, not bilinear history and a bell; likewise
   float exposure = 0;               ///< factor of the colours; 0: from the frame's mean luminance
   float frame_seconds = 1.0f / 60;  ///< time between frames, to which the automatic exposure adapts
 };

@@ -78,6 +78,15 @@ TEST(Fsr2, AMovingImageKeepsItsHistory) {
   EXPECT_LT(error, 0.8 * error_of(after(1, moved), moved));
 }
 
+TEST(Fsr2, LanczosKernelsAreSharper) {
+  const Fsr2Options without{.has_lanczos = false};
+  EXPECT_LT(error_of(after(24, edge), edge), 0.9 * error_of(after(24, edge, {0, 0}, without), edge));
+  // Half an output pixel per frame, so that history is interpolated in every second one.
+  const float2 motion{0.25f, 0};
+  const Pattern moved = [&](float x, float y) { return edge(x - 23 * motion.x / frame_width, y); };
+  EXPECT_LT(error_of(after(24, edge, motion), moved), 0.9 * error_of(after(24, edge, motion, without), moved));
+}
+
 TEST(Fsr2, ConstantLightStays) {
   const LinearImage image = after(6, [](float, float) { return 0.3f; });
   for (const Linear& c : image.values()) {

@@ -202,6 +202,8 @@ class SmaaSubsamples : public Resolver {
     }
     if (subsamples_.frames() == 1) return current;
     Plane<float> speed = packed_speed(frame.motion);
+    if (lacks_speed_) last_speed_ = speed_before(frame.motion, speed);
+    lacks_speed_ = context_.is_first;
     DisplayImage out = context_.is_first ? current : with_last(current, frame.motion, speed);
     last_ = std::move(current), last_speed_ = std::move(speed);
     return out;
@@ -226,15 +228,28 @@ class SmaaSubsamples : public Resolver {
     });
   }
 
+  /// The pixel, along one axis, from which a surface has moved.
+  static int source(int at, float moved, int size) {
+    const float place = std::floor(static_cast<float>(at) - moved + 0.5f);
+    return static_cast<int>(std::clamp(place, 0.0f, static_cast<float>(size - 1)));
+  }
+
+  /// The speeds of a first frame, in which nothing has moved yet: those that its surfaces have in the next frame.
+  static Plane<float> speed_before(const Plane<float2>& motion, const Plane<float>& speed) {
+    Plane<float> out(speed.width(), speed.height());
+    for (int y = 0; y < out.height(); ++y)
+      for (int x = 0; x < out.width(); ++x) {
+        float& before = out(source(x, motion(x, y).x, out.width()), source(y, motion(x, y).y, out.height()));
+        before = std::max(before, speed(x, y));
+      }
+    return out;
+  }
+
   DisplayImage with_last(const DisplayImage& current, const Plane<float2>& motion, const Plane<float>& speed) const {
     constexpr float scale = 30;  // SMAA_REPROJECTION_WEIGHT_SCALE
     DisplayImage out(current.width(), current.height());
     for_rows(out.height(), [&](int y) {
       for (int x = 0; x < out.width(); ++x) {
-        const auto source = [](int at, float moved, int size) {
-          const float place = std::floor(static_cast<float>(at) - moved + 0.5f);
-          return static_cast<int>(std::clamp(place, 0.0f, static_cast<float>(size - 1)));
-        };
         const int from_x = source(x, motion(x, y).x, out.width()), from_y = source(y, motion(x, y).y, out.height());
         const float now = speed(x, y), before = last_speed_(from_x, from_y);
         const float delta = std::abs(now * now - before * before) / 5;
@@ -250,6 +265,7 @@ class SmaaSubsamples : public Resolver {
   FrameContext context_;
   DisplayImage last_;  ///< filtered, not averaged with the frame before it
   Plane<float> last_speed_;
+  bool lacks_speed_ = false;  ///< the last frame was a first one
 };
 
 constexpr std::string_view variants[] = {"edges=color", "mode=s2x", "mode=t2x", "mode=4x", "predication=depth"};

@@ -287,5 +287,22 @@ TEST(SmaaModes, HistoryIsThatOfOneFrame) {
   }
 }
 
+// Nothing moves in a first frame, but what has moved in the second one has left its place.
+TEST(SmaaModes, TheSecondFrameHasNoGhost) {
+  constexpr int step = 12;  // pixels per frame
+  const MovingScene moving = square_before_wall([](int i) { return float2{static_cast<float>(step * i), 0}; });
+  for (const char* method : {"smaa:mode=t2x", "smaa:mode=4x"}) {
+    PreparedScene prepared(moving.scene(0));
+    Renderer renderer(prepared, make_resolver(methods(), method));
+    renderer.render(moving.camera(0), display_settings(moving));
+    renderer.set_scene(PreparedScene(moving.scene(1), prepared));
+    const Rgba8Image image = renderer.render(moving.camera(1), display_settings(moving)).display;
+    const Rgba8 wall = image(90, 60);
+    const int left = moving.width / 2 - 10, top = moving.height / 2 - 10;  // of the square in the first frame
+    for (int y = top + 2; y < top + 18; ++y)
+      for (int x = left + 2; x < left + step - 2; ++x) ASSERT_LE(std::abs(image(x, y).g - wall.g), 1) << method << x;
+  }
+}
+
 }  // namespace
 }  // namespace zoneplate::antialias
