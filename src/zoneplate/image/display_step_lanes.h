@@ -150,8 +150,9 @@ struct PixelLanes {
   F alpha;
 };
 
-template <ToneMapping mapping, class F>
-[[gnu::always_inline]] inline PixelLanes<F> displayed(const DisplayStep& step, const PixelLanes<F>& linear) {
+/// Calls use(displayed). Each way ends in a call of its own: a common return value would be joined in memory.
+template <ToneMapping mapping, class F, class Use>
+[[gnu::always_inline]] inline void with_displayed(const DisplayStep& step, const PixelLanes<F>& linear, Use use) {
   const F zero(0.0f), one(1.0f), exposure(step.exposure);
   const F a = clamp_unit(linear.alpha);
   const auto encoded = [&](F x) { return step.is_encoded ? encode_srgb(x) : clamp_unit(x); };
@@ -159,11 +160,12 @@ template <ToneMapping mapping, class F>
   // If all pixels are opaque, the division and the background are skipped: x / 1, x 1 + 0 and a > 0 change no bit.
   if (all(a == one)) {
     const ColorLanes<F> mapped = tone_map<mapping>(each(linear.color, [&](F x) { return x * exposure; }));
-    return {step.is_encoded ? each(mapped, encoded) : mapped, one};
+    if (step.is_encoded) return use(PixelLanes<F>{each(mapped, encoded), one});
+    return use(PixelLanes<F>{mapped, one});
   }
 
   // Empty pixels have the background only.
-  if (all(a == zero)) return {{F(step.code[0]), F(step.code[1]), F(step.code[2])}, F(step.code[3])};
+  if (all(a == zero)) return use(PixelLanes<F>{{F(step.code[0]), F(step.code[1]), F(step.code[2])}, F(step.code[3])});
   const auto is_seen = a > zero;
   const ColorLanes<F> mapped =
       tone_map<mapping>(each(linear.color, [&](F x) { return where(is_seen, x / a * exposure); }));
@@ -174,8 +176,8 @@ template <ToneMapping mapping, class F>
     const F over = (light * a + F(step.light[c]) * rest) / total;
     return select(is_seen, encoded(step.is_transparent ? light : over), F(step.code[c]));
   };
-  return {{shown(mapped.r, 0), shown(mapped.g, 1), shown(mapped.b, 2)},
-          select(is_seen, clamp_unit(total), F(step.code[3]))};
+  use(PixelLanes<F>{{shown(mapped.r, 0), shown(mapped.g, 1), shown(mapped.b, 2)},
+                    select(is_seen, clamp_unit(total), F(step.code[3]))});
 }
 
 template <ToneMapping mapping, class Full, class One>
@@ -184,9 +186,10 @@ template <ToneMapping mapping, class Full, class One>
   for_row<Full, One>(n, [=]<class F>(std::size_t i) {
     F v[4];
     F::load_fours(linear + 4 * i, v);
-    const PixelLanes<F> p = displayed<mapping>(step, PixelLanes<F>{{v[0], v[1], v[2]}, v[3]});
-    const F out[4] = {p.color.r, p.color.g, p.color.b, p.alpha};
-    F::store_fours(out, display + 4 * i);
+    with_displayed<mapping>(step, PixelLanes<F>{{v[0], v[1], v[2]}, v[3]}, [&](const PixelLanes<F>& p) {
+      const F out[4] = {p.color.r, p.color.g, p.color.b, p.alpha};
+      F::store_fours(out, display + 4 * i);
+    });
   });
 }
 
@@ -203,10 +206,11 @@ template <ToneMapping mapping, class F>
   const auto codes = [](F x) { return code8(x); };
   for (const Linear8* group = linear; group != linear + n; ++group)
     for (std::size_t k = 0; k < Linear8::size; k += F::lanes, shown += F::lanes) {
-      const PixelLanes<F> p = displayed<mapping>(
-          step,
-          PixelLanes<F>{{F::load(group->r + k), F::load(group->g + k), F::load(group->b + k)}, F::load(group->a + k)});
-      F::Int::store_pixels(codes(p.color.r), codes(p.color.g), codes(p.color.b), codes(p.alpha), &shown->r);
+      const PixelLanes<F> color{{F::load(group->r + k), F::load(group->g + k), F::load(group->b + k)},
+                                F::load(group->a + k)};
+      with_displayed<mapping>(step, color, [&](const PixelLanes<F>& p) {
+        F::Int::store_pixels(codes(p.color.r), codes(p.color.g), codes(p.color.b), codes(p.alpha), &shown->r);
+      });
     }
 }
 

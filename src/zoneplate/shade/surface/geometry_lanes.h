@@ -79,6 +79,15 @@ template <class F>
   for (int k = i + FragmentBatch::group; k < end; k += F::lanes) a.at(batch, k).store(value + k);
 }
 
+/// True if the triangle of a run has the same normal at all vertices.
+inline bool is_flat(const TriangleVertices& vertices, std::size_t leader) {
+  const float *const v0 = vertices.record[0][leader], *const v1 = vertices.record[1][leader];
+  const float* const v2 = vertices.record[2][leader];
+  bool is_same = true;
+  for (int c = 0; c < 3; ++c) is_same = is_same && v1[c] == v0[c] && v2[c] == v0[c];
+  return is_same;
+}
+
 /// Interpolates a quad at fragments [i, end), all of one triangle.
 template <class F>
 [[gnu::always_inline]] inline void interpolate_run(const FragmentBatch& batch, const TriangleVertices& vertices,
@@ -89,7 +98,14 @@ template <class F>
   const float* const v2 = vertices.record[2][leader] + quad.offset;
   const bool has_uniform_derivatives =
       i + FragmentBatch::group < end && batch.has_uniform_derivatives[i / FragmentBatch::group + 1];
-  for (int c = 0; c < 4; ++c) {
+  int c = 0;
+  if (quad.has_sparse_normals && is_flat(vertices, leader)) {
+    for (; c < 3; ++c) {
+      float* const value = quad.value[c].of(p);
+      for (int k = i; k < i + FragmentBatch::group; k += F::lanes) F(v0[c] + 0.0f).store(value + k);
+    }
+  }
+  for (; c < 4; ++c) {
     if (quad.value[c].is_none()) continue;
     const float second = v1[c] - v0[c], third = v2[c] - v0[c];
     if (second == 0 && third == 0 && quad.dx[c].is_none()) {
@@ -225,15 +241,6 @@ template <class F>
   const int group = i / FragmentBatch::group;
   if (batch.is_flat_run[group]) return F(batch.is_front[batch.leader(static_cast<std::size_t>(i))] > 0 ? 1.0f : -1.0f);
   return select(Int::load(batch.is_front + i) > Int(0), F(1.0f), F(-1.0f));
-}
-
-/// True if the triangle of a run has the same normal at all vertices.
-inline bool is_flat(const TriangleVertices& vertices, std::size_t leader) {
-  const float *const v0 = vertices.record[0][leader], *const v1 = vertices.record[1][leader];
-  const float* const v2 = vertices.record[2][leader];
-  bool is_same = true;
-  for (int c = 0; c < 3; ++c) is_same = is_same && v1[c] == v0[c] && v2[c] == v0[c];
-  return is_same;
 }
 
 template <class F>

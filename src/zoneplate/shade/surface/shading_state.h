@@ -90,6 +90,9 @@ struct StateArray {
 struct Interpolation {
   struct Quad {
     int offset = 0;  ///< of the first float in the record
+    /// The first three floats are normals that only find_normals reads: those of a run, if they are equal at all
+    /// vertices, are stored for its first group only.
+    bool has_sparse_normals = false;
     StateArray value[4], dx[4], dy[4];
   };
   int quads = 0;

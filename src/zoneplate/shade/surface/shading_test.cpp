@@ -252,6 +252,33 @@ TEST(SurfaceKernels, NothingIsWrittenPastTheCountsVector) {
     }
 }
 
+TEST(SurfaceKernels, SparseNormalsBecomeTheSameNormals) {
+  const auto normals = [](const SurfaceKernels& k, bool is_sparse) {
+    auto b = std::make_unique<Bench>(FragmentBatch::capacity);
+    // Every second triangle is flat; of another one, only two floats are equal.
+    for (std::size_t leader = 0; leader < FragmentBatch::capacity; leader += 8 * FragmentBatch::group)
+      for (int vertex = 1; vertex < 3; ++vertex) b->vertices.record[vertex][leader] = b->vertices.record[0][leader];
+    float nearly[24];
+    std::copy_n(b->vertices.record[0][4 * FragmentBatch::group], 24, nearly);
+    nearly[2] += 1;
+    b->vertices.record[1][4 * FragmentBatch::group] = nearly;
+    b->vertices.record[2][4 * FragmentBatch::group] = b->vertices.record[0][4 * FragmentBatch::group];
+    Interpolation what;
+    what.quads = 1;
+    what.quad[0].has_sparse_normals = is_sparse;
+    for (int c = 0; c < 3; ++c) what.quad[0].value[c] = b->array(b->points.normal[c]);
+    what.quad[0].value[3] = b->array(b->points.position[0]);
+    k.interpolate(b->batch, b->vertices, what, b->points);
+    k.find_normals(b->batch, b->vertices, b->transforms, b->points);
+    return b;
+  };
+  for (const Isa isa : supported_isas()) {
+    const auto all = normals(kernels(isa), false), sparse = normals(kernels(isa), true);
+    EXPECT_EQ(std::memcmp(all->points.normal, sparse->points.normal, sizeof all->points.normal), 0) << name_of(isa);
+    EXPECT_EQ(std::memcmp(all->points.position, sparse->points.position, sizeof all->points.position), 0);
+  }
+}
+
 TEST(SurfaceKernels, AShadowedLightCountsByItsVisibility) {
   // Light k is seen by all fragments, by none, or by a quarter: what each gives adds up to the whole.
   for (const Isa isa : supported_isas())

@@ -113,13 +113,21 @@ struct WrappedCoordinates {
   typename F::Bool is_nearest;
 };
 
-/// Prefetches texels that a later stage mixes.
-struct TexelFetch {
+/// Prefetches a cache line. GCC 12 removes functions and loops that only prefetch, but for the empty statement.
+[[gnu::always_inline]] inline void prefetch(const unsigned char* from) {
+  __builtin_prefetch(from);
+  asm volatile("");
+}
+
+/// Where texels lie that a later stage mixes, to prefetch them. The size of the most frequent texels, of four bytes, is
+/// known to the compiler.
+template <bool is_unorm8>
+struct TexelAddress {
   const unsigned char* codes;
   int shift;  ///< log2 of a texel's bytes
 
   template <class View>
-  explicit TexelFetch(const View& t)
+  explicit TexelAddress(const View& t)
       : codes(t.unorm8 != nullptr    ? t.unorm8
               : t.unorm15 != nullptr ? reinterpret_cast<const unsigned char*>(t.unorm15)
               : t.halves != nullptr  ? reinterpret_cast<const unsigned char*>(t.halves)
@@ -127,15 +135,11 @@ struct TexelFetch {
         shift(t.unorm8 != nullptr                           ? 2
               : t.unorm15 != nullptr || t.halves != nullptr ? 3
                                                             : 4) {}
-  /// The same texels, beginning `texels` texels later in memory.
-  TexelFetch below(std::int32_t texels) const {
-    TexelFetch moved = *this;
-    moved.codes += std::ptrdiff_t{texels} << shift;
-    return moved;
+  /// How many bytes some texels take.
+  [[gnu::always_inline]] std::ptrdiff_t bytes(std::int32_t texels) const {
+    return is_unorm8 ? std::ptrdiff_t{texels} * 4 : std::ptrdiff_t{texels} << shift;
   }
-  [[gnu::always_inline]] void prefetch(std::int32_t texel) const {
-    __builtin_prefetch(codes + (std::ptrdiff_t{texel} << shift));
-  }
+  [[gnu::always_inline]] const unsigned char* at(std::int32_t texel) const { return codes + bytes(texel); }
 };
 
 /// The mip levels to read.
@@ -162,7 +166,8 @@ struct Lookup {
   typename F::Int first;       ///< the first level
   typename F::Int mip_weight;  ///< weight of the second level, in 1/32768
   typename F::Bool is_nearest;
-  bool is_uniform;  ///< all fragments have the same first level
+  bool is_uniform;             ///< all fragments have the same first level
+  std::int32_t pitch[2] = {};  ///< of both levels, if is_uniform
 };
 
 template <class F, class View, class Filter>
@@ -173,7 +178,12 @@ template <class F, class View, class Filter>
   at.is_uniform = first.is_uniform();
   if (at.is_uniform) {
     at.level[0] = mip_level<F>(t, first.first());
-    if (has_second) at.level[1] = mip_level<F>(t, first.first() + 1 < t.levels ? first.first() + 1 : t.levels - 1);
+    at.pitch[0] = t.pitch(first.first());
+    if (has_second) {
+      const std::int32_t second = first.first() + 1 < t.levels ? first.first() + 1 : t.levels - 1;
+      at.level[1] = mip_level<F>(t, second);
+      at.pitch[1] = t.pitch(second);
+    }
   } else {
     at.level[0] = mip_levels<F>(t, first);
     if (has_second) at.level[1] = mip_levels<F>(t, min(first + Int(1), Int(t.levels - 1)));
@@ -223,38 +233,38 @@ template <class F, class Filter>
 
 /// Stores the taps of one level, and prefetches texels at the ends of each group of eight fragments, which mostly are a
 /// row.
-template <class F, class Filter>
-[[gnu::always_inline]] inline void store_level(const TexelFetch& fetch, const Filter& f, const WrappedCoordinates<F>& p,
+template <class F, class Address, class Filter>
+[[gnu::always_inline]] inline void store_level(const Address& address, const Filter& f, const WrappedCoordinates<F>& p,
                                                const MipLevel<F>& level, Taps& out, int which, int i) {
   const TapsOfLevel<F> taps = taps_of_level<F>(f, p, level);
   taps.upper.store(out.upper[which] + i);
   taps.right.store_by_fours(taps.down, out.bilinear_weight[which], i);
   taps.lower.store(out.lower[which] + i);
-  fetch.prefetch(taps.upper.first());
-  fetch.prefetch(taps.lower.first());
+  prefetch(address.at(taps.upper.first()));
+  prefetch(address.at(taps.lower.first()));
   // A row of the second level has half as many texels.
   if (which > 0) return;
   const std::int32_t *const upper = out.upper[0] + i, *const lower = out.lower[0] + i;
   for (int k = 7; k < F::lanes; k += 8) {
-    fetch.prefetch(upper[k]), fetch.prefetch(lower[k]);
-    if (k + 1 < F::lanes) fetch.prefetch(upper[k + 1]), fetch.prefetch(lower[k + 1]);
+    prefetch(address.at(upper[k])), prefetch(address.at(lower[k]));
+    if (k + 1 < F::lanes) prefetch(address.at(upper[k + 1])), prefetch(address.at(lower[k + 1]));
   }
 }
 
 /// Stores the taps of fragments at (u, v), from the i-th of `out` on.
-template <class F, class Filter>
-[[gnu::always_inline]] inline void store_taps(const TexelFetch& fetch, const Filter& f, const Lookup<F>& at, F u, F v,
+template <class F, class Address, class Filter>
+[[gnu::always_inline]] inline void store_taps(const Address& address, const Filter& f, const Lookup<F>& at, F u, F v,
                                               Taps& out, int i) {
   at.mip_weight.store_by_fours(at.mip_weight, out.mip_weight, i);
   const WrappedCoordinates<F> p{wrap(u, f.mirror_u, f.clamp_u), wrap(v, f.mirror_v, f.clamp_v), at.is_nearest};
   for (int which = 0; which < (f.has_mips && f.blends_mips ? 2 : 1); ++which)
-    store_level<F>(fetch, f, p, at.level[which], out, which, i);
+    store_level<F>(address, f, p, at.level[which], out, which, i);
 }
 
 /// `at` is a copy, so that its pointers are loaded once and not again after each store.
-template <class F, class View, class Filter>
-[[gnu::always_inline]] inline void find_all_taps(const View& t, const Filter& f, const Footprint at, Taps& out,
-                                                 int count) {
+template <class F, class Address, class View, class Filter>
+[[gnu::always_inline]] inline void find_all_taps(const Address address, const View& t, const Filter& f,
+                                                 const Footprint at, Taps& out, int count) {
   static constexpr bool none[Taps::groups] = {};
   static constexpr int step = F::lanes < 8 ? 8 : F::lanes;
   const bool* const repeats = at.repeats != nullptr ? at.repeats : none;
@@ -280,13 +290,12 @@ template <class F, class View, class Filter>
       }
     }
   }
-  const TexelFetch fetch(t);
   Lookup<F> lookup = begin_lookup<F>(t, f);
   for (int i = 0; i < count; i += step) {
     const bool is_same = is_known(i);
     for (int k = i; k < i + step; k += F::lanes) {
       if (!is_same) find_lookup<F>(t, f, F::load(out.lod + k), lookup);
-      store_taps<F>(fetch, f, lookup, F::load(at.u + k), F::load(at.v + k), out, k);
+      store_taps<F>(address, f, lookup, F::load(at.u + k), F::load(at.v + k), out, k);
     }
   }
 }
@@ -294,8 +303,11 @@ template <class F, class View, class Filter>
 /// The stage `find_taps` of shade/texture/filtering.h.
 template <class F, class View>
 void find_taps(const View& t, const SamplerState& f, const Footprint& footprint, Taps& out, int count) {
-  if (is_trilinear_repeat(f)) return find_all_taps<F>(t, TrilinearRepeat{}, footprint, out, count);
-  find_all_taps<F>(t, f, footprint, out, count);
+  if (is_trilinear_repeat(f) && t.unorm8 != nullptr)
+    return find_all_taps<F>(TexelAddress<true>(t), t, TrilinearRepeat{}, footprint, out, count);
+  const TexelAddress<false> address(t);
+  if (is_trilinear_repeat(f)) return find_all_taps<F>(address, t, TrilinearRepeat{}, footprint, out, count);
+  find_all_taps<F>(address, t, f, footprint, out, count);
 }
 
 }  // namespace zoneplate

@@ -58,8 +58,12 @@ constexpr Spread spread = make_spread();
 /// Vector n of the weights by fours of eight fragments.
 HWY_INLINE V load_weights(const std::int16_t* weights, [[maybe_unused]] int n) {
   if constexpr (blocks == 4) {
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
+    return V{_mm512_broadcast_i64x4(_mm256_load_si256(reinterpret_cast<const __m256i*>(weights)))};
+#else
     const auto eight = hn::Load(hn::Half<Fixed>(), weights);
     return combined(Fixed(), eight, eight);
+#endif
   } else {
     return hn::Load(Fixed(), weights + (blocks == 2 ? 0 : n / 2 * 8));
   }
@@ -122,20 +126,43 @@ struct Codes8 {
     return codes + std::ptrdiff_t{4} * texel[point];
   }
 
-  /// The texels of the fragments and their right neighbours.
-  HWY_INLINE V pairs(const std::int32_t* texel, [[maybe_unused]] int n) const {
+  /// The texels of the fragments and their right neighbours, in an upper and a lower row.
+  struct Rows {
+    V upper, lower;
+  };
+
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
-    const auto quad = [&](int p) HWY_ATTR {
-      const auto load = [&](int point)
-                            HWY_ATTR { return _mm_loadl_epi64(reinterpret_cast<const __m128i*>(at(texel, point))); };
-      __m256i v = _mm256_castsi128_si256(load(p));
-      v = _mm256_mask_broadcastq_epi64(v, 2, load(p + 1));
-      v = _mm256_mask_broadcastq_epi64(v, 4, load(p + 4));
-      return hn::Vec<hn::Half<Fixed>>{_mm256_mask_broadcastq_epi64(v, 8, load(p + 5))};
-    };
-    static_assert(blocks == 4);
-    return combined(Fixed(), quad(2), quad(0));
+  static_assert(blocks == 4);
+  using Quad = hn::Vec<hn::Half<Fixed>>;
+
+  /// The texels of four fragments and their right neighbours.
+  static HWY_INLINE Quad quad(const std::uint8_t* row, std::ptrdiff_t a, std::ptrdiff_t b, std::ptrdiff_t c,
+                              std::ptrdiff_t e) {
+    const auto load = [&](std::ptrdiff_t texel)
+                          HWY_ATTR { return _mm_loadl_epi64(reinterpret_cast<const __m128i*>(row + 4 * texel)); };
+    __m256i v = _mm256_castsi128_si256(load(a));
+    v = _mm256_mask_broadcastq_epi64(v, 2, load(b));
+    v = _mm256_mask_broadcastq_epi64(v, 4, load(c));
+    v = _mm256_mask_broadcastq_epi64(v, 8, load(e));
+    return Quad{v};
+  }
+  HWY_INLINE V pairs(const std::int32_t* texel) const {
+    const auto four = [&](int p) HWY_ATTR { return quad(codes, texel[p], texel[p + 1], texel[p + 4], texel[p + 5]); };
+    return combined(Fixed(), four(2), four(0));
+  }
+  HWY_INLINE Rows rows(const ByLower& taps, int) const { return {pairs(taps.upper), pairs(taps.lower)}; }
+
+  /// Both rows of four fragments after each other: the processor has no registers for the indices of eight.
+  HWY_INLINE Rows rows(const ByPitch& taps, int) const {
+    const std::uint8_t* const below = codes + 4 * taps.pitch;
+    const std::int32_t* const texel = taps.upper;
+    const std::ptrdiff_t a = texel[0], b = texel[1], c = texel[4], e = texel[5];
+    const Quad upper = quad(codes, a, b, c, e), lower = quad(below, a, b, c, e);
+    const std::ptrdiff_t f = texel[2], g = texel[3], h = texel[6], i = texel[7];
+    return {combined(Fixed(), quad(codes, f, g, h, i), upper), combined(Fixed(), quad(below, f, g, h, i), lower)};
+  }
 #else
+  HWY_INLINE V pairs(const std::int32_t* texel, int n) const {
     return join_blocks([&](int block) HWY_ATTR {
       const hn::FixedTag<std::int16_t, 8> d;
       const std::uint8_t *const p = at(texel, point_of(n, block)), *const q = at(texel, point_of(n, block) + 1);
@@ -148,8 +175,12 @@ struct Codes8 {
       return hn::BitCast(d, hn::Combine(bytes, hn::LoadU(half, q), hn::LoadU(half, p)));
 #endif
     });
-#endif
   }
+  HWY_INLINE Rows rows(const ByLower& taps, int n) const { return {pairs(taps.upper, n), pairs(taps.lower, n)}; }
+  HWY_INLINE Rows rows(const ByPitch& taps, int n) const {
+    return {pairs(taps.upper, n), Codes8{codes + 4 * taps.pitch}.pairs(taps.upper, n)};
+  }
+#endif
 
   /// Every second byte × 128, from the first on or the second.
   template <int first>
@@ -169,14 +200,10 @@ struct Codes8 {
 #endif
   }
 
-  HWY_INLINE V lower_pairs(const ByLower& taps, int n) const { return pairs(taps.lower, n); }
-  HWY_INLINE V lower_pairs(const ByPitch& taps, int n) const {
-    return Codes8{codes + 4 * taps.pitch}.pairs(taps.upper, n);
-  }
-
   template <class At>
   HWY_INLINE Sides sides(const At& taps, V weights, int n) const {
-    const V up = pairs(taps.upper, n), low = lower_pairs(taps, n), down = spread_weights(weights, spread.down, n);
+    const Rows row = rows(taps, n);
+    const V up = row.upper, low = row.lower, down = spread_weights(weights, spread.down, n);
     const V even = mixed(widened<0>(up), widened<0>(low), down), odd = mixed(widened<1>(up), widened<1>(low), down);
     return {every_second_pair<0>(odd, even), every_second_pair<1>(odd, even)};
   }

@@ -141,19 +141,11 @@ template <class F, class Joined, class Filter>
   store_probe_level(taps_of_level<F>(f, p, levels.lookup.level[1]), group.has_pitch, 1, k, out);
 }
 
-/// Prefetches the texels of a probe at the ends and in the middle of the fragments, which mostly are a row.
-[[gnu::always_inline]] inline void prefetch_probe(const TexelFetch& fetch, const ProbeGroup& group,
-                                                  const ProbeTaps& taps) {
-  for (int which = 0; which < (group.has_second ? 2 : 1); ++which) {
-    const TexelFetch below = fetch.below(group.pitch[which]);
-    for (const int k : {0, 4, 7}) fetch.prefetch(taps.upper[which][k]), below.prefetch(taps.upper[which][k]);
-  }
-}
-
-/// Stores the taps of the probes of the eight fragments from i on.
-template <class F, class Joined, class View, class Filter>
-[[gnu::always_inline]] inline void store_probes(const View& t, const Filter& f, const Footprint& at,
-                                                const Probes& probes, int i, int most,
+/// Stores the taps of the probes of the eight fragments from i on, and prefetches each probe's texels at the ends and
+/// in the middle of the fragments, which mostly are a row.
+template <class F, class Joined, class Address, class View, class Filter>
+[[gnu::always_inline]] inline void store_probes(const Address& address, const View& t, const Filter& f,
+                                                const Footprint& at, const Probes& probes, int i, int most,
                                                 ProbeLevels<F, Joined> (&levels)[8 / F::lanes], ProbeGroup& group,
                                                 ProbeTaps* out) {
   using Int = typename F::Int;
@@ -166,7 +158,7 @@ template <class F, class Joined, class View, class Filter>
     has_pitch = has_pitch && lookup.is_uniform && lookup.first.first() == levels[0].lookup.first.first();
   }
   group.probes = most, group.has_second = has_second, group.has_pitch = has_pitch;
-  for (int which = 0; which < 2; ++which) group.pitch[which] = levels[0].lookup.level[which].pitch.first();
+  for (int which = 0; which < 2; ++which) group.pitch[which] = levels[0].lookup.pitch[which];
 
   const F one(1.0f), half(0.5f);
   for (int k = 0; k < 8; k += F::lanes) {
@@ -190,8 +182,34 @@ template <class F, class Joined, class View, class Filter>
       weight.store_by_fours(weight, out[n].mean_weight, k);
     }
   }
-  const TexelFetch fetch(t);
-  for (int n = 0; n < most; ++n) prefetch_probe(fetch, group, out[n]);
+  for (int n = 0; n < most; ++n)
+    for (int which = 0; which < (group.has_second ? 2 : 1); ++which) {
+      const std::ptrdiff_t below = address.bytes(group.pitch[which]);
+      for (const int k : {0, 4, 7}) {
+        const unsigned char* const upper = address.at(out[n].upper[which][k]);
+        prefetch(upper), prefetch(upper + below);
+      }
+    }
+}
+
+/// Finds the probes of all fragments, `most` by group, and calls mix(list) for as many at a time as a list has.
+template <class F, class Joined, class Address, class View, class Filter, class Mix>
+[[gnu::always_inline]] inline void mix_all_probes(const Address address, const View& t, const Filter& f,
+                                                  const Footprint at, const Probes& probes, const int* most, int count,
+                                                  Mix mix) {
+  ProbeList list;
+  ProbeLevels<F, Joined> levels[8 / F::lanes];
+  for (ProbeLevels<F, Joined>& of : levels) of.lookup = begin_lookup<F>(t, f), join_levels(of);
+  while (list.last < count) {
+    list.first = list.last, list.count = 0;
+    for (; list.last < count && list.count + most[list.last / 8] <= ProbeList::capacity; list.last += 8) {
+      const int i = list.last, n = most[i / 8];
+      store_probes<F, Joined>(address, t, f, at, probes, i, n, levels, list.group[(i - list.first) / 8],
+                              list.taps + list.count);
+      list.count += n;
+    }
+    mix(list);
+  }
 }
 
 /// mix(list) stores the means of the probes. F has at most eight lanes, `Wide` at most sixteen; Joined joins two
@@ -203,24 +221,12 @@ template <class F, class Wide, class Joined, class View, class Mix>
   find_all_probes<Wide>(t, f.anisotropy, at, count, probes);
   int most[Taps::groups];
   for (int i = 0; i < count; i += 8) most[i / 8] = most_probes<F>(probes, i);
-  ProbeList list;
-  const bool usual = is_trilinear_repeat(f);
-  ProbeLevels<F, Joined> levels[8 / F::lanes];
-  for (ProbeLevels<F, Joined>& of : levels) of.lookup = begin_lookup<F>(t, f), join_levels(of);
-  while (list.last < count) {
-    list.first = list.last, list.count = 0;
-    for (; list.last < count && list.count + most[list.last / 8] <= ProbeList::capacity; list.last += 8) {
-      const int i = list.last, n = most[i / 8];
-      ProbeGroup& group = list.group[(i - list.first) / 8];
-      if (usual) {
-        store_probes<F, Joined>(t, TrilinearRepeat{}, at, probes, i, n, levels, group, list.taps + list.count);
-      } else {
-        store_probes<F, Joined>(t, f, at, probes, i, n, levels, group, list.taps + list.count);
-      }
-      list.count += n;
-    }
-    mix(list);
-  }
+  if (is_trilinear_repeat(f) && t.unorm8 != nullptr)
+    return mix_all_probes<F, Joined>(TexelAddress<true>(t), t, TrilinearRepeat{}, at, probes, most, count, mix);
+  const TexelAddress<false> address(t);
+  if (is_trilinear_repeat(f))
+    return mix_all_probes<F, Joined>(address, t, TrilinearRepeat{}, at, probes, most, count, mix);
+  mix_all_probes<F, Joined>(address, t, f, at, probes, most, count, mix);
 }
 
 }  // namespace zoneplate
