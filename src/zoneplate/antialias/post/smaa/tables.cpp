@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -180,7 +181,8 @@ AreaPair diagonal_area(int pattern, int left, int right, double offset_x, double
 
 std::int32_t diagonal_lines_of(int left_code, int right_code) {
   const auto is_pattern = [&](const Cell& cell) { return cell.x == left_code && cell.y == right_code; };
-  const DiagonalLines& lines = diagonal_lines[std::ranges::find_if(diagonal_cells, is_pattern) - diagonal_cells];
+  const DiagonalLines& lines =
+      diagonal_lines[std::find_if(std::begin(diagonal_cells), std::end(diagonal_cells), is_pattern) - diagonal_cells];
   const auto bits = [](const DiagonalLine& line) {
     return static_cast<std::int32_t>(line.from.x + 2 * line.from.y + 4 * line.to.x + 8 * line.to.y);
   };
