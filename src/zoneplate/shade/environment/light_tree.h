@@ -16,8 +16,8 @@ struct LightTree {
     float solid_angle;
     float light[3];     ///< radiance × solid angle
     float spread;       ///< variance of the directions along one axis, weighted by the light
-    float centre[3];    ///< from `direction` to the unit mean of the directions that counts all alike
-    float even_spread;  ///< their mean square distance from `direction` along one axis
+    float centre[3];    ///< from `direction` to the unit vector of their unweighted mean
+    float even_spread;  ///< their unweighted variance about `direction` along one axis
     float prominence;   ///< the fourth root of its radiance relative to the mean over all directions, at least 1
   };
   int side = 0;             ///< nodes along an edge of the finest level, a power of two
