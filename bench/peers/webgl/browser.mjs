@@ -86,7 +86,7 @@ export async function withPage({ script, modules, job, files }, work) {
   process.on('SIGTERM', () => process.exit(143));
   process.on('exit', () => {
     browser?.kill('SIGKILL');
-    fs.rmSync(folder, { recursive: true, force: true, maxRetries: 5 });
+    fs.rmSync(folder, { recursive: true, force: true, maxRetries: 20 });  // processes of the browser may still write
   });
   try {
     browser = spawn('chromium', [...flags, `http://127.0.0.1:${server.address().port}/`], { stdio: 'ignore' });
