@@ -287,8 +287,7 @@ std::vector<Option> picture_options(RenderArgs& a) {
       {"--quality", "LEVEL",
        "Sets several options, which other options change: fast is --aa msaa:n=4 --anisotropy 1; default; best is --aa "
        "msaa:n=16,alpha=samples --anisotropy 16 --shadows soft:samples=64 --ambient-occlusion rays --ground shadow; "
-       "the "
-       "compression of files is --jpeg-quality and --webp-quality",
+       "the compression of files is --jpeg-quality and --webp-quality",
        group, true, [&](auto& text) { set_quality(a, parse_quality(text)); }, Choices{"fast", "default", "best"}},
       {"--anti-aliasing,--aa", "METHOD",
        "Method with its parameters, for example ssaa:n=4 (zoneplate list methods); default msaa:n=8", group, true,

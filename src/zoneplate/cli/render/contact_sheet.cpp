@@ -64,7 +64,7 @@ Rgba8Image placeholder(const SheetArgs& args) {
 std::vector<std::uint8_t> render_cell(RenderArgs render, ItemSender& sender) {
   Scene scene;
   Environments environments;
-  if (!render.hdri_file.empty()) environments.complete(render, [](std::uint64_t, std::span<const std::uint8_t>) {});
+  if (!render.hdri_file.empty()) complete_environments(environments, render, {}, sender);
   within_import_time(render.input, render.load.limits, [&] { scene = load_scene(render.input, render.load); });
   sender.has_read();
   set_usual_options(render, scene);

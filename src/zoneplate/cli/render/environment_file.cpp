@@ -205,4 +205,15 @@ void Environments::complete(RenderArgs& args, const Store& store, const Progress
   args.lighting.environment->map = map_;
 }
 
+void complete_environments(Environments& environments, RenderArgs& args, const Environments::Store& store,
+                           ItemSender& sender) {
+  bool is_filtering = false;
+  const auto report = sender.progress_of("environment", 0, 0.1);
+  environments.complete(args, store, [&](double done) {
+    if (!is_filtering) sender.has_read(), is_filtering = true;
+    report(done);
+  });
+  if (is_filtering) sender.begins_to_read();
+}
+
 }  // namespace zoneplate::cli

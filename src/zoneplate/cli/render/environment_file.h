@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "zoneplate/cli/render/args.h"
+#include "zoneplate/cli/render/item_messages.h"
 
 namespace zoneplate::cli {
 
@@ -58,5 +59,10 @@ class Environments {
   std::string key_;  ///< of `map_`: its files and layout
   Map map_, studio_;
 };
+
+/// Environments::complete in an item's process: reports the progress of filtering, whose time the limit of reading does
+/// not count.
+void complete_environments(Environments& environments, RenderArgs& args, const Environments::Store& store,
+                           ItemSender& sender);
 
 }  // namespace zoneplate::cli

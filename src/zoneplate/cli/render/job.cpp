@@ -47,13 +47,7 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   summary.threads = thread_limit();
   out.progress("read", 0);
   const Environments::Store store = [&](std::uint64_t key, auto bytes) { out.environment(key, bytes); };
-  bool is_filtering = false;
-  const auto report = out.progress_of("environment", 0, 0.1);
-  environments_.complete(args, store, [&](double done) {
-    if (!is_filtering) out.has_read(), is_filtering = true;
-    report(done);
-  });
-  if (is_filtering) out.begins_to_read();
+  complete_environments(environments_, args, store, out);
   if (args.sequence.is_sequence()) {
     render_sequence(args, std::move(method), out, summary);
     summary.times = {{"total", total_watch.ms()}};
