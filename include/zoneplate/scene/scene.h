@@ -33,16 +33,17 @@ struct AnimationSpan {
 ///
 /// Requires  every index is in range; `materials` is not empty when there are meshes.
 struct Scene {
-  std::vector<Mesh> meshes;               ///< drawn where instances place them
-  std::vector<Instance> instances;        ///< in this order: of equal depths the first drawn is visible
-  NameList objects;                       ///< names of objects, for ids
-  std::vector<Material> materials;        ///< Mesh::material is an index into this list
-  std::vector<TextureImage> images;       ///< TextureUse::image is an index into this list
-  std::vector<Light> lights;              ///< none: see light_unlit
-  std::vector<Camera> cameras;            ///< of the file; View::index chooses one
-  Environment environment;                ///< light from infinitely far away
-  float3 up{0, 1, 0};                     ///< the up axis of the file's format, for the camera
-  float3 ambient_light{0, 0, 0};          ///< of (Blinn-)Phong's ambient term; multiplied by Material::ambient
+  std::vector<Mesh> meshes;          ///< drawn where instances place them
+  std::vector<Instance> instances;   ///< in this order: of equal depths the first drawn is visible
+  NameList objects;                  ///< names of objects, for ids
+  std::vector<Material> materials;   ///< Mesh::material is an index into this list
+  std::vector<TextureImage> images;  ///< TextureUse::image is an index into this list
+  std::vector<Light> lights;         ///< none: see light_unlit
+  std::vector<Camera> cameras;       ///< of the file; View::index chooses one
+  Environment environment;           ///< light from infinitely far away
+  float3 up{0, 1, 0};                ///< the up axis of the file's format, for the camera
+  float3 ambient_light{0, 0, 0};     ///< of (Blinn-)Phong's ambient term, times Material::ambient; with an environment
+                                     ///< of one colour, zero stands for that colour
   std::vector<AnimationSpan> animations;  ///< of the file
   std::vector<std::string> variants;      ///< material variants of the file
   std::vector<std::string> warnings;      ///< what the loader ignored, one line each

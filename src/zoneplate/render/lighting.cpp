@@ -15,10 +15,9 @@ namespace {
 
 bool is_phong(ShadingModel model) { return model == ShadingModel::BlinnPhong || model == ShadingModel::Phong; }
 
-/// Zero where the environment's image is not filtered yet.
-float3 mean_radiance(const Environment& environment) {
-  if (environment.map) return environment.factor() * environment.map->mean();
-  return environment.image < 0 ? environment.factor() : float3{0, 0, 0};
+/// The ambient light that stands for an environment: that of one colour. The light of an image depends on the normal.
+float3 ambient_of(const Environment& environment) {
+  return environment.image < 0 && !environment.map ? environment.factor() : float3{0, 0, 0};
 }
 
 /// True if a material reflects its environment.
@@ -108,7 +107,7 @@ Lighting make_lighting(const Scene& scene, const LightingOptions& options) {
     }
   }
   for (Light& light : lighting.lights) light.intensity *= options.intensity;
-  if (lighting.ambient_light == float3{}) lighting.ambient_light = mean_radiance(lighting.environment);
+  if (lighting.ambient_light == float3{}) lighting.ambient_light = ambient_of(lighting.environment);
   return lighting;
 }
 

@@ -76,7 +76,7 @@ TEST(Lighting, MetallicRoughnessIsLitByTheStudio) {
   const float key = light_from(-lighting.lights[0].direction);
   for (const float3 d : {float3{0, 0, 1}, float3{1, 0, 0}, float3{0, 1, 0}, float3{-1, 0, 0}, float3{0, 0, -1}})
     EXPECT_GT(key, 1.5f * light_from(d));
-  EXPECT_NEAR(lighting.ambient_light.x, 2 * studio->mean().x, 1e-6f);
+  EXPECT_EQ(lighting.ambient_light, float3{}) << "surfaces reflect the image by their normals";
   EXPECT_EQ(lighting.tone_mapping, ToneMapping::Neutral);
 }
 

@@ -27,7 +27,6 @@ Lighting with_map(Lighting lighting, const EnvironmentMap& map) {
   Environment& environment = lighting.environment;
   if (environment.image < 0 || environment.map) return lighting;
   environment.map = map;
-  if (lighting.ambient_light == float3{}) lighting.ambient_light = environment.factor() * map->mean();
   return lighting;
 }
 

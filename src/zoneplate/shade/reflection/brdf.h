@@ -116,6 +116,34 @@ template <class F>
   return mirror + (n - mirror) * (alpha * alpha);
 }
 
+/// What the highlight of (Blinn-)Phong reflects of light of radiance 1 from all sides, where its colour is 1: the
+/// integral of the highlight over the directions of light above the surface, over π as for the diffuse term, which
+/// reflects 1.
+///
+/// Requires  exponent >= 0, nv in [0, 1].
+/// Error     of Blinn-Phong, at most 0.065; of Phong, at most 3 % from exponent 4 on where nv >= 0.7, too high at more
+///           grazing views, by half at exponent 1 and nv = 0.3, because the part of the lobe below the surface is
+///           counted.
+/// Exact     for a view along the normal.
+template <class F>
+[[gnu::always_inline]] inline F blinn_phong_albedo(F exponent, F nv) {
+  const F tail = pow(F(0.5f), (exponent + F(1.0f)) * F(0.5f));
+  return F(8.0f) / (exponent + F(2.0f)) * (F(1.0f) - tail * F(0.707106781f)) * (nv + (F(1.0f) - nv) * tail);
+}
+template <class F>
+[[gnu::always_inline]] inline F phong_albedo(F exponent) {
+  return F(2.0f) / (exponent + F(1.0f));
+}
+
+/// The roughness of the GGX lobe that is as wide as the highlight of an exponent. A highlight of Phong is as wide as
+/// one of Blinn-Phong with four times its exponent.
+///
+/// Source    Karis, Specular BRDF Reference, 2013: α = roughness², exponent = 2 / α² - 2.
+template <class F>
+[[gnu::always_inline]] inline F roughness_of_exponent(F exponent) {
+  return sqrt(sqrt(F(2.0f) / (exponent + F(2.0f))));
+}
+
 /// The specular reflectance of a uniform environment is f0 scale + bias, for any f0.
 template <class F>
 struct SpecularWeights {

@@ -236,6 +236,29 @@ TEST(Brdf, HighlightsFollowTheirDefinitions) {
   EXPECT_EQ(blinn_phong<F>(-0.5, make_exponent(3)).v, 0.0);
 }
 
+/// The highlight for a view at nv, integrated over the directions of light above the surface, over π.
+template <class Highlight>
+double highlight_albedo(double nv, Highlight highlight) {
+  constexpr int steps = 256;
+  const V v = direction(nv, 0);
+  double sum = 0;
+  for (int j = 0; j < steps; ++j)
+    for (int i = 0; i < steps; ++i) sum += highlight(direction((j + 0.5) / steps, 2 * pi * (i + 0.5) / steps), v).v;
+  return 2 * sum / (steps * steps);
+}
+
+TEST(Brdf, TheAlbedoOfAHighlightIsItsIntegral) {
+  for (const float e : {1.0f, 4.0f, 10.0f, 30.0f, 100.0f})
+    for (const double nv : {0.1, 0.3, 0.5, 0.7, 0.9, 1.0}) {
+      const double half =
+          highlight_albedo(nv, [&](V l, V v) { return blinn_phong<F>(dot(up, normalize(l + v)), make_exponent(e)); });
+      EXPECT_NEAR(blinn_phong_albedo<F>(e, nv).v, half, nv == 1 ? 1e-3 : 0.065) << e << " " << nv;
+      if (e < 4 || nv < 0.7) continue;
+      const double mirror = highlight_albedo(nv, [&](V l, V v) { return phong<F>(up, l, v, make_exponent(e)); });
+      EXPECT_NEAR(phong_albedo<F>(e).v / mirror, 1, 0.045) << e << " " << nv;
+    }
+}
+
 /// The light of a sphere that pixels at steps of 1 / `pixels_per_radius` add up, shaded at their centres, by lobes that
 /// the turn of the normal within a pixel of side `turn` widens.
 double light_of_a_sphere(double pixels_per_radius, double turn, V l) {

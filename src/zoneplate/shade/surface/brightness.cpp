@@ -40,16 +40,19 @@ bool is_unbounded(const TextureSlot& slot) {
   return view.values != nullptr || view.halves != nullptr;
 }
 
-/// Diffuse weights, cosines and their powers are at most 1.
+/// Diffuse weights, cosines and their powers are at most 1. The highlight of (Blinn-)Phong reflects at most twice the
+/// environment; of metallic-roughness, at most the environment.
 float brightest(const MaterialPlan& plan, float light, float environment) {
   if (plan.layers != nullptr || plan.attributes.color || is_unbounded(plan.slot(TextureSlotIndex::BaseColor)) ||
       is_unbounded(plan.slot(TextureSlotIndex::Specular)) || is_unbounded(plan.slot(TextureSlotIndex::Emissive)))
     return brightest_color;
   const float base = std::max({plan.factor[0], plan.factor[1], plan.factor[2], 0.0f});
   if (!plan.is_lit) return base;
+  const bool is_metallic = plan.model == ShadingModel::MetallicRoughness;
+  const float reflected = is_metallic ? environment : 2 * greatest(plan.specular) * environment;
   // Twice the sum: a margin for rounding and for the error of the fit to the environment's integral.
   return 2 * (base * (1 + greatest(plan.ambient_factor) + light + environment) + greatest(plan.own_ambient) +
-              highlight(plan) * light + environment + greatest(plan.emissive_factor));
+              highlight(plan) * light + reflected + greatest(plan.emissive_factor));
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ template <class F>
 [[gnu::always_inline]] inline LightComponents<F> phong_components(const ShadingUniforms& s, const AnyUniforms& kind,
                                                                   const ShadingState& p, int i) {
   const auto n = Vector<F>::load(p.normal, i), ambient = Vector<F>::all(s.ambient);
-  const Vector<F> arriving = unoccluded(kind, p, ambient, i) + irradiance(s, p, n, 1, i);
+  Vector<F> arriving = unoccluded(kind, p, ambient, i) + irradiance(s, p, n, 1, i);
+  if (kind.has_map) arriving = arriving + unoccluded(kind, p, diffuse_light(*s.map, n), i);
   return {Vector<F>::load(p.base, i) * arriving, zeros<F>(), emission<F>(s, p, i)};
 }
 

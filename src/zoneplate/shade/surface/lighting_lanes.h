@@ -26,6 +26,7 @@ struct PlainUniforms {
   static constexpr bool has_occlusion = false, has_emissive = false, has_emissive_texture = false;
   static constexpr bool has_bare_meshes = false, is_blended = false;
   static constexpr bool has_specular_texture = false, has_exponent_texture = false;
+  static constexpr bool has_map = false;
 };
 
 /// The general case, read at run time.
@@ -34,6 +35,7 @@ struct AnyUniforms {
   static constexpr bool has_sun_only = false;
   bool has_occlusion, has_emissive, has_emissive_texture, has_bare_meshes, is_blended;
   bool has_specular_texture, has_exponent_texture;
+  bool has_map;
   explicit AnyUniforms(const ShadingUniforms& s)
       : lights(s.lights),
         has_occlusion(s.has_occlusion),
@@ -42,13 +44,14 @@ struct AnyUniforms {
         has_bare_meshes(s.has_bare_meshes),
         is_blended(s.is_blended),
         has_specular_texture(s.has_specular_texture),
-        has_exponent_texture(s.has_exponent_texture) {}
+        has_exponent_texture(s.has_exponent_texture),
+        has_map(s.map != nullptr && s.has_environment) {}
 };
 
 inline bool is_plain(const ShadingUniforms& s, const ShadingState& p) {
   return p.light_visibility == nullptr && s.lights == 1 && s.light[0].is_directional && !s.has_occlusion &&
          !s.has_emissive && !s.has_emissive_texture && !s.has_bare_meshes && !s.is_blended && !s.has_specular_texture &&
-         !s.has_exponent_texture;
+         !s.has_exponent_texture && s.map == nullptr;
 }
 
 /// The irradiance of a light at fragments, perpendicular to its direction.
@@ -209,11 +212,36 @@ template <class F, Highlight highlight>
   return {radiance * F::load(cosines.diffuse + i), radiance * F::load(cosines.highlight + i)};
 }
 
-/// Stores the colour that follows from the accumulated light.
+/// The light of an environment map: its irradiance over π, and the light about the highlight's lobe times what the
+/// highlight reflects of light from all sides.
 template <class F, Highlight highlight, class Kind>
-[[gnu::always_inline]] inline void store_gathered(const ShadingUniforms& s, const Kind& kind, const ShadingState& p,
-                                                  const Gathered<F>& light, FragmentOutputs& out, int i) {
+[[gnu::always_inline]] inline Gathered<F> gather_map(const ShadingUniforms& s, const Kind& kind,
+                                                     const FragmentBatch& batch, const ShadingState& p, int i) {
+  const auto n = Vector<F>::load(p.normal, i);
+  Gathered<F> light{unoccluded(kind, p, diffuse_light(*s.map, n), i), zeros<F>()};
+  if constexpr (highlight != Highlight::None) {
+    const Vector<F> v = Viewer<F>(s.viewpoint).direction(batch, p, i);
+    const F exponent = kind.has_exponent_texture ? F::load(p.exponent + i) : F(s.exponent.value);
+    const bool is_phong = highlight == Highlight::Phong;
+    const F nv = min(max(dot(n, v), F(0.0f)), F(1.0f));
+    const F share = is_phong ? phong_albedo(exponent) : blinn_phong_albedo(exponent, nv);
+    const F roughness = roughness_of_exponent(is_phong ? exponent * F(4.0f) : exponent);
+    const Vector<F> about = specular_light(*s.map, lobe_direction(n, v, roughness), roughness);
+    light.specular = unoccluded(kind, p, about * share, i);
+  }
+  return light;
+}
+
+/// Stores the colour that follows from the accumulated light of all lights.
+template <class F, Highlight highlight, class Kind>
+[[gnu::always_inline]] inline void store_gathered(const ShadingUniforms& s, const Kind& kind,
+                                                  const FragmentBatch& batch, const ShadingState& p, Gathered<F> light,
+                                                  FragmentOutputs& out, int i) {
   const auto base = Vector<F>::load(p.base, i), ambient = Vector<F>::all(s.ambient);
+  if (kind.has_map) {
+    const Gathered<F> around = gather_map<F, highlight>(s, kind, batch, p, i);
+    light = {light.diffuse + around.diffuse, light.specular + around.specular};
+  }
   Vector<F> sum = base * (unoccluded(kind, p, ambient, i) + light.diffuse);
   if constexpr (highlight != Highlight::None)
     sum = sum +
@@ -227,7 +255,7 @@ void light_phong(const ShadingUniforms s, const Kind& kind, const FragmentBatch&
                  FragmentOutputs& out) {
   if (kind.lights == 0) {
     for (int i = 0; i < p.count; i += F::lanes)
-      store_gathered<F, highlight>(s, kind, p, {zeros<F>(), zeros<F>()}, out, i);
+      store_gathered<F, highlight>(s, kind, batch, p, {zeros<F>(), zeros<F>()}, out, i);
     return;
   }
   Cosines cosines;
@@ -250,7 +278,7 @@ void light_phong(const ShadingUniforms s, const Kind& kind, const FragmentBatch&
       if (k + 1 < kind.lights) {
         all.diffuse.store(diffuse, i), all.specular.store(specular, i);
       } else {
-        store_gathered<F, highlight>(s, kind, p, all, out, i);
+        store_gathered<F, highlight>(s, kind, batch, p, all, out, i);
       }
     }
   }

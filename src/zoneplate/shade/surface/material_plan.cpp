@@ -110,12 +110,12 @@ void plan_specular_aa(SpecularAntialiasing kind, MaterialPlan& plan) {
 void decide(const ViewUniforms& s, const Material& m, MaterialPlan& plan) {
   const bool is_metallic = m.model == ShadingModel::MetallicRoughness;
   const bool has_lights = !s.lights.empty();
+  const bool reflects_environment = s.environment != float3{} && (is_metallic || s.map);
   const bool has_places = std::any_of(s.lights.begin(), s.lights.end(),
                                       [](const Light& light) { return light.kind != LightKind::Directional; });
   plan.is_lit = m.model != ShadingModel::Unlit;
-  const bool uses_normal =
-      plan.is_lit && (has_lights || plan.layers != nullptr || (is_metallic && s.environment != float3{}));
-  plan.has_specular = plan.is_lit && !is_metallic && has_lights && m.specular != float3{};
+  const bool uses_normal = plan.is_lit && (has_lights || plan.layers != nullptr || reflects_environment);
+  plan.has_specular = plan.is_lit && !is_metallic && (has_lights || reflects_environment) && m.specular != float3{};
   plan.has_emissive = plan.is_lit && m.emissive != float3{};
   plan.needs_viewer = uses_normal && (is_metallic || plan.has_specular);
   TextureSlot &normal = plan.slot(TextureSlotIndex::Normal), &height = plan.slot(TextureSlotIndex::Height);

@@ -44,7 +44,7 @@ struct ShadingUniforms {
   bool has_material_texture = false, has_environment = false;
   bool has_turning_normals = false;  ///< the lobes of lights are widened by ShadingState::normal_dx and normal_dy
   float metallic = 1, roughness = 1;
-  float environment[3] = {0, 0, 0};  ///< radiance from all sides, where `map` is null
+  float environment[3] = {0, 0, 0};  ///< radiance from all sides, where `map` is null; not for (Blinn-)Phong
   const EnvironmentView* map = nullptr;
   bool has_pixels = true;                  ///< FragmentBatch::x and y are set; else the positions are
   const BackdropView* backdrop = nullptr;  ///< what transmissive surfaces refract; null: the environment alone
@@ -116,7 +116,8 @@ struct SurfaceKernels : PerIsa<SurfaceKernels> {
   void (*default_normals)(const Viewpoint& viewpoint, const FragmentBatch& batch, ShadingState& state);
 
   // From the material to the colour: clamped to [0, 1e9], and so always finite; × alpha where the material is blended.
-  /// base (ambient × occlusion + diffuse) + specular colour × specular + emissive.
+  /// base (ambient × occlusion + diffuse) + specular colour × specular + emissive; an environment map adds occlusion ×
+  /// its light to diffuse and specular.
   void (*light_phong)(const ShadingUniforms& uniforms, const FragmentBatch& batch, const ShadingState& state,
                       FragmentOutputs& out);
   /// The lights' metallic-roughness reflections + occlusion × that of the environment + emissive.

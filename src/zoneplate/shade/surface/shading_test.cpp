@@ -15,6 +15,8 @@
 
 #include "zoneplate/base/isa.h"
 #include "zoneplate/math/random.h"
+#include "zoneplate/scene/environment.h"
+#include "zoneplate/shade/environment/prepared_environment.h"
 
 namespace zoneplate {
 namespace {
@@ -125,6 +127,17 @@ const std::vector<float>& visibility() {
   return weights;
 }
 
+/// A room of three colours, small enough that levels differ.
+const EnvironmentView& room() {
+  static const PreparedEnvironment prepared = [] {
+    Plane<float4> image(16, 8, float4{0.5f, 0.25f, 1, 1});
+    image(3, 1) = {40, 30, 20, 1}, image(11, 5) = {0, 3, 0, 1};
+    return prepare_equirectangular(TexelImage(image));
+  }();
+  static const EnvironmentView view = prepared.view({.color = {1, 0.5f, 2}}, {0, 1, 0});
+  return view;
+}
+
 struct Stage {
   std::string name;
   std::function<void(const SurfaceKernels&, Bench&)> run;
@@ -190,6 +203,13 @@ std::vector<Stage> stages() {
         {"light_phong", [light](K k, B b) { light(b), k.light_phong(b.light, b.batch, b.points, b.shaded); }});
     all.push_back(
         {"light_metallic", [light](K k, B b) { light(b), k.light_metallic(b.light, b.batch, b.points, b.shaded); }});
+    const auto light_in_room = [light](B b) { light(b), b.light.map = &room(); };
+    all.push_back({"light_phong in a map", [light_in_room](K k, B b) {
+                     light_in_room(b), k.light_phong(b.light, b.batch, b.points, b.shaded);
+                   }});
+    all.push_back({"light_metallic_in_map", [light_in_room](K k, B b) {
+                     light_in_room(b), k.light_metallic_in_map(b.light, b.batch, b.points, b.shaded);
+                   }});
     LayeredUniforms layers;
     layers.has_clearcoat = bit(0), layers.has_sheen = bit(1), layers.has_anisotropy = bit(2);
     layers.has_iridescence = bit(3), layers.has_transmission = bit(4), layers.has_diffuse_transmission = bit(5);
@@ -197,6 +217,9 @@ std::vector<Stage> stages() {
     layers.absorption[0] = 0.5f, layers.absorption[2] = 7;
     all.push_back({"light_layered", [light, layers](K k, B b) {
                      light(b), k.light_layered(b.light, layers, b.batch, b.points, b.layers, b.shaded);
+                   }});
+    all.push_back({"light_layered in a map", [light_in_room, layers](K k, B b) {
+                     light_in_room(b), k.light_layered(b.light, layers, b.batch, b.points, b.layers, b.shaded);
                    }});
   }
   return all;

@@ -7,7 +7,9 @@
 
 #include "zoneplate/math/lanes.h"
 #include "zoneplate/math/transform.h"
+#include "zoneplate/scene/environment.h"
 #include "zoneplate/scene/material_layers.h"
+#include "zoneplate/shade/environment/prepared_environment.h"
 #include "zoneplate/shade/reflection/brdf.h"
 #include "zoneplate/shade/surface/surface_for_test.h"
 
@@ -39,6 +41,54 @@ TEST(Surface, BlinnPhongIsTheTextbooksFormula) {
     EXPECT_NEAR(color.z, expected(0.3f, 0.1f), 2e-6);
     EXPECT_EQ(color.w, 1);
   }
+}
+
+/// Light of radiance 2 from the upper half of space, +Y; none from the lower one.
+PreparedEnvironment sky() {
+  Plane<float4> image(64, 32, float4{0, 0, 0, 1});
+  for (int y = 0; y < 16; ++y)
+    for (int x = 0; x < 64; ++x) image(x, y) = {2, 2, 2, 1};
+  return prepare_equirectangular(TexelImage(image));
+}
+
+TEST(Surface, BlinnPhongReflectsAnEnvironmentMapByItsNormal) {
+  const PreparedEnvironment map = sky();
+  const EnvironmentView view = map.view({.color = {1, 1, 1}}, {0, 1, 0});
+  const auto color = [&](ShadingModel model, float3 normal, float3 specular, float exponent) {
+    Scene scene = flat_triangle(model, {0.5f, 0.25f, 1, 1}, specular);
+    scene.meshes[0].normal.assign(3, normal);
+    scene.materials[0].exponent = exponent;
+    const float3 eye = float3{0.25f, 0.25f, 0} + normal * 5;
+    return color_of(scene, {.eye = eye, .environment = {2, 2, 2}, .map = view});
+  };
+  for (const ShadingModel model : {ShadingModel::BlinnPhong, ShadingModel::Phong}) {
+    // A surface whose normal leans by an angle sees (1 + cosine) / 2 of the light of the sky.
+    for (const float lean : {-0.9f, -0.3f, 0.0f, 0.5f, 1.0f}) {
+      const float irradiance = 2 * (1 + lean) / 2;
+      const float4 c = color(model, {0, lean, std::sqrt(1 - lean * lean)}, {0, 0, 0}, 1);
+      expect_near(c, {0.5f * irradiance, 0.25f * irradiance, irradiance, 1}, 0.01f);
+    }
+    // Narrow highlights mirror the middle of the sky, and nothing below the horizon.
+    const bool is_phong = model == ShadingModel::Phong;
+    for (const float e : {10.0f, 40.0f}) {
+      const float share = is_phong ? 2 / (e + 1) : 8 / (e + 2) * (1 - std::exp2(-(e + 2) / 2));
+      const float4 above = color(model, {0, 1, 0}, {1, 1, 1}, e), below = color(model, {0, -1, 0}, {1, 1, 1}, e);
+      EXPECT_NEAR(above.y, 0.25f * 2 + 2 * share, 0.03f * share + 0.003f) << e;
+      EXPECT_NEAR(below.y, 0, 0.03f * share + 0.003f) << e;
+    }
+  }
+}
+
+TEST(Surface, OcclusionAttenuatesTheEnvironmentMapOfBlinnPhong) {
+  const PreparedEnvironment map = sky();
+  Scene scene = flat_triangle(ShadingModel::BlinnPhong, {1, 1, 1, 1}, {0.5f, 0.5f, 0.5f});
+  scene.images = {{"occlusion", one_texel({51, 0, 0, 255})}};
+  const ViewUniforms view{
+      .eye = {0.25f, 0.25f, 4}, .environment = {2, 2, 2}, .map = map.view({.color = {1, 1, 1}}, {0, 1, 0})};
+  const float open = color_of(scene, view).x;
+  scene.materials[0].occlusion_texture.image = 0;
+  EXPECT_NEAR(color_of(scene, view).x, 0.2f * open, 1e-6f);
+  EXPECT_GT(open, 1.0f) << "irradiance of half the sky and the highlight";
 }
 
 /// A black or nearly black triangle that reflects ambient light.
