@@ -157,7 +157,7 @@ TEST_F(Cli, JsonIsOneLineThatTellsWhatWasDone) {
   EXPECT_EQ(json["output"], "a.png");
   EXPECT_EQ(json["width"], 32);
   EXPECT_EQ(json["height"], 24);
-  EXPECT_EQ(json["method"], "msaa:n=8");
+  EXPECT_EQ(json["method"], "msaa:n=8,alpha=samples");
   EXPECT_EQ(json["triangles"], 2);
   EXPECT_EQ(json["format"], "zoneplate-render");
   EXPECT_EQ(json["version"], 2);
@@ -273,7 +273,7 @@ TEST_F(Cli, ErrorsAreOneLineWithTheDocumentedCode) {
        "--aov writes files next to OUT, which cannot be -; an .exr contains the passes"},
       {2,
        {"triangles", "-o", "a.png", "--aov", "error"},
-       "triangles: --aov error: msaa:n=8 has no estimate of its error; converged and analytic have"},
+       "triangles: --aov error: msaa:n=8,alpha=samples has no estimate of its error; converged and analytic have"},
       {2,
        {"triangles", "-o", "a.exr", "--aa", "fxaa"},
        "--anti-aliasing: fxaa works after tone mapping, and .exr is scene-linear: write a .png, or use "

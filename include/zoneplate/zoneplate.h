@@ -265,7 +265,7 @@ typedef struct zoneplate_render_options {
   size_t size;          ///< sizeof(zoneplate_render_options)
   int32_t width;        ///< pixels; 0: 800
   int32_t height;       ///< pixels; 0: 600
-  const char* method;   ///< antialiasing, as "ssaa:n=4" or "smaa"; null: "msaa:n=8"
+  const char* method;   ///< antialiasing, as "ssaa:n=4" or "smaa"; null: "msaa:n=8,alpha=samples"
   const char* passes;   ///< data passes separated by commas, as "depth,normal"; null: none
   zoneplate_form form;  ///< ZONEPLATE_SRGB8 by default
   int32_t crop[4];      ///< x, y, width, height; width 0: the whole image

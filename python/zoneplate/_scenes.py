@@ -469,7 +469,7 @@ def render(
     camera: View | Camera | Matrix | None = None,
     size: tuple[int, int] = (800, 600),
     *,
-    aa: str = "msaa:n=8",
+    aa: str = "msaa:n=8,alpha=samples",
     aovs: Iterable[str] = (),
     dtype: str = "uint8",
     crop: tuple[int, int, int, int] | None = None,

@@ -234,7 +234,7 @@ class OffscreenRenderer:
     zoneplate.render takes (with a `camera`).
     """
 
-    def __init__(self, viewport_width: int, viewport_height: int, point_size: float = 1.0, aa: str = "msaa:n=8"):
+    def __init__(self, viewport_width: int, viewport_height: int, point_size: float = 1.0, aa: str = "msaa:n=8,alpha=samples"):
         self.viewport_width, self.viewport_height, self.point_size, self.aa = viewport_width, viewport_height, point_size, aa
 
     def render(

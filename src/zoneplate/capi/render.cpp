@@ -158,7 +158,7 @@ std::unique_ptr<zoneplate_image> render_image(zoneplate_scene& scene, const zone
   const RenderOptions& options = settings.options;
   const std::vector<const Aov*> passes = passes_of(o.passes);
   for (const Aov* aov : passes) settings.planes.*(aov->plane) = true;
-  std::unique_ptr<Resolver> method = upscale::make_method(o.method == nullptr ? "msaa:n=8" : o.method);
+  std::unique_ptr<Resolver> method = upscale::make_method(o.method == nullptr ? usual_method : o.method);
   const Request request = method->request({});
   if (settings.form == ImageForm::Linear && request.is_display_referred)
     throw Error(ErrorKind::Usage, fmt::format("{} works after tone mapping, and the image is linear", o.method));

@@ -290,8 +290,8 @@ std::vector<Option> picture_options(RenderArgs& a) {
        "the compression of files is --jpeg-quality and --webp-quality",
        group, true, [&](auto& text) { set_quality(a, parse_quality(text)); }, Choices{"fast", "default", "best"}},
       {"--anti-aliasing,--aa", "METHOD",
-       "Method with its parameters, for example ssaa:n=4 (zoneplate list methods); default msaa:n=8", group, true,
-       [&](auto& text) { a.method = text, a.has_method = true; }, method_names()},
+       "Method with its parameters, for example ssaa:n=4 (zoneplate list methods); default msaa:n=8,alpha=samples",
+       group, true, [&](auto& text) { a.method = text, a.has_method = true; }, method_names()},
       {"--upscale", "METHOD",
        "Render a smaller frame and upscale it, for example fsr1 or lanczos:lobes=2 (zoneplate list upscalers); "
        "textures are filtered for the pixels of the image",

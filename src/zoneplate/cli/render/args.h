@@ -21,6 +21,7 @@
 #include "zoneplate/render/render.h"
 #include "zoneplate/render/sequence.h"
 #include "zoneplate/render/view.h"
+#include "zoneplate/scene/usual_options.h"
 #include "zoneplate/shade/environment/layout.h"
 
 namespace zoneplate::cli {
@@ -61,7 +62,7 @@ struct RenderArgs {
   bool dithers = false;
   FileOptions file;
   std::string stdout_format = "png";
-  std::string method = "msaa:n=8";
+  std::string method = usual_method;
   bool has_method = false;                  ///< --anti-aliasing is given
   std::string upscaler;                     ///< follows the method; check_args appends it to `method`
   std::optional<double> render_scale;       ///< of `upscaler`
