@@ -12,6 +12,7 @@
 #include "zoneplate/shade/environment/lookup_lanes.h"
 #include "zoneplate/shade/environment/prepared_environment.h"
 #include "zoneplate/shade/environment/studio.h"
+#include "zoneplate/shade/reflection/brdf.h"
 
 namespace zoneplate {
 namespace {
@@ -114,6 +115,19 @@ TEST(Lighting, TheStudioShowsAWhiteSurfaceJustBelowWhite) {
   EXPECT_NEAR(code_of(0.8f, key), 243, 3);
   EXPECT_NEAR(code_of(0.8f, {0, 0, 1}), 231, 6);  // as under light from all sides: the colour is that of the material
   EXPECT_NEAR(code_of(0.8f, {0, -1, 0}), 147, 6);
+}
+
+TEST(Lighting, TheNeutralCurveReproducesTheBaseColourOfADielectric) {
+  // Light of 1 / 0.96 from all sides: below its surface, a dielectric reflects its base colour of it.
+  using F = scalar::Float;
+  for (const float roughness : {0.0f, 0.2f, 0.3f, 0.4f, 0.5f})
+    for (int code = 80; code <= 231; ++code) {
+      const float base = decode_srgb(static_cast<float>(code) / 255);
+      const auto white = metallic_environment(Vector<F>{base, base, base}, F(0.0f), SpecularFit<F>(roughness).at(1.0f));
+      const float light = white.x.v / 0.96f;
+      const float3 seen = tone_map({light, light, light}, ToneMapping::Neutral);
+      EXPECT_NEAR(encode_srgb8(seen.x), code, 1) << base << " " << roughness;
+    }
 }
 
 TEST(Lighting, TheStudiosStripsAreBehindWhatTheSideOfABoxMirrors) {
