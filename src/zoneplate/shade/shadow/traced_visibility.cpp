@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "zoneplate/math/elementary.h"
-#include "zoneplate/math/lanes.h"
-#include "zoneplate/shade/environment/lookup_lanes.h"
 
 namespace zoneplate {
 namespace {
@@ -71,10 +69,12 @@ TracedVisibility::TracedVisibility(const Bvh& bvh, const OpacityOfHits& opacity,
       lights_(std::move(lights)),
       shadows_(shadows),
       occlusion_(occlusion),
-      environment_(environment),
       lattice_(shadows.method == ShadowMethod::Soft ? shadows.samples : 0),
       spiral_(occlusion.samples),
-      kernels_(RayKernels::of()) {}
+      kernels_(RayKernels::of()) {
+  if (environment != nullptr && occlusion.samples > 0) environment_.emplace(*environment);
+  if (environment_ && environment_->is_uniform()) environment_.reset();
+}
 
 /// The mean over rays ray(0), ray(1), ... of what each of them sees. The first quarter of the rays are the only ones
 /// where all of these see the same.
@@ -132,39 +132,46 @@ void TracedVisibility::of_light(int k, const Receivers& receivers, float* visibl
   for (int i = 0; i < count; ++i) visible[lit[i]] = seen[i];
 }
 
-/// The luminance of the environment from about a direction.
-float TracedVisibility::light_from(float3 direction) const {
-  if (environment_ == nullptr) return 1;
-  // Blurred, since there are few directions.
-  constexpr float roughness = 0.4f;
-  using F = scalar::Float;
-  const Vector<F> light = specular_light(*environment_, {F(direction.x), F(direction.y), F(direction.z)}, F(roughness));
-  return 0.2126f * light.x.v + 0.7152f * light.y.v + 0.0722f * light.z.v;
+/// The mean over directions of a density proportional to the cosine.
+float TracedVisibility::of_uniform_light(const Receivers& receivers, int i, float3 origin) const {
+  Ray rays[chunk];
+  float seen[chunk];
+  const TurnedSpiral disc(spiral_, receivers.seed[i], 0);
+  const DirectionsAbout directions(at(receivers.normal, i));
+  float sum = 0;
+  for (int first = 0; first < occlusion_.samples; first += chunk) {
+    const int count = std::min(chunk, occlusion_.samples - first);
+    for (int s = 0; s < count; ++s)
+      rays[s] =
+          make_ray(origin, directions.of_cosine(disc(static_cast<std::uint32_t>(first + s))), occlusion_.distance);
+    kernels_.visibility(bvh_, rays, static_cast<std::size_t>(count), opacity_, seen);
+    for (int s = 0; s < count; ++s) sum += seen[s];
+  }
+  return sum / static_cast<float>(occlusion_.samples);
+}
+
+/// The mean over equal parts of the environment's irradiance.
+float TracedVisibility::of_rays(const Receivers& receivers, int i, float3 origin) const {
+  Ray rays[chunk];
+  float seen[chunk];
+  EnvironmentRays::Hemisphere light(*environment_, at(receivers.normal, i), receivers.seed[i], occlusion_.samples);
+  if (!light.is_lit()) return 1;
+  float sum = 0;
+  for (int first = 0; first < occlusion_.samples; first += chunk) {
+    const int count = std::min(chunk, occlusion_.samples - first);
+    for (int s = 0; s < count; ++s) rays[s] = make_ray(origin, light.next(), occlusion_.distance);
+    kernels_.visibility(bvh_, rays, static_cast<std::size_t>(count), opacity_, seen);
+    for (int s = 0; s < count; ++s) sum += seen[s];
+  }
+  return sum / static_cast<float>(occlusion_.samples);
 }
 
 void TracedVisibility::of_environment(const Receivers& receivers, float* visible) const {
-  Ray rays[chunk];
-  float seen[chunk];
   for (int i = 0; i < receivers.count; ++i) {
     const float3 origin = origin_of(receivers, i, 1);
     visible[i] = 1;
     if (distance_squared(bounds_, origin) > occlusion_.distance * occlusion_.distance) continue;
-    const TurnedSpiral disc(spiral_, receivers.seed[i], 0);
-    const DirectionsAbout directions(at(receivers.normal, i));
-    float all = 0, arriving = 0;
-    for (int first = 0; first < occlusion_.samples; first += chunk) {
-      const int count = std::min(chunk, occlusion_.samples - first);
-      for (int s = 0; s < count; ++s)
-        rays[s] =
-            make_ray(origin, directions.of_cosine(disc(static_cast<std::uint32_t>(first + s))), occlusion_.distance);
-      kernels_.visibility(bvh_, rays, static_cast<std::size_t>(count), opacity_, seen);
-      for (int s = 0; s < count; ++s) {
-        const float* const d = rays[s].direction;
-        const float light = light_from({d[0], d[1], d[2]});
-        all += light, arriving += light * seen[s];
-      }
-    }
-    visible[i] = all > 0 ? arriving / all : 1;
+    visible[i] = environment_ ? of_rays(receivers, i, origin) : of_uniform_light(receivers, i, origin);
   }
 }
 

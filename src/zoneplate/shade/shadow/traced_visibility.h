@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "zoneplate/ray/trace.h"
 #include "zoneplate/scene/light.h"
 #include "zoneplate/shade/environment/environment_view.h"
 #include "zoneplate/shade/shadow/disc_samples.h"
+#include "zoneplate/shade/shadow/environment_rays.h"
 #include "zoneplate/shade/shadow/light_visibility.h"
 #include "zoneplate/shade/shadow/shadows.h"
 
@@ -24,7 +26,7 @@ class TracedVisibility : public LightVisibility {
  public:
   /// `lights` in world space. `environment` weights what is occluded by its light; null: all directions count alike.
   ///
-  /// Requires  the tree, the environment and the context of `opacity` outlive this object; `occlusion.distance` > 0
+  /// Requires  the tree and the context of `opacity` outlive this object; `occlusion.distance` > 0
   ///           where there are samples.
   TracedVisibility(const Bvh& bvh, const OpacityOfHits& opacity, std::vector<Light> lights,
                    const ShadowOptions& shadows, const OcclusionOptions& occlusion,
@@ -38,7 +40,8 @@ class TracedVisibility : public LightVisibility {
  private:
   template <class MakeRay>
   float mean_visibility(const MakeRay& ray) const;
-  float light_from(float3 direction) const;
+  float of_uniform_light(const Receivers& receivers, int i, float3 origin) const;
+  float of_rays(const Receivers& receivers, int i, float3 origin) const;
 
   BvhView bvh_;
   Box bounds_;  ///< of all casters
@@ -46,9 +49,9 @@ class TracedVisibility : public LightVisibility {
   std::vector<Light> lights_;
   ShadowOptions shadows_;
   OcclusionOptions occlusion_;
-  const EnvironmentView* environment_;
-  DiscLattice lattice_;  ///< of rays to lights
-  DiscSpiral spiral_;    ///< of rays to the environment
+  std::optional<EnvironmentRays> environment_;  ///< none: light from all sides alike
+  DiscLattice lattice_;                         ///< of rays to lights
+  DiscSpiral spiral_;                           ///< of rays to the environment
   const RayKernels& kernels_;
 };
 

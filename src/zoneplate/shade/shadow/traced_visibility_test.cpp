@@ -193,6 +193,37 @@ TEST(TracedVisibility, OcclusionCountsTheEnvironmentsLight) {
   EXPECT_GT(greatest, 0.97f);
 }
 
+/// Dim walls and a lamp of 8 degrees, 35 degrees above the horizon, that is 1000 times brighter.
+PreparedEnvironment room_with_a_lamp() {
+  Plane<float4> image(128, 64, {0.5f, 0.5f, 0.5f, 1});
+  for (int y = 18; y < 21; ++y)
+    for (int x = 30; x < 33; ++x) image(x, y) = {500, 500, 500, 1};
+  return prepare_equirectangular(TexelImage(std::move(image)));
+}
+
+// Most rays go where most light comes from.
+TEST(TracedVisibility, FewRaysFindALampOfTheEnvironment) {
+  const TestMesh sphere = standing_sphere(60);
+  const Bvh bvh(std::vector{sphere.caster()});
+  const PreparedEnvironment room = room_with_a_lamp();
+  const EnvironmentView view = room.view({.color = {1, 1, 1}}, {0, 1, 0});
+  const PlanePoints plane(24, 4);
+  const auto seen = [&](int samples) {
+    return plane.visible(TracedVisibility(bvh, {}, {}, {}, {.samples = samples, .distance = 1e6f}, &view), true);
+  };
+  const std::vector<float> exact = seen(4096);
+  const auto error = [&](int samples) {
+    const std::vector<float> found = seen(samples);
+    double sum = 0;
+    for (std::size_t i = 0; i < found.size(); ++i) sum += std::pow(found[i] - exact[i], 2);
+    return std::sqrt(sum / static_cast<double>(found.size()));
+  };
+  const double few = error(32), many = error(256);
+  EXPECT_LT(few, 0.04);
+  EXPECT_LT(many, few / 3);
+  EXPECT_LT(*std::min_element(exact.begin(), exact.end()), 0.3f) << "the lamp's shadow";
+}
+
 TEST(TracedVisibility, NothingOccludesBeyondTheDistance) {
   const TestMesh sphere = standing_sphere(20);
   const Bvh bvh(std::vector{sphere.caster()});
@@ -222,13 +253,19 @@ TEST(TracedVisibilityBits, AreTheSameForAllInstructionSets) {
   const TestMesh sphere = standing_sphere(20);
   const Bvh bvh(std::vector{sphere.caster()});
   const PlanePoints plane(24, 3);
+  const PreparedEnvironment room = room_with_a_lamp();
+  const EnvironmentView view = room.view({.color = {1, 1, 1}}, {0, 1, 0});
   std::vector<float> first;
   for (const Isa isa : supported_isas()) {
     with_isa(isa, [&] {
       const TracedVisibility visibility(bvh, {}, {sun_from({1, 1, 1})}, {.method = ShadowMethod::Soft, .angle = 0.2f},
                                         {.samples = 8, .distance = 2});
-      std::vector<float> found = plane.visible(visibility), occluded = plane.visible(visibility, true);
-      found.insert(found.end(), occluded.begin(), occluded.end());
+      const TracedVisibility in_room(bvh, {}, {}, {}, {.samples = 8, .distance = 2}, &view);
+      std::vector<float> found = plane.visible(visibility);
+      for (const TracedVisibility* const v : {&visibility, &in_room}) {
+        const std::vector<float> occluded = plane.visible(*v, true);
+        found.insert(found.end(), occluded.begin(), occluded.end());
+      }
       if (first.empty()) first = found;
       EXPECT_EQ(found, first);
     });
