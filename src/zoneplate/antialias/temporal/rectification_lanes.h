@@ -75,15 +75,22 @@ template <class F, class Differences>
   return {(square.low + plus.low) * half, (square.high + plus.high) * half};
 }
 
+/// The mean ± gamma standard deviations; and, if `limits` is given, the extremes.
+///
 /// Source    Salvi, An Excursion in Temporal Supersampling, GDC 2016.
 template <class F, class Differences>
-[[gnu::always_inline]] inline DifferenceBox<F> variance_box(const Differences& d, F gamma) {
+[[gnu::always_inline]] inline DifferenceBox<F> variance_box(const Differences& d, F gamma,
+                                                            DifferenceBox<F>* limits = nullptr) {
   Rgba<F> sum = d(0), squares = sum * sum;
+  const Rgba<F> zero = Rgba<F>::all(F(0.0f));
+  DifferenceBox<F> ends{min(zero, sum), max(zero, sum)};
 #pragma GCC unroll 9
   for (int k = 1; k < 9; ++k) {
     const Rgba<F> c = d(k);
     sum = sum + c, squares = squares + c * c;
+    ends.low = min(ends.low, c), ends.high = max(ends.high, c);
   }
+  if (limits) *limits = ends;
   const F ninth(1.0f / 9);
   const Rgba<F> mean = sum * ninth, variance = squares * ninth - mean * mean;
   Rgba<F> radius;
@@ -122,17 +129,18 @@ template <class F>
                                                 const antialias::TemporalParts& parts, F gamma) {
   using Rectification = antialias::TemporalParts::Rectification;
   if (parts.rectification == Rectification::None) return history;
-  const bool is_turned = parts.is_ycocg;
+  const bool is_turned = parts.is_ycocg, is_both = parts.box == antialias::TemporalParts::Box::Both;
   const auto turned = [&](int k) { return scaled_ycocg_of(around.difference(k)); };
   const auto plain = [&](int k) { return around.difference(k); };
-  const DifferenceBox<F> box = is_turned ? box_of(turned, parts.box, gamma) : box_of(plain, parts.box, gamma);
+  DifferenceBox<F> box, limits{};
+  if (is_both)
+    box = is_turned ? variance_box(turned, gamma, &limits) : variance_box(plain, gamma, &limits);
+  else
+    box = is_turned ? box_of(turned, parts.box, gamma) : box_of(plain, parts.box, gamma);
   const Rgba<F> difference = history - around.middle, d = is_turned ? scaled_ycocg_of(difference) : difference;
   Rgba<F> inside = parts.rectification == Rectification::Clip ? clipped(d, box) : min(max(d, box.low), box.high);
   // After the clip, so that its centre stays the mean.
-  if (parts.box == antialias::TemporalParts::Box::Both) {
-    const DifferenceBox<F> limits = is_turned ? extremes<F>(turned) : extremes<F>(plain);
-    inside = min(max(inside, limits.low), limits.high);
-  }
+  if (is_both) inside = min(max(inside, limits.low), limits.high);
   const Rgba<F> moved = around.middle + (is_turned ? rgb_of_scaled(inside) : inside);
   return select(inside == d, history, max(moved, Rgba<F>::all(F(0.0f))));
 }
