@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <type_traits>
 #include <utility>
@@ -196,36 +197,32 @@ void TemporalAccumulation::take_surfaces(const Frame& frame) {
   if (tests_surfaces()) planes.push_back(&out.last_depth);
   if (tests_nearness) planes.push_back(&out.last_nearness);
   for (Bordered* plane : planes) resize(*plane, width + 2 * border, height + 2 * border);
+  const bool has_motion = !options_.follows_camera;
   // All planes of a row together: what a pixel's planes are made of is read once.
   for_each_row(height, [&](int y) {
     std::ranges::copy(frame.reversed_depth.row(y), pixels_of(out.nearness, y));
-    const std::uint32_t* const id = &frame.object_id(0, y);
-    TemporalKernels::of().number(id, pixels_of(out.surface, y), pixels);
+    const std::span<const std::uint32_t> ids = frame.object_id.row(y);
     float *const motion_x = pixels_of(out.motion[0], y), *const motion_y = pixels_of(out.motion[1], y);
     float* const last_depth = tests_surfaces() ? pixels_of(out.last_depth, y) : nullptr;
-    const float* const depth = frame.depth.row(y).data();
-    const float2* const motion = options_.follows_camera ? nullptr : frame.motion.row(y).data();
-    const float3* const last_position = tests_surfaces() ? frame.last_position.row(y).data() : nullptr;
-    const LastDepths lens = last;  // in registers, since no store can change it
-    const double place_y = y + jitter_y;
-    for (int x = 0; x < width;) {
-      const int begin = x;
-      const bool is_surface = id[x] != Frame::no_id;
-      while (x < width && (id[x] != Frame::no_id) == is_surface) ++x;
-      if (options_.follows_camera)
-        for (int i = begin; i < x; ++i) {
-          const float2 seen = camera.at(i + jitter_x, place_y, depth[i]);
-          motion_x[i] = seen.x, motion_y[i] = seen.y;
-        }
-      else if (is_surface)
-        for (int i = begin; i < x; ++i) motion_x[i] = motion[i].x, motion_y[i] = motion[i].y;
-      else
-        camera.of_background(begin + jitter_x, place_y, x - begin, motion_x + begin, motion_y + begin);
-      if (!last_depth) continue;
-      if (is_surface)
-        for (int i = begin; i < x; ++i) last_depth[i] = lens.distance(last_position[i]);
-      else
-        std::fill(last_depth + begin, last_depth + x, std::numeric_limits<float>::infinity());
+    const SurfaceRow row{.ids = ids.data(),
+                         .motion = has_motion ? &frame.motion(0, y).x : nullptr,
+                         .last_position = last_depth ? &frame.last_position(0, y).x : nullptr,
+                         .last_eye = {last.eye.x, last.eye.y, last.eye.z},
+                         .last_forward = {last.forward.x, last.forward.y, last.forward.z},
+                         .surface = pixels_of(out.surface, y),
+                         .motion_x = motion_x,
+                         .motion_y = motion_y,
+                         .last_depth = last_depth};
+    TemporalKernels::of().take_surfaces(row, pixels);
+    if (!has_motion) camera.along_row(jitter_x, y + jitter_y, frame.depth.row(y), motion_x, motion_y);
+    for (auto i = ids.begin(); (i = std::find(i, ids.end(), Frame::no_id)) != ids.end();) {
+      const auto end = std::find_if(i, ids.end(), [](std::uint32_t id) { return id != Frame::no_id; });
+      const std::ptrdiff_t begin = i - ids.begin(), n = end - i;
+      if (has_motion)
+        camera.of_background(static_cast<double>(begin) + jitter_x, y + jitter_y, static_cast<int>(n), motion_x + begin,
+                             motion_y + begin);
+      if (last_depth) std::fill_n(last_depth + begin, n, std::numeric_limits<float>::infinity());
+      i = end;
     }
     if (tests_nearness)
       std::transform(last_depth, last_depth + width, pixels_of(out.last_nearness, y),
@@ -270,6 +267,7 @@ void TemporalAccumulation::find_relit(const Frame& frame) {
   const TemporalKernels& kernels = TemporalKernels::of();
   Bordered& changes = current_.changes;
   resize(changes, width + 2 * border, height + 2 * border), resize(current_.wide_relit, width, height);
+  std::vector<char> is_changed(static_cast<std::size_t>(height));  // by row
   for_each_row(height, [&](int y) {
     const ChangeRow row{.linear = &frame.color(0, y).r,
                         .is_compressed = options_.parts.is_compressed,
@@ -277,9 +275,13 @@ void TemporalAccumulation::find_relit(const Frame& frame) {
                         .history = colors_of(std::as_const(history_), y, 0),
                         .frames = &frames_(0, y),
                         .squares = &squares_(0, y)};
-    kernels.find_changes(row, &changes(border, y + border), pixels);
+    is_changed[static_cast<std::size_t>(y)] = kernels.find_changes(row, &changes(border, y + border), pixels);
     extend_row(changes.row(y + border));
   });
+  if (std::ranges::none_of(is_changed, std::identity())) {
+    std::ranges::fill(current_.relit.values(), 0.0f);
+    return;
+  }
   extend_rows(changes);
   std::vector<char> is_relit(static_cast<std::size_t>(height));  // by row
   for_each_row(height, [&](int y) {
@@ -451,7 +453,8 @@ LinearImage TemporalAccumulation::sharpened(LinearImage image) const {
 LinearImage TemporalAccumulation::resolve(Frame& frame) {
   LinearImage out = blended(frame);
   if (tests_surfaces() || options_.parts.trusts_rest) keep_surfaces(frame);
-  return options_.sharpening > 0 ? sharpened(std::move(out)) : out;
+  if (options_.sharpening > 0) return sharpened(std::move(out));
+  return out;
 }
 
 DisplayImage TemporalAccumulation::post_process(DisplayImage image, const Frame&) {

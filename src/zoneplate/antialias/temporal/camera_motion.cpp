@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace zoneplate::antialias {
 
@@ -55,25 +56,55 @@ float2 CameraMotion::at(double x, double y, double distance) const {
   return {static_cast<float>(x - last_x), static_cast<float>(y - last_y)};
 }
 
+CameraMotion::Row CameraMotion::row_of(double y) const {
+  const double scale[3] = {last_.scale_x * width_ / 2, -last_.scale_y * height_ / 2, -1};
+  const double v = (1 - 2 * y / height_) / now_.scale_y;
+  Row out;
+  for (std::size_t k = 0; k < 3; ++k) {
+    out.slope[k] = scale[k] * turn_[k][0] * 2 / (width_ * now_.scale_x);
+    out.start[k] = scale[k] * (turn_[k][1] * v - turn_[k][2] - turn_[k][0] / now_.scale_x);
+    out.way[k] = scale[k] * turn_[k][3];
+  }
+  return out;
+}
+
 void CameraMotion::of_background(double x, double y, int n, float* motion_x, float* motion_y) const {
   if (is_at_rest_ || now_.is_orthographic || last_.is_orthographic) {
     std::fill_n(motion_x, n, 0.0f), std::fill_n(motion_y, n, 0.0f);
     return;
   }
-  // Along the row the direction in the last camera's space is slope x + start: the points' shares of its three
-  // coordinates, with the last lens and the size of the image in the first two.
-  const double scale[3] = {last_.scale_x * width_ / 2, -last_.scale_y * height_ / 2, -1};
-  const double v = (1 - 2 * y / height_) / now_.scale_y;
-  double slope[3], start[3];
-  for (std::size_t k = 0; k < 3; ++k) {
-    slope[k] = scale[k] * turn_[k][0] * 2 / (width_ * now_.scale_x);
-    start[k] = scale[k] * (turn_[k][1] * v - turn_[k][2] - turn_[k][0] / now_.scale_x);
-  }
+  const Row row = row_of(y);
   for (int i = 0; i < n; ++i) {
-    const double place = x + i, divisor = slope[2] * place + start[2];
+    const double place = x + i, divisor = row.slope[2] * place + row.start[2];
     const double part = 1 / divisor;
-    const double last_x = (slope[0] * place + start[0]) * part + width_ / 2;
-    const double last_y = (slope[1] * place + start[1]) * part + height_ / 2;
+    const double last_x = (row.slope[0] * place + row.start[0]) * part + width_ / 2;
+    const double last_y = (row.slope[1] * place + row.start[1]) * part + height_ / 2;
+    const bool is_visible = divisor > 0;
+    motion_x[i] = is_visible ? static_cast<float>(place - last_x) : 0;
+    motion_y[i] = is_visible ? static_cast<float>(y - last_y) : 0;
+  }
+}
+
+void CameraMotion::along_row(double x, double y, std::span<const float> distances, float* motion_x,
+                             float* motion_y) const {
+  if (is_at_rest_ || now_.is_orthographic || last_.is_orthographic) {
+    for (std::size_t i = 0; i < distances.size(); ++i) {
+      const float2 motion = at(x + static_cast<double>(i), y, static_cast<double>(distances[i]));
+      motion_x[i] = motion.x, motion_y[i] = motion.y;
+    }
+    return;
+  }
+  const Row row = row_of(y);
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    // A point at infinity is its direction.
+    const bool is_far = distances[i] > std::numeric_limits<float>::max();
+    const double distance = is_far ? 1.0 : static_cast<double>(distances[i]), weight = is_far ? 0.0 : 1.0;
+    const double place = x + static_cast<double>(i);
+    const auto coordinate = [&](int k) {
+      return distance * (row.slope[k] * place + row.start[k]) + weight * row.way[k];
+    };
+    const double divisor = coordinate(2), part = 1 / divisor;
+    const double last_x = coordinate(0) * part + width_ / 2, last_y = coordinate(1) * part + height_ / 2;
     const bool is_visible = divisor > 0;
     motion_x[i] = is_visible ? static_cast<float>(place - last_x) : 0;
     motion_y[i] = is_visible ? static_cast<float>(y - last_y) : 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
+
 #include "zoneplate/math/mat.h"
 #include "zoneplate/scene/camera.h"
 
@@ -23,8 +25,17 @@ class CameraMotion {
   ///
   /// Exact     within 1e-12 of `at`, before the rounding.
   void of_background(double x, double y, int n, float* motion_x, float* motion_y) const;
+  /// The same for points at the given distances.
+  void along_row(double x, double y, std::span<const float> distances, float* motion_x, float* motion_y) const;
 
  private:
+  /// Points at x in a row and at a distance d along the view axis of a perspective camera: coordinate k in the last
+  /// camera's space is d (slope[k] x + start[k]) + way[k], in pixels for the first two.
+  struct Row {
+    double slope[3], start[3], way[3];
+  };
+  Row row_of(double y) const;
+
   struct Lens {
     double scale_x, scale_y;
     bool is_orthographic;

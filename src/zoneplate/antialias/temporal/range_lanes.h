@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 
 #include "zoneplate/antialias/temporal/color_lanes.h"
 #include "zoneplate/math/for_row.h"
@@ -66,14 +65,6 @@ template <class Full, class One>
       c = select(c == Rgba<F>::load(encoded, i), finite_color<F>(linear + 4 * i), decoded);
     }
     c.store(out + 4 * i);
-  });
-}
-
-template <class Full, class One>
-[[gnu::flatten]] void number_objects(const std::uint32_t* ids, float* numbers, std::size_t n) {
-  for_row<Full, One>(n, [=]<class F>(std::size_t i) {
-    // Frame::no_id has the bits of -1; other ids are less than 2^31.
-    F::from(F::Int::load(reinterpret_cast<const std::int32_t*>(ids) + i)).store(numbers + i);
   });
 }
 

@@ -8,6 +8,6 @@ namespace zoneplate {
 
 template <>
 const antialias::TemporalKernels PerIsa<antialias::TemporalKernels>::scalar =
-    stages::temporal<scalar::Float, scalar::OneFloat>();
+    stages::temporal<scalar::WideFloat, scalar::Float, scalar::OneFloat>();
 
 }  // namespace zoneplate

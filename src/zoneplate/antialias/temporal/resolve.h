@@ -44,6 +44,15 @@ struct TemporalRow {
   float* squares_out;
 };
 
+/// One row of a frame's surfaces, for TemporalKernels::take_surfaces.
+struct SurfaceRow {
+  const std::uint32_t* ids;
+  const float* motion;         ///< two numbers per pixel; or null
+  const float* last_position;  ///< three numbers per pixel: the point in the last frame's world; or null
+  float last_eye[3], last_forward[3];
+  float *surface, *motion_x, *motion_y, *last_depth;
+};
+
 /// One row of a frame with the objects of the last frame, for TemporalKernels::find_unrest.
 struct UnrestRow {
   const float *motion[2], *surface;  ///< as in TemporalRow
@@ -74,14 +83,17 @@ struct TemporalKernels : PerIsa<TemporalKernels> {
   /// The colours that `encode` compressed. A pixel with resolved = encoded becomes its own `linear`, bit by bit.
   void (*decode)(const ColorPlanes<const float>& resolved, const ColorPlanes<const float>& encoded, const float* linear,
                  bool is_compressed, float* out, std::size_t n);
-  /// The numbers of objects: -1 for Frame::no_id.
-  void (*number)(const std::uint32_t* ids, float* numbers, std::size_t n);
+  /// The numbers of objects, -1 for Frame::no_id; and, where the row has them, motion by coordinate and the distances
+  /// that points had along the last camera's axis, which are undefined without a surface.
+  void (*take_surfaces)(const SurfaceRow& row, std::size_t n);
   /// 1 where a surface moves, or the 3 × 3 surfaces do not move as one, 2 where a surface of the last frame moves
   /// otherwise, 0 elsewhere. An object of the last frame is taken to have moved by its mean motion.
   void (*find_unrest)(const UnrestRow& row, float* unrest, std::size_t n);
   /// 1 where the luma of a pixel at rest is greater than the spread of its history allows, -1 where it is less,
   /// 0 elsewhere.
-  void (*find_changes)(const ChangeRow& row, float* changes, std::size_t n);
+  ///
+  /// @return   true if any is not 0.
+  bool (*find_changes)(const ChangeRow& row, float* changes, std::size_t n);
   /// 1 where at least seven of 3 × 3 changes are 1, or seven are -1, beyond those of the other sign, and 0 elsewhere:
   /// the light has changed.
   ///

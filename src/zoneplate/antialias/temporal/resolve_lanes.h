@@ -4,6 +4,7 @@
 #include "zoneplate/antialias/temporal/history_lanes.h"
 #include "zoneplate/antialias/temporal/range_lanes.h"
 #include "zoneplate/antialias/temporal/rectification_lanes.h"
+#include "zoneplate/antialias/temporal/surfaces_lanes.h"
 #include "zoneplate/antialias/temporal/unrest_lanes.h"
 #include "zoneplate/antialias/temporal/weight_lanes.h"
 
@@ -44,7 +45,8 @@ struct History {
 };
 
 template <class Full, class One>
-[[gnu::flatten]] void find_changes(const ChangeRow& row, float* changes, std::size_t n) {
+[[gnu::flatten]] bool find_changes(const ChangeRow& row, float* changes, std::size_t n) {
+  bool is_any = false;
   for_row<Full, One>(n, [&]<class F>(std::size_t at) {
     const auto i = static_cast<std::ptrdiff_t>(at);
     const F zero(0.0f), one(1.0f);
@@ -59,8 +61,11 @@ template <class Full, class One>
     const History<F> past{mean, max(F::load(row.squares + i) - mean * mean, zero)};
     const F difference = luma - mean;
     const F sign = select(difference > zero, one, -one);
-    where(is_known & (abs(difference) > past.spread()), sign).store(changes + i);
+    const auto is_changed = is_known & (abs(difference) > past.spread());
+    is_any = is_any || !none(is_changed);
+    where(is_changed, sign).store(changes + i);
   });
+  return is_any;
 }
 
 /// The sum of 3 x 3 values around value i.
@@ -83,9 +88,10 @@ template <class Full, class One>
   return is_any;
 }
 
-template <class Full, class One>
+/// Most of a row by wide vectors, which halve the number of instructions, then by narrower ones.
+template <class Wide, class Full, class One>
 [[gnu::flatten]] void resolve_temporal(const TemporalRow& row, const TemporalParts& parts, std::size_t n) {
-  for_row<Full, One>(n, [&]<class F>(std::size_t at) {
+  const auto resolve = [&]<class F>(std::size_t at) {
     const auto i = static_cast<std::ptrdiff_t>(at);
     const F one(1.0f);
     const Followed<F> surface = followed_surface<F>(row, parts.dilation, i);
@@ -141,19 +147,23 @@ template <class Full, class One>
     if (parts.trusts_rest)
       frames = select(F::load(row.restless + i) > one, min(frames, F(TemporalParts::left_frames)), frames);
     frames.store(row.frames_out + i);
-  });
+  };
+  std::size_t done = 0;
+  if constexpr (Wide::lanes > Full::lanes)
+    for (; done + Wide::lanes <= n; done += Wide::lanes) resolve.template operator()<Wide>(done);
+  for_row<Full, One>(n - done, [&]<class F>(std::size_t i) { resolve.template operator()<F>(done + i); });
 }
 
-template <class Full, class One>
+template <class Wide, class Full, class One>
 constexpr TemporalKernels temporal() {
   return {.limit = &limit_colors<Full, One>,
           .encode = &encode_temporal<Full, One>,
           .decode = &decode_temporal<Full, One>,
-          .number = &number_objects<Full, One>,
+          .take_surfaces = &take_surfaces<Full, One>,
           .find_unrest = &find_unrest<Full, One>,
           .find_changes = &find_changes<Full, One>,
           .find_relit = &find_relit<Full, One>,
-          .resolve = &resolve_temporal<Full, One>,
+          .resolve = &resolve_temporal<Wide, Full, One>,
           .sharpen = &sharpen_temporal<Full, One>};
 }
 

@@ -7,5 +7,5 @@
 namespace zoneplate {
 template <>
 const antialias::TemporalKernels PerIsa<antialias::TemporalKernels>::HWY_NAMESPACE =
-    stages::temporal<HWY_NAMESPACE::Float, HWY_NAMESPACE::OneFloat>();
+    stages::temporal<HWY_NAMESPACE::WideFloat, HWY_NAMESPACE::Float, HWY_NAMESPACE::OneFloat>();
 }  // namespace zoneplate
