@@ -127,6 +127,8 @@ struct Lane {
     for (int c = 0; c < 4; ++c) p[c] = v[c].v;
   }
   static Lane gather(const T* table, Int i) { return table[i.v]; }
+  /// Looks up elements of a table of 32.
+  static Lane look_up(const float* table, Int i) { return static_cast<T>(table[i.v]); }
   /// out[c] is element c of each lane's quad, which starts at at(lane).
   template <class At>
   static void load_quads(const At& at, Lane (&out)[4]) {
