@@ -113,6 +113,7 @@ template <class T>
 struct Lane {
   using Bool = scalar::Bool;
   using Int = scalar::Int;
+  using Four = Lane;  ///< a part of the lanes, at most four
   static constexpr int lanes = 1;
   T v;
   Lane() = default;

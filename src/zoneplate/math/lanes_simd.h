@@ -112,6 +112,7 @@ struct FloatVector {
   using Float = FloatVector;
   using Bool = BoolVector<FloatTag>;
   using Int = IntVector<FloatTag>;
+  using Four = FloatVector<hn::CappedTag<float, 4>>;
   static constexpr int lanes = static_cast<int>(hn::MaxLanes(FloatTag()));
   hn::Vec<FloatTag> v;
   FloatVector() = default;

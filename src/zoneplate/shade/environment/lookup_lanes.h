@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 
 #include "zoneplate/math/lanes_vector.h"
@@ -65,25 +65,30 @@ template <class F>
 /// The control points of one level.
 template <class F>
 struct LevelPoints {
-  using Quads = typename F::Quads;
   /// The control point at `texel`, for all lanes; it is in the level of the given lane.
   [[gnu::always_inline]] Vector<F> at(const float* texel, int /*lane*/) const {
     return {F(texel[0]), F(texel[1]), F(texel[2])};
   }
-  /// Those at texel(lane).
+  /// Those at texel(0), texel(1) ... for the lanes from `first` on.
   template <class Texel>
-  [[gnu::always_inline]] Quads at_lanes(const Texel& texel) const {
-    return Quads::load(texel);
+  [[gnu::always_inline]] typename F::Four::Quads at_lanes(const Texel& texel, int /*first*/) const {
+    return F::Four::Quads::load(texel);
   }
 };
 
 /// The control points of a level mixed with those of the levels before and after it, of the same size.
 template <class F>
 struct MixedPoints {
-  using Quads = typename F::Quads;
+  using Four = typename F::Four;
+  using Quads = typename Four::Quads;
   SplineWeights<F> weights;                     ///< of the level before, the level and the level after
   alignas(64) std::int32_t distance[F::lanes];  ///< from one level to the next, in floats
+  alignas(64) float weight[3][F::lanes];
 
+  [[gnu::always_inline]] MixedPoints(const SplineWeights<F>& of, typename F::Int between) : weights(of) {
+    between.store(distance);
+    for (int k = 0; k < 3; ++k) of.of[k].store(weight[k]);
+  }
   [[gnu::always_inline]] Vector<F> at(const float* texel, int lane) const {
     const float* const before = texel - distance[lane];
     const float* const after = texel + distance[lane];
@@ -93,10 +98,11 @@ struct MixedPoints {
     return {mixed(0), mixed(1), mixed(2)};
   }
   template <class Texel>
-  [[gnu::always_inline]] Quads at_lanes(const Texel& texel) const {
-    return Quads::load(texel) * weights.of[1] +
-           Quads::load([&](int lane) { return texel(lane) - distance[lane]; }) * weights.of[0] +
-           Quads::load([&](int lane) { return texel(lane) + distance[lane]; }) * weights.of[2];
+  [[gnu::always_inline]] Quads at_lanes(const Texel& texel, int first) const {
+    const auto before = [&](int lane) { return texel(lane) - distance[first + lane]; };
+    const auto after = [&](int lane) { return texel(lane) + distance[first + lane]; };
+    return Quads::load(texel) * Four::load(weight[1] + first) + Quads::load(before) * Four::load(weight[0] + first) +
+           Quads::load(after) * Four::load(weight[2] + first);
   }
 };
 
@@ -112,28 +118,31 @@ template <class F, class Points>
   return in_row(texel) * down.of[0] + in_row(texel + step) * down.of[1] + in_row(texel + 2 * step) * down.of[2];
 }
 
-/// The same where every lane has its own first control point and step.
+/// The same where every lane has its own first control point and step, four lanes at a time.
 template <class F, class Points>
 [[gnu::noinline]] Vector<F> light_in_cells(const Points& points, const float* texels, const std::int32_t* offset,
                                            const std::int32_t* step, const SplineWeights<F>& across,
                                            const SplineWeights<F>& down) {
-  using Quads = typename F::Quads;
-  alignas(64) std::int32_t row[F::lanes];
-  std::copy_n(offset, F::lanes, row);
-  const auto in_row = [&]() __attribute__((always_inline)) {
-    const auto at = [&](int c) __attribute__((always_inline)) {
-      return points.at_lanes([&](int lane) { return texels + row[lane] + 3 * c; }) * across.of[c];
+  using Four = typename F::Four;
+  alignas(64) float across_of[3][F::lanes], down_of[3][F::lanes], light[3][F::lanes];
+  for (int k = 0; k < 3; ++k) across.of[k].store(across_of[k]), down.of[k].store(down_of[k]);
+  for (int first = 0; first < F::lanes; first += Four::lanes) {
+    const float* texel[Four::lanes];
+    std::ptrdiff_t row[Four::lanes];
+    for (int lane = 0; lane < Four::lanes; ++lane)
+      texel[lane] = texels + offset[first + lane], row[lane] = step[first + lane];
+    const auto in_row = [&](int r) __attribute__((always_inline)) {
+      const auto at = [&](int c) __attribute__((always_inline)) {
+        const auto texel_of = [&](int lane) { return texel[lane] + r * row[lane] + 3 * c; };
+        return points.at_lanes(texel_of, first) * Four::load(across_of[c] + first);
+      };
+      return (at(0) + at(1) + at(2)) * Four::load(down_of[r] + first);
     };
-    return at(0) + at(1) + at(2);
-  };
-  Quads sum = in_row() * down.of[0];
-  for (int r = 1; r < 3; ++r) {
-    for (int lane = 0; lane < F::lanes; ++lane) row[lane] += step[lane];
-    sum = sum + in_row() * down.of[r];
+    Four sum[4];
+    (in_row(0) + in_row(1) + in_row(2)).split(sum);
+    for (int c = 0; c < 3; ++c) sum[c].store(light[c] + first);
   }
-  F light[4];
-  sum.split(light);
-  return {light[0], light[1], light[2]};
+  return Vector<F>::load(light, 0);
 }
 
 /// The spline over the control points in cells, the first of which are at `texels` + `offset`.
@@ -208,8 +217,7 @@ template <class F>
                                                               const LevelWeights<F>& levels, typename F::Int side) {
   using Int = typename F::Int;
   const SplineCells<F> cells = spline_cells(place, side);
-  MixedPoints<F> points{levels.weights, {}};
-  (cells.pitch * cells.pitch * Int(3 * EnvironmentView::faces)).store(points.distance);
+  const MixedPoints<F> points(levels.weights, cells.pitch * cells.pitch * Int(3 * EnvironmentView::faces));
   return light_at<F>(points, e.texels, (Int::gather(e.offset, levels.middle) + cells.first) * Int(3), cells);
 }
 
