@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <memory>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #pragma GCC visibility push(default)
@@ -14,6 +18,13 @@ void prefer_large_pages(void* memory, std::size_t bytes);
 
 /// The same, and prefaults the pages on all threads: for memory that a single thread then fills.
 void prefault(void* memory, std::size_t bytes);
+
+/// Memory for an array, for which large pages are preferred: from some megabytes on it consists of nothing else.
+///
+/// Errors    std::bad_alloc.
+void* allocate_large(std::size_t bytes);
+/// Frees memory of allocate_large.
+void free_large(void* memory);
 
 /// Reserves capacity for `size` elements in an empty vector, with prefaulted pages.
 template <class T>
@@ -29,6 +40,44 @@ void make_large(std::vector<T>& values, std::size_t count) {
   prefer_large_pages(values.data(), count * sizeof(T));
   values.resize(count);
 }
+
+/// An array in the memory of allocate_large. Its size changes by assignment only.
+template <class T>
+class LargeArray {
+  static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= alignof(std::max_align_t));
+
+ public:
+  LargeArray() = default;
+  /// An array whose elements must be assigned before they are read.
+  static LargeArray unset(std::size_t count) {
+    LargeArray array;
+    if (count > 0) array.data_.reset(static_cast<T*>(allocate_large(count * sizeof(T))));
+    array.size_ = count;
+    return array;
+  }
+  LargeArray(const LargeArray& other) : LargeArray(unset(other.size_)) { std::copy_n(other.data(), size_, data()); }
+  LargeArray(LargeArray&& other) noexcept { swap(other); }
+  LargeArray& operator=(LargeArray other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~LargeArray() = default;
+
+  T* data() { return data_.get(); }
+  const T* data() const { return data_.get(); }
+  std::size_t size() const { return size_; }
+  bool operator==(const LargeArray& other) const {
+    return size_ == other.size_ && std::equal(data(), data() + size_, other.data());
+  }
+
+ private:
+  struct Free {
+    void operator()(T* memory) const { free_large(memory); }
+  };
+  void swap(LargeArray& other) noexcept { std::swap(data_, other.data_), std::swap(size_, other.size_); }
+  std::unique_ptr<T[], Free> data_;
+  std::size_t size_ = 0;
+};
 
 }  // namespace zoneplate
 #pragma GCC visibility pop

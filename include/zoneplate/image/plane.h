@@ -5,7 +5,6 @@
 #include <cassert>
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include "zoneplate/base/large_array.h"
 
@@ -19,11 +18,17 @@ class Plane {
   /// A plane without elements.
   Plane() = default;
   /// A plane of width × height elements, all equal to `value`.
-  Plane(int width, int height, T value = T{}) : width_(width), height_(height) {
+  Plane(int width, int height, T value = T{}) : Plane(unset(width, height)) {
+    prefault(values_.data(), values_.size() * sizeof(T));
+    std::fill_n(values_.data(), values_.size(), value);
+  }
+  /// A plane whose elements must be assigned before they are read.
+  static Plane unset(int width, int height) {
     assert(width >= 0 && height >= 0);
-    const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    reserve_large(values_, count);
-    values_.assign(count, value);
+    Plane plane;
+    plane.width_ = width, plane.height_ = height;
+    plane.values_ = LargeArray<T>::unset(static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+    return plane;
   }
 
   /// Elements in a row.
@@ -31,13 +36,13 @@ class Plane {
   /// The number of rows.
   int height() const { return height_; }
   /// True if the plane has no elements, as planes of a Frame that no request names.
-  bool empty() const { return values_.empty(); }
+  bool empty() const { return values_.size() == 0; }
 
   ///@{
   /// The element in column x from the left and row y from the top.
   /// Requires  0 <= x < width(), 0 <= y < height().
-  T& operator()(int x, int y) { return values_[index(x, y)]; }
-  const T& operator()(int x, int y) const { return values_[index(x, y)]; }
+  T& operator()(int x, int y) { return values_.data()[index(x, y)]; }
+  const T& operator()(int x, int y) const { return values_.data()[index(x, y)]; }
   ///@}
   ///@{
   /// Row y from the top, left to right.
@@ -47,8 +52,8 @@ class Plane {
   ///@}
   ///@{
   /// All elements: (x, y) is number y width() + x.
-  std::span<T> values() { return values_; }
-  std::span<const T> values() const { return values_; }
+  std::span<T> values() { return {values_.data(), values_.size()}; }
+  std::span<const T> values() const { return {values_.data(), values_.size()}; }
   ///@}
 
   bool operator==(const Plane&) const = default;
@@ -60,7 +65,7 @@ class Plane {
   }
   int width_ = 0;
   int height_ = 0;
-  std::vector<T> values_;
+  LargeArray<T> values_;
 };
 
 }  // namespace zoneplate

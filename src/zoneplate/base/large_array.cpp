@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
+#include <new>
 
 #include "zoneplate/base/parallel.h"
 
@@ -36,5 +38,17 @@ void prefault(void* memory, std::size_t bytes) {
     ::madvise(reinterpret_cast<void*>(at), origin + to - at, MADV_POPULATE_WRITE);
   });
 }
+
+void* allocate_large(std::size_t bytes) {
+  // Rounding up to whole large pages may waste an eighth.
+  const std::size_t whole = rounded_up(bytes, large_page);
+  const bool is_whole = bytes >= large_page && whole - bytes <= bytes / 8;
+  void* const memory = is_whole ? std::aligned_alloc(large_page, whole) : std::malloc(bytes);
+  if (memory == nullptr) throw std::bad_alloc();
+  if (bytes >= large_page) prefer_large_pages(memory, is_whole ? whole : bytes);
+  return memory;
+}
+
+void free_large(void* memory) { std::free(memory); }
 
 }  // namespace zoneplate

@@ -7,6 +7,7 @@
 namespace zoneplate {
 
 template <>
-const TonemapKernels PerIsa<TonemapKernels>::scalar = stages::display_step<scalar::Float, scalar::OneFloat>();
+const TonemapKernels PerIsa<TonemapKernels>::scalar =
+    stages::display_step<scalar::Float, scalar::OneFloat, stages::NoPairs>();
 
 }  // namespace zoneplate

@@ -93,6 +93,7 @@ template <class F>
   const F offset = select(least < F(2 * tone::neutral_f90), least - F(6.25f) * (least * least), f90);
   const ColorLanes<F> low = each(color, [&](F x) { return x - offset; });
   const F peak = max(max(low.r, low.g), low.b);
+  if (all(peak < start)) return low;
 
   constexpr float width = 1 - tone::neutral_start;
   const F new_peak = one - F(width * width) / (peak + F(width) - start);
@@ -150,6 +151,14 @@ struct PixelLanes {
   F alpha;
 };
 
+/// The code of opaque pixels: what with_displayed gives, since x / 1, x 1 + 0 and a > 0 change no bit.
+template <ToneMapping mapping, class F>
+[[gnu::always_inline]] inline ColorLanes<F> displayed_opaque(const DisplayStep& step, const ColorLanes<F>& linear) {
+  const F exposure(step.exposure);
+  const ColorLanes<F> mapped = tone_map<mapping>(each(linear, [&](F x) { return x * exposure; }));
+  return step.is_encoded ? each(mapped, [](F x) { return encode_srgb(x); }) : mapped;
+}
+
 /// Calls use(displayed). Each way ends in a call of its own: a common return value would be joined in memory.
 template <ToneMapping mapping, class F, class Use>
 [[gnu::always_inline]] inline void with_displayed(const DisplayStep& step, const PixelLanes<F>& linear, Use use) {
@@ -157,12 +166,8 @@ template <ToneMapping mapping, class F, class Use>
   const F a = clamp_unit(linear.alpha);
   const auto encoded = [&](F x) { return step.is_encoded ? encode_srgb(x) : clamp_unit(x); };
 
-  // If all pixels are opaque, the division and the background are skipped: x / 1, x 1 + 0 and a > 0 change no bit.
-  if (all(a == one)) {
-    const ColorLanes<F> mapped = tone_map<mapping>(each(linear.color, [&](F x) { return x * exposure; }));
-    if (step.is_encoded) return use(PixelLanes<F>{each(mapped, encoded), one});
-    return use(PixelLanes<F>{mapped, one});
-  }
+  // If all pixels are opaque, the division and the background are skipped.
+  if (all(a == one)) return use(PixelLanes<F>{displayed_opaque<mapping>(step, linear.color), one});
 
   // Empty pixels have the background only.
   if (all(a == zero)) return use(PixelLanes<F>{{F(step.code[0]), F(step.code[1]), F(step.code[2])}, F(step.code[3])});
@@ -199,12 +204,35 @@ template <class F>
   return truncate(x * F(255.0f) + F(0.5f));
 }
 
-template <ToneMapping mapping, class F>
+/// For vectors of at most eight lanes.
+struct NoPairs {
+  static constexpr bool exist = false;
+};
+
+/// Two groups of opaque pixels together, in vectors of twice as many lanes: false if some pixels are not opaque.
+template <ToneMapping mapping, class Pairs>
+[[gnu::always_inline]] inline bool show_pair(const DisplayStep& step, const Linear8* group, Rgba8* shown) {
+  using F = typename Pairs::Float;
+  if (!all(Pairs::load(group[0].a, group[1].a) >= F(1.0f))) return false;
+  const ColorLanes<F> color{Pairs::load(group[0].r, group[1].r), Pairs::load(group[0].g, group[1].g),
+                            Pairs::load(group[0].b, group[1].b)};
+  const ColorLanes<F> p = displayed_opaque<mapping>(step, color);
+  F::Int::store_pixels(code8(p.r), code8(p.g), code8(p.b), typename F::Int(255), &shown->r);
+  return true;
+}
+
+template <ToneMapping mapping, class F, class Pairs>
 [[gnu::always_inline]] inline void show_pixels(const DisplayStep& step, const Linear8* linear, Rgba8* shown,
                                                std::size_t n) {
   static_assert(sizeof(Rgba8) == 4 && Linear8::size % F::lanes == 0);
   const auto codes = [](F x) { return code8(x); };
-  for (const Linear8* group = linear; group != linear + n; ++group)
+  for (const Linear8* group = linear; group != linear + n; ++group) {
+    if constexpr (Pairs::exist) {
+      if (group + 1 != linear + n && show_pair<mapping, Pairs>(step, group, shown)) {
+        ++group, shown += 2 * Linear8::size;
+        continue;
+      }
+    }
     for (std::size_t k = 0; k < Linear8::size; k += F::lanes, shown += F::lanes) {
       const PixelLanes<F> color{{F::load(group->r + k), F::load(group->g + k), F::load(group->b + k)},
                                 F::load(group->a + k)};
@@ -212,6 +240,7 @@ template <ToneMapping mapping, class F>
         F::Int::store_pixels(codes(p.color.r), codes(p.color.g), codes(p.color.b), codes(p.alpha), &shown->r);
       });
     }
+  }
 }
 
 template <class Full, class One>
@@ -230,19 +259,19 @@ template <class Full, class One>
   }
 }
 
-template <class F>
+template <class F, class Pairs>
 [[gnu::flatten]] void show_groups(const DisplayStep& step, const Linear8* linear, Rgba8* shown, std::size_t n) {
   switch (step.mapping) {
     case ToneMapping::None:
-      return show_pixels<ToneMapping::None, F>(step, linear, shown, n);
+      return show_pixels<ToneMapping::None, F, Pairs>(step, linear, shown, n);
     case ToneMapping::Aces:
-      return show_pixels<ToneMapping::Aces, F>(step, linear, shown, n);
+      return show_pixels<ToneMapping::Aces, F, Pairs>(step, linear, shown, n);
     case ToneMapping::Neutral:
-      return show_pixels<ToneMapping::Neutral, F>(step, linear, shown, n);
+      return show_pixels<ToneMapping::Neutral, F, Pairs>(step, linear, shown, n);
     case ToneMapping::Agx:
-      return show_pixels<ToneMapping::Agx, F>(step, linear, shown, n);
+      return show_pixels<ToneMapping::Agx, F, Pairs>(step, linear, shown, n);
     case ToneMapping::Filmic:
-      return show_pixels<ToneMapping::Filmic, F>(step, linear, shown, n);
+      return show_pixels<ToneMapping::Filmic, F, Pairs>(step, linear, shown, n);
   }
 }
 
@@ -268,9 +297,11 @@ template <class F>
   return true;
 }
 
-template <class Full, class One>
+template <class Full, class One, class Pairs>
 constexpr TonemapKernels display_step() {
-  return {.display_row = &display_row<Full, One>, .show_groups = &show_groups<Full>, .is_decided = &is_decided<Full>};
+  return {.display_row = &display_row<Full, One>,
+          .show_groups = &show_groups<Full, Pairs>,
+          .is_decided = &is_decided<Full>};
 }
 
 }  // namespace stages

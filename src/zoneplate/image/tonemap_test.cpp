@@ -267,14 +267,15 @@ TEST(MakeDisplay, DoesNotDependOnThreads) {
 }
 
 TEST(DisplayTransform, ShowsWhatMakeDisplayDoesQuantized) {
-  LinearImage image(32, 1);
-  for (int x = 0; x < 32; ++x) {
-    const float a = x < 8 ? 1.0f : x % 5 == 0 ? 0.0f : static_cast<float>(x) / 31;
-    const auto light = [&](float f) { return a * (x % 7 == 0 ? -1.0f : f * static_cast<float>(x * x) / 300); };
+  // Three opaque groups of eight pixels, of which two are displayed together, and three mixed ones.
+  LinearImage image(48, 1);
+  for (int x = 0; x < 48; ++x) {
+    const float a = x < 24 ? 1.0f : x % 5 == 0 ? 0.0f : static_cast<float>(x) / 47;
+    const auto light = [&](float f) { return a * (x % 7 == 0 ? -1.0f : f * static_cast<float>(x * x) / 700); };
     image(x, 0) = {light(1), light(0.7f), x == 3 ? std::numeric_limits<float>::quiet_NaN() : light(2.5f), a};
   }
-  Linear8 groups[4];
-  for (std::size_t i = 0; i < 32; ++i) groups[i / 8].set(i % 8, image(static_cast<int>(i), 0));
+  Linear8 groups[6];
+  for (std::size_t i = 0; i < 48; ++i) groups[i / 8].set(i % 8, image(static_cast<int>(i), 0));
   for (const ToneMapping mapping : every_curve)
     for (int bits = 0; bits < 4; ++bits) {
       const DisplayOptions options{.mapping = mapping,
@@ -282,10 +283,12 @@ TEST(DisplayTransform, ShowsWhatMakeDisplayDoesQuantized) {
                                    .is_transparent = (bits & 1) != 0,
                                    .background = {0.2f, 0.4f, 0.6f, 0.7f},
                                    .raw = (bits & 2) != 0};
-      Rgba8 shown[32];
-      DisplayTransform(options).present(groups, shown);
+      Rgba8 shown[48];
       const Rgba8Image expected = quantize8(make_display(image, options));
-      for (int x = 0; x < 32; ++x) EXPECT_EQ(shown[x], expected(x, 0)) << x << " " << bits;
+      for (const Isa isa : supported_isas()) {
+        with_isa(isa, [&] { DisplayTransform(options).present(groups, shown); });
+        for (int x = 0; x < 48; ++x) EXPECT_EQ(shown[x], expected(x, 0)) << x << " " << bits << name_of(isa);
+      }
     }
 }
 

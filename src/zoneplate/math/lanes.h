@@ -113,6 +113,7 @@ template <class T>
 struct Lane {
   using Bool = scalar::Bool;
   using Int = scalar::Int;
+  using Four = Lane;  ///< a part of the lanes, at most four
   static constexpr int lanes = 1;
   T v;
   Lane() = default;
@@ -127,6 +128,8 @@ struct Lane {
     for (int c = 0; c < 4; ++c) p[c] = v[c].v;
   }
   static Lane gather(const T* table, Int i) { return table[i.v]; }
+  /// Looks up elements of a table of 32.
+  static Lane look_up(const float* table, Int i) { return static_cast<T>(table[i.v]); }
   /// out[c] is element c of each lane's quad, which starts at at(lane).
   template <class At>
   static void load_quads(const At& at, Lane (&out)[4]) {

@@ -112,6 +112,7 @@ struct FloatVector {
   using Float = FloatVector;
   using Bool = BoolVector<FloatTag>;
   using Int = IntVector<FloatTag>;
+  using Four = FloatVector<hn::CappedTag<float, 4>>;
   static constexpr int lanes = static_cast<int>(hn::MaxLanes(FloatTag()));
   hn::Vec<FloatTag> v;
   FloatVector() = default;
@@ -126,6 +127,14 @@ struct FloatVector {
     hn::StoreInterleaved4(v[0].v, v[1].v, v[2].v, v[3].v, FloatTag(), p);
   }
   static HWY_INLINE Float gather(const float* table, Int i) { return Float(hn::GatherIndex(FloatTag(), table, i.v)); }
+  static HWY_INLINE Float look_up(const float* table, Int i) {
+    if constexpr (lanes < 16) return gather(table, i);
+    const FloatTag d;
+    const typename Int::IntTag whole;
+    const auto at = hn::IndicesFromVec(d, hn::And(i.v, hn::Set(whole, lanes - 1)));
+    const auto half = [&](int first) HWY_ATTR { return Float(hn::TableLookupLanes(hn::LoadU(d, table + first), at)); };
+    return select(i > Int(lanes - 1), half(16), half(0));
+  }
   /// Register k has the quads of lanes k and k + 4.
   class Quads {
    public:

@@ -73,10 +73,11 @@ ViewUniforms view_uniforms_of(const Lighting& lighting, float3 up, const Camera&
   return s;
 }
 
-/// Reuses the memory of an earlier image if it has the same size, since tiles write all of it.
+/// Tiles write all of it: the memory of an earlier image of the same size is reused, and that of a new one is not
+/// touched here, so that its pages are allocated by all threads.
 Rgba8Image make_shown(int w, int h, RasterMemory& memory) {
   const bool fits = memory.display8.width() == w && memory.display8.height() == h;
-  return fits ? std::move(memory.display8) : Rgba8Image(w, h);
+  return fits ? std::move(memory.display8) : Rgba8Image::unset(w, h);
 }
 
 /// The planes of a request that has no colour.

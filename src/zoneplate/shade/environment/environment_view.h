@@ -14,11 +14,13 @@ namespace zoneplate {
 ///           of the radiance weighted by the cosine, irradiance / π, and is a spline of its own.
 /// Range     finite; the spline is at least 0 but for its error.
 struct EnvironmentView {
-  static constexpr int max_levels = 24;
+  static constexpr int max_levels = 24, faces = 6;
   const float* texels = nullptr;             ///< null: no environment; one float after the last texel is readable
   std::int32_t levels = 0;                   ///< at least 4
   std::int32_t side[max_levels + 1] = {};    ///< of a face, without its border
   std::int32_t offset[max_levels + 1] = {};  ///< where each level begins, in texels
+  /// `side` of a level if the levels before and after it have as many texels and follow each other in memory, else 0.
+  std::int32_t common_side[max_levels + 1] = {};
   float sharpness = 0;             ///< 1 / α² where the spacing of the levels in α² turns from even to geometric
   float levels_per_octave = 0;     ///< there
   float image_from_world[9] = {};  ///< a rotation, by rows
@@ -30,6 +32,13 @@ struct EnvironmentView {
     const F alpha = roughness * roughness;
     return log2(F(1.0f) + alpha * alpha * F(sharpness)) * F(levels_per_octave);
   }
+};
+
+/// Three levels of an EnvironmentView, mixed for one roughness: a cube map whose look-ups read nine texels instead of
+/// 27, with the same bits (shade/environment/level_mix.h).
+struct MixedLevel {
+  const float* texels = nullptr;  ///< as those of a level; null: not mixed
+  std::int32_t side = 0;          ///< of a face, without its border
 };
 
 }  // namespace zoneplate

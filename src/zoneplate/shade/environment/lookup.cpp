@@ -7,6 +7,7 @@
 namespace zoneplate {
 
 template <>
-const LookupKernels PerIsa<LookupKernels>::scalar = {{}, &stages::specular_lights<scalar::Float>};
+const LookupKernels PerIsa<LookupKernels>::scalar = {
+    {}, &stages::specular_lights<scalar::Float>, &stages::mix_levels<scalar::Float>};
 
 }  // namespace zoneplate

@@ -6,5 +6,6 @@
 
 namespace zoneplate {
 template <>
-const LookupKernels PerIsa<LookupKernels>::HWY_NAMESPACE = {{}, &stages::specular_lights<HWY_NAMESPACE::Float>};
+const LookupKernels PerIsa<LookupKernels>::HWY_NAMESPACE = {
+    {}, &stages::specular_lights<HWY_NAMESPACE::Float>, &stages::mix_levels<HWY_NAMESPACE::WideFloat>};
 }  // namespace zoneplate

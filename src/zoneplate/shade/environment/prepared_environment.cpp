@@ -49,6 +49,10 @@ class Levels {
       view.offset[level] = texels;
       texels += cube::faces * (view.side[level] + 2) * (view.side[level] + 2);
     }
+    for (int level = 1; level < count_ - 1; ++level) {
+      const bool is_common = side(level - 1) == side(level) && side(level) == side(level + 1);
+      view.common_side[level] = is_common ? side(level) : 0;
+    }
     return static_cast<std::size_t>(texels);
   }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+
 #include "zoneplate/math/lanes_vector.h"
 #include "zoneplate/shade/reflection/exponent.h"
 #include "zoneplate/shade/reflection/specular_table.h"
@@ -158,7 +160,23 @@ template <class F>
     return F(static_cast<double>(table[i.v]));  // the references of the tests
 }
 
-/// The weights for a roughness, by the table of shade/reflection/specular_table.h.
+/// The weights for n·v between the columns of a table: value(table, column) is a row's, for its whole and its grazing
+/// part.
+template <class F, class Value>
+[[gnu::always_inline]] inline SpecularWeights<F> specular_weights_at(F nv, const Value& value) {
+  using Int = typename F::Int;
+  const F columns = sqrt(nv) * F(specular_table_side - 1.0f);
+  const Int column = truncate(min(columns, F(specular_table_side - 2.0f)));
+  const F right = columns - F::from(column);
+  const auto between = [&](const auto& table) __attribute__((always_inline)) {
+    const F left = value(table, column);
+    return left + (value(table, column + Int(1)) - left) * right;
+  };
+  const F whole = between(specular_table_whole), bias = between(specular_table_grazing);
+  return {whole - bias, bias};
+}
+
+/// The weights for a roughness, by the tables of shade/reflection/specular_table.h.
 ///
 /// Requires  roughness in [0, 1], nv in [0, 1].
 /// Edges     roughness below least_roughness counts as least_roughness.
@@ -176,21 +194,40 @@ struct SpecularFit {
   }
   [[gnu::always_inline]] SpecularWeights<F> at(F nv) const {
     using Int = typename F::Int;
-    const F columns = sqrt(nv) * F(specular_table_side - 1.0f);
-    const Int column = truncate(min(columns, F(specular_table_side - 2.0f)));
-    const F right = columns - F::from(column);
-    const Int first = (row * Int(specular_table_side) + column) * Int(2);
-    const auto value = [&](int which) {
-      const float* const table = &specular_table[0][0][0] + which;
-      constexpr int down = 2 * specular_table_side;
-      const F a = table_value<F>(table, first), b = table_value<F>(table + 2, first);
-      const F c = table_value<F>(table + down, first), d = table_value<F>(table + down + 2, first);
-      const F above = a + (b - a) * right, below = c + (d - c) * right;
-      return above + (below - above) * part;
-    };
-    const F both = value(0), bias = value(1);
-    return {both - bias, bias};
+    const Int first = row * Int(specular_table_side);
+    return specular_weights_at(
+        nv, [&](const auto& table, Int column) __attribute__((always_inline)) {
+          const F above = table_value<F>(table[0], first + column);
+          return above + (table_value<F>(table[1], first + column) - above) * part;
+        });
   }
+};
+
+/// SpecularFit of one roughness for all lanes, with the same bits: a row between the tables' rows.
+template <class F>
+class SpecularRow {
+ public:
+  [[gnu::always_inline]] explicit SpecularRow(float roughness) {
+    const SpecularFit<F> fit{F(roughness)};
+    const std::int32_t row = fit.row.first();
+    for (int c = 0; c < specular_table_side; c += F::lanes) {
+      const auto mixed = [&](const auto& table) __attribute__((always_inline)) {
+        const F above = F::load(table[row] + c);
+        return above + (F::load(table[row + 1] + c) - above) * fit.part;
+      };
+      mixed(specular_table_whole).store(whole_ + c), mixed(specular_table_grazing).store(grazing_ + c);
+    }
+  }
+  [[gnu::always_inline]] SpecularWeights<F> at(F nv) const {
+    return specular_weights_at(
+        nv, [&](const auto& table, typename F::Int column) __attribute__((always_inline)) {
+          return F::look_up(&table == &specular_table_whole ? whole_ : grazing_, column);
+        });
+  }
+
+ private:
+  alignas(64) float whole_[specular_table_side];
+  alignas(64) float grazing_[specular_table_side];
 };
 
 /// The specular reflectance of a uniform environment for one f0, including multiple scattering between microfacets.
@@ -243,6 +280,17 @@ template <class F>
   lobe(base.y, m.mirrored.y, m.grazing.y);
   lobe(base.z, m.mirrored.z, m.grazing.z);
   return m;
+}
+
+/// make_metallic with metallic 0, with the same bits.
+template <class F>
+[[gnu::always_inline]] inline Metallic<F> make_dielectric(Vector<F> base, F roughness, SpecularWeights<F> weights) {
+  const F one(1.0f), f0(0.04f), gain = specular_gain(weights, f0);
+  const F r = max(roughness, F(least_roughness)), mirrored = f0 * gain, grazing = (one - f0) * gain;
+  return {base * ((one - specular_albedo(weights, f0)) * F(inverse_pi)),
+          {mirrored, mirrored, mirrored},
+          {grazing, grazing, grazing},
+          r * r};
 }
 
 /// Reflected radiance for one unit of irradiance perpendicular to l: BRDF × n·l, with the lobe of `alpha`; zero for
@@ -347,6 +395,14 @@ template <class F>
   };
   return {{mirrored(base.x), mirrored(base.y), mirrored(base.z)},
           {scattered(base.x), scattered(base.y), scattered(base.z)}};
+}
+
+/// metallic_shares with metallic 0, with the same bits.
+template <class F>
+[[gnu::always_inline]] inline EnvironmentShares<F> dielectric_shares(Vector<F> base, SpecularWeights<F> weights) {
+  const F one(1.0f), f0(0.04f), once = f0 * weights.scale + weights.bias, all = specular_albedo(weights, f0);
+  const auto scattered = [&](F color) { return (all - once) + min(color, one) * (one - all); };
+  return {{once, once, once}, {scattered(base.x), scattered(base.y), scattered(base.z)}};
 }
 
 /// The fraction of a constant environment that a metallic-roughness surface reflects, specular and diffuse.

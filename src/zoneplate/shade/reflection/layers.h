@@ -36,9 +36,9 @@ struct Interface {
   F film_weight{0.0f};  ///< 0: no film
 
   /// `weight` is schlick_weight(v·h).
-  [[gnu::always_inline]] Vector<F> fresnel(F weight) const {
-    const Vector<F> white{f90, f90, f90};
-    return mix(f0 + (white - f0) * weight, film, film_weight);
+  [[gnu::always_inline]] Vector<F> fresnel(F weight, bool has_film) const {
+    const Vector<F> white{f90, f90, f90}, bare = f0 + (white - f0) * weight;
+    return has_film ? mix(bare, film, film_weight) : bare;
   }
 };
 
@@ -61,18 +61,28 @@ struct InterfaceShares {
   Vector<F> gain;  ///< multiplies the lobe under lights, so that it reflects the light of several reflections too
 };
 
+/// The same bits with `has_film` where there is none; `is_grey` is allowed if f0 is.
+///
 /// Source    as specular_albedo; a film replaces the reflectance of single scattering (KHR_materials_iridescence).
 template <class F>
-[[gnu::always_inline]] inline InterfaceShares<F> interface_shares(const Interface<F>& s, SpecularWeights<F> weights) {
+[[gnu::always_inline]] inline InterfaceShares<F> interface_shares(const Interface<F>& s, SpecularWeights<F> weights,
+                                                                  bool has_film, bool is_grey) {
   const F one(1.0f), lost = one - (weights.scale + weights.bias);
-  const auto once = [&](F f0) { return f0 * weights.scale + s.f90 * weights.bias; };
-  const auto gain = [&](F f0) {
-    const F mean = f0 + (s.f90 - f0) * F(1.0f / 21.0f);
-    return mix(one / (one - mean * lost), one, s.film_weight);
+  InterfaceShares<F> out;
+  const auto channel = [&](F f0, F film, F & mirrored, F & scattered, F & gain) __attribute__((always_inline)) {
+    const F once = f0 * weights.scale + s.f90 * weights.bias, mean = f0 + (s.f90 - f0) * F(1.0f / 21.0f);
+    gain = one / (one - mean * lost), mirrored = once;
+    if (has_film) gain = mix(gain, one, s.film_weight), mirrored = mix(once, film, s.film_weight);
+    scattered = once * (gain - one);
   };
-  const Vector<F> gains{gain(s.f0.x), gain(s.f0.y), gain(s.f0.z)}, white{one, one, one};
-  const Vector<F> single{once(s.f0.x), once(s.f0.y), once(s.f0.z)};
-  return {mix(single, s.film, s.film_weight), single * (gains - white), gains};
+  channel(s.f0.x, s.film.x, out.mirrored.x, out.scattered.x, out.gain.x);
+  if (is_grey && !has_film) {
+    const auto grey = [](F x) { return Vector<F>{x, x, x}; };
+    return {grey(out.mirrored.x), grey(out.scattered.x), grey(out.gain.x)};
+  }
+  channel(s.f0.y, s.film.y, out.mirrored.y, out.scattered.y, out.gain.y);
+  channel(s.f0.z, s.film.z, out.mirrored.z, out.scattered.z, out.gain.z);
+  return out;
 }
 
 /// The axes of anisotropic microfacets: the highlight is stretched along t; b is perpendicular to t and n.

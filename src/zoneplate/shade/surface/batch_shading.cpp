@@ -311,6 +311,13 @@ void BatchShading::find_thickness() {
   }
 }
 
+/// The environment's mixed levels for the lobes of the material.
+void BatchShading::find_mixed_levels() {
+  const auto level = [&](LevelMix* mix) { return mix != nullptr ? mix->for_lookups(p.count) : MixedLevel{}; };
+  const SurfaceConstants::Lobes& lobes = d.lobes[static_cast<std::size_t>(batch.material)];
+  p.mixed = level(lobes.base), p.coat_mixed = level(lobes.coat);
+}
+
 void BatchShading::light_layered(FragmentOutputs& out) {
   const LayeredPlan& layered = *plan.layers;
   const auto values = [&](const TextureSlot& slot) {
@@ -331,6 +338,7 @@ void BatchShading::light_layered(FragmentOutputs& out) {
       kernels.fill(p.roughness, 1 - *glossiness, p.count);
   }
   if (plan.widens()) widen_roughness();
+  find_mixed_levels();
   kernels.light_layered(d.shading_uniforms[static_cast<std::size_t>(batch.material)], layered.uniforms, batch, p, q,
                         out);
 }
@@ -363,6 +371,7 @@ void BatchShading::light_whole(FragmentOutputs& out) {
 
   const ShadingUniforms& uniforms = d.shading_uniforms[static_cast<std::size_t>(batch.material)];
   if (is_metallic && uniforms.map != nullptr) {
+    find_mixed_levels();
     kernels.light_metallic_in_map(uniforms, batch, p, out);
   } else if (is_metallic) {
     kernels.light_metallic(uniforms, batch, p, out);

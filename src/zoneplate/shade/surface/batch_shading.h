@@ -54,6 +54,7 @@ struct BatchShading {
   void find_visibility();
   void find_highlight();
   void find_thickness();
+  void find_mixed_levels();
   void light_layered(FragmentOutputs& out);
   void light(FragmentOutputs& out);
   void unlit(FragmentOutputs& out);

@@ -23,7 +23,8 @@ struct LayerState {
 struct LayeredUniforms {
   bool has_clearcoat = false, has_sheen = false, has_anisotropy = false, has_iridescence = false;
   bool has_transmission = false, has_diffuse_transmission = false;
-  bool has_volume = false;  ///< light passes through a medium below the surface, not through a thin wall
+  bool has_grey_interface = false;  ///< the dielectric interface reflects all channels alike
+  bool has_volume = false;          ///< light passes through a medium below the surface, not through a thin wall
   float f0_of_ior = 0.04f;
   float ior = 1.5f;  ///< of refraction; infinite ones are large
   float iridescence_ior = 1.3f;

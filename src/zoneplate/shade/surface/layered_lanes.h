@@ -14,24 +14,61 @@
 /// light that the layers above do not reflect.
 namespace zoneplate::stages {
 
+/// The layers of a material that has none but a clear coat: all that the others need is left out when the stage is
+/// compiled.
+struct PlainLayers : LayeredUniforms {
+  static constexpr bool has_sheen = false, has_anisotropy = false, has_iridescence = false;
+  static constexpr bool has_transmission = false, has_diffuse_transmission = false, has_volume = false;
+  explicit PlainLayers(const LayeredUniforms& layers) : LayeredUniforms(layers) {}
+};
+inline bool is_plain(const LayeredUniforms& u) {
+  return !(u.has_sheen || u.has_anisotropy || u.has_iridescence || u.has_transmission || u.has_diffuse_transmission);
+}
+
 /// The radiance of an environment of one colour.
 template <class F>
 struct ConstantRadiance {
   Vector<F> radiance;
-  explicit ConstantRadiance(const ShadingUniforms& s) : radiance(Vector<F>::all(s.environment)) {}
+  ConstantRadiance(const ShadingUniforms& s, const ShadingState& /*p*/) : radiance(Vector<F>::all(s.environment)) {}
   [[gnu::always_inline]] Vector<F> specular(Vector<F> /*direction*/, F /*roughness*/) const { return radiance; }
+  [[gnu::always_inline]] Vector<F> of_base(Vector<F> /*direction*/, F /*roughness*/) const { return radiance; }
+  [[gnu::always_inline]] Vector<F> of_coat(Vector<F> /*direction*/, F /*roughness*/) const { return radiance; }
   [[gnu::always_inline]] Vector<F> diffuse(Vector<F> /*normal*/) const { return radiance; }
 };
 
-/// The radiance of an environment map, filtered by the lobe of a roughness, and the irradiance over π.
+/// The radiance of an environment map, filtered by the lobe of a roughness, and the irradiance over π. That of the base
+/// and of the coat is from mixed levels, where there are some.
 template <class F>
 struct MappedRadiance {
   const EnvironmentView& map;
-  explicit MappedRadiance(const ShadingUniforms& s) : map(*s.map) {}
-  [[gnu::always_inline]] Vector<F> specular(Vector<F> direction, F roughness) const {
+  const MixedLevel base, coat;
+  MappedRadiance(const ShadingUniforms& s, const ShadingState& p) : map(*s.map), base(p.mixed), coat(p.coat_mixed) {}
+  [[gnu::noinline]] static Vector<F> of_roughness(const EnvironmentView& map, const Vector<F>& direction,
+                                                  const F& roughness) {
     return specular_light(map, direction, roughness);
   }
+  [[gnu::always_inline]] Vector<F> specular(Vector<F> direction, F roughness) const {
+    return of_roughness(map, direction, roughness);
+  }
+  [[gnu::always_inline]] Vector<F> of_base(Vector<F> direction, F roughness) const {
+    return base.texels != nullptr ? specular_light(map, base, direction) : specular(direction, roughness);
+  }
+  [[gnu::always_inline]] Vector<F> of_coat(Vector<F> direction, F roughness) const {
+    return coat.texels != nullptr ? specular_light(map, coat, direction) : specular(direction, roughness);
+  }
   [[gnu::always_inline]] Vector<F> diffuse(Vector<F> normal) const { return diffuse_light(map, normal); }
+};
+
+/// The weights of the specular lobes: of one roughness, or of one that differs between fragments.
+template <class F>
+struct LobeRows {
+  bool has_base, has_coat;
+  SpecularRow<F> base, coat;
+  explicit LobeRows(const ShadingUniforms& s)
+      : has_base(s.layered_roughness >= 0),
+        has_coat(s.coat_roughness >= 0),
+        base(s.layered_roughness),
+        coat(s.coat_roughness) {}
 };
 
 /// The surface at fragments i and on, prepared for its lights.
@@ -40,6 +77,7 @@ struct LayeredSurface {
   Vector<F> n, v, base;
   F nv, metallic, roughness, alpha;
   F through_roughness;  ///< of light that passes through the surface
+  bool has_metal;       ///< in some lane; else nothing of the metal is set but its interface
   Interface<F> dielectric, metal;
   InterfaceShares<F> dielectric_shares, metal_shares;  ///< of the light of an environment
   F below_interface;         ///< the part of light that the dielectric interface does not reflect
@@ -82,9 +120,10 @@ template <class F>
   return {t, cross(n, t), n, mix(alpha, one, strength * strength), alpha};
 }
 
-template <class F>
-[[gnu::always_inline]] inline LayeredSurface<F> make_surface(const LayeredUniforms& u, const ShadingState& p,
-                                                             const LayerState& q, Vector<F> v, int i) {
+template <class F, class Layers>
+[[gnu::always_inline]] inline LayeredSurface<F> make_surface(const Layers& u, const LobeRows<F>& rows,
+                                                             const ShadingState& p, const LayerState& q, Vector<F> v,
+                                                             int i) {
   const F one(1.0f), zero(0.0f);
   const auto bounded = [&](F x) { return min(max(x, zero), one); };
   LayeredSurface<F> s;
@@ -108,9 +147,10 @@ template <class F>
     s.metal.film = film_fresnel(ior, thickness, s.metal.f0, s.nv);
   }
   if (u.has_anisotropy) s.frame = make_frame<F>(p, q, s.n, s.alpha, i);
-  const SpecularWeights<F> weights = SpecularFit<F>(s.roughness).at(s.nv);
-  s.dielectric_shares = interface_shares(s.dielectric, weights);
-  s.metal_shares = interface_shares(s.metal, weights);
+  const SpecularWeights<F> weights = rows.has_base ? rows.base.at(s.nv) : SpecularFit<F>(s.roughness).at(s.nv);
+  s.dielectric_shares = interface_shares(s.dielectric, weights, u.has_iridescence, u.has_grey_interface);
+  s.has_metal = !is_dielectric(s.metallic);
+  if (s.has_metal) s.metal_shares = interface_shares(s.metal, weights, u.has_iridescence, false);
   s.below_interface = one - min(greatest_channel(s.dielectric_shares.mirrored + s.dielectric_shares.scattered), one);
 
   s.absorbed = white, s.thickness = zero;
@@ -141,7 +181,8 @@ template <class F>
     s.coat_nv = min(max(abs(dot(s.coat_n, v)), F(1e-4f)), one);
     s.coat_roughness = max(F::load(q.clearcoat_roughness + i), F(least_roughness));
     s.coat_alpha = s.coat_roughness * s.coat_roughness;
-    const SpecularWeights<F> all = SpecularFit<F>(s.coat_roughness).at(s.coat_nv);
+    const SpecularWeights<F> all =
+        rows.has_coat ? rows.coat.at(s.coat_nv) : SpecularFit<F>(s.coat_roughness).at(s.coat_nv);
     s.coat_gain = one / (all.scale + all.bias);
     s.coat_weight = F::load(q.clearcoat + i) * (F(0.04f) + F(0.96f) * schlick_weight(s.coat_nv));
   }
@@ -150,9 +191,9 @@ template <class F>
 
 /// What lies below the dielectric interface: light from the front, from the back and through the surface, each times
 /// its own colour.
-template <class F>
-[[gnu::always_inline]] inline Vector<F> below_interface(const LayeredUniforms& u, const LayeredSurface<F>& s,
-                                                        Vector<F> front, Vector<F> back, Vector<F> through) {
+template <class F, class Layers>
+[[gnu::always_inline]] inline Vector<F> below_interface(const Layers& u, const LayeredSurface<F>& s, Vector<F> front,
+                                                        Vector<F> back, Vector<F> through) {
   Vector<F> sum = front * s.base;
   if (u.has_diffuse_transmission) sum = mix(sum, back * s.back_color, s.diffuse_transmission);
   if (u.has_transmission) sum = mix(sum, through * s.base, s.transmission);
@@ -163,8 +204,8 @@ template <class F>
 ///
 /// The light below the interface is that which the interface does not reflect towards any direction, not what Schlick's
 /// term at v·h leaves, with which grazing views of bright surfaces would reflect more light than arrives.
-template <class F>
-[[gnu::always_inline]] inline Vector<F> layered_light(const LayeredUniforms& u, const LayeredSurface<F>& s,
+template <class F, class Layers>
+[[gnu::always_inline]] inline Vector<F> layered_light(const Layers& u, const LayeredSurface<F>& s,
                                                       const PreparedLight& light, const Arriving<F>& arriving) {
   const Vector<F> l = arriving.from;
   const F one(1.0f), zero(0.0f), along = dot(s.n, l), nl = max(along, zero);
@@ -179,8 +220,10 @@ template <class F>
   if (u.has_anisotropy) frame.alpha_t = wide(frame.alpha_t), frame.alpha_b = wide(frame.alpha_b);
   const F peak = u.has_anisotropy ? ggx(frame, h) * smith(frame, front_l, s.v, nl, s.nv)
                                   : ggx(dot(s.n, h), cross(s.n, h), alpha) * smith(nl, s.nv, alpha);
-  const Vector<F> dielectric = s.dielectric.fresnel(weight) * s.dielectric_shares.gain;
-  const Vector<F> metal = s.metal.fresnel(weight) * s.metal_shares.gain;
+  const Vector<F> dielectric = s.dielectric.fresnel(weight, u.has_iridescence) * s.dielectric_shares.gain;
+  Vector<F> reflected = dielectric;
+  if (s.has_metal)
+    reflected = mix(dielectric, s.metal.fresnel(weight, u.has_iridescence) * s.metal_shares.gain, s.metallic);
 
   const auto grey = [](F x) { return Vector<F>{x, x, x}; };
   const F behind = max(-along, zero);
@@ -191,7 +234,7 @@ template <class F>
     through = s.absorbed * wall_lobe(behind, s.nv, wide(rough * rough), s.n, h);
   }
   const Vector<F> below = below_interface(u, s, front, back, through);
-  const Vector<F> mirrored = mix(dielectric, metal, s.metallic) * (peak * nl);
+  const Vector<F> mirrored = reflected * (peak * nl);
   Vector<F> sum = mirrored + below * (s.below_interface * (one - s.metallic));
   if (u.has_sheen) {
     const Sheen<F> sheen(s.sheen_roughness);
@@ -217,8 +260,8 @@ template <class F>
 /// viewer.
 ///
 /// Source    KHR_materials_anisotropy, "Image-based lighting".
-template <class F>
-[[gnu::always_inline]] inline Vector<F> reflected_direction(const LayeredUniforms& u, const LayeredSurface<F>& s,
+template <class F, class Layers>
+[[gnu::always_inline]] inline Vector<F> reflected_direction(const Layers& u, const LayeredSurface<F>& s,
                                                             const LayerState& q, int i) {
   Vector<F> n = s.n;
   if (u.has_anisotropy) {
@@ -232,20 +275,21 @@ template <class F>
 
 /// The light of the environment that the surface sends to the viewer, without the clear coat: `seen` is the part of the
 /// environment that is not occluded, `through` the light that passes through the surface.
-template <class F, class Radiance>
-[[gnu::always_inline]] inline Vector<F> layered_environment(const LayeredUniforms& u, const LayeredSurface<F>& s,
+template <class F, class Layers, class Radiance>
+[[gnu::always_inline]] inline Vector<F> layered_environment(const Layers& u, const LayeredSurface<F>& s,
                                                             const Radiance& around, Vector<F> through, F seen,
                                                             const LayerState& q, int i) {
   const F one(1.0f);
   const InterfaceShares<F>&dielectric = s.dielectric_shares, &metal = s.metal_shares;
-  const Vector<F> mirrored = around.specular(reflected_direction(u, s, q, i), s.roughness) * seen;
+  const Vector<F> mirrored = around.of_base(reflected_direction(u, s, q, i), s.roughness) * seen;
   const Vector<F> front = around.diffuse(s.n) * seen;
   const Vector<F> back = u.has_diffuse_transmission ? around.diffuse(Vector<F>{-s.n.x, -s.n.y, -s.n.z}) * seen : front;
 
   const Vector<F> below = below_interface(u, s, front, back, through);
-  Vector<F> sum = mirrored * mix(dielectric.mirrored, metal.mirrored, s.metallic) +
-                  front * mix(dielectric.scattered, metal.scattered, s.metallic) +
-                  below * (s.below_interface * (one - s.metallic));
+  Vector<F> share = dielectric.mirrored, scattered = dielectric.scattered;
+  if (s.has_metal)
+    share = mix(share, metal.mirrored, s.metallic), scattered = mix(scattered, metal.scattered, s.metallic);
+  Vector<F> sum = mirrored * share + front * scattered + below * (s.below_interface * (one - s.metallic));
   if (u.has_sheen) {
     const Vector<F> leaning = around.diffuse(sheen_direction(s.n, s.v, s.nv, s.sheen_roughness)) * seen;
     sum = sum * s.below_sheen + leaning * s.sheen_color * s.sheen_albedo;
@@ -263,8 +307,8 @@ struct LightThrough {
 
 /// Along the line of sight through a thin wall, bent into a volume. Where the image behind is empty, the background's
 /// colour is seen, or the environment.
-template <class F, class Radiance>
-[[gnu::always_inline]] inline LightThrough<F> light_through(const ShadingUniforms& s, const LayeredUniforms& u,
+template <class F, class Layers, class Radiance>
+[[gnu::always_inline]] inline LightThrough<F> light_through(const ShadingUniforms& s, const Layers& u,
                                                             const LayeredSurface<F>& surface, const Radiance& around,
                                                             const FragmentBatch& batch, const ShadingState& p, int i) {
   using Int = typename F::Int;
@@ -301,24 +345,25 @@ template <class F, class Radiance>
 }
 
 /// The part of light from behind that passes through all layers.
-template <class F>
-[[gnu::always_inline]] inline Vector<F> passing(const LayeredUniforms& u, const LayeredSurface<F>& s) {
+template <class F, class Layers>
+[[gnu::always_inline]] inline Vector<F> passing(const Layers& u, const LayeredSurface<F>& s) {
   const F one(1.0f);
   F part = s.transmission * s.below_interface * (one - s.metallic) * s.below_sheen;
   if (u.has_clearcoat) part = part * (one - s.coat_weight);
   return s.base * s.absorbed * part;
 }
 
-template <class F, class Radiance>
-void light_layered(const ShadingUniforms& s, const LayeredUniforms& u, const FragmentBatch& batch,
-                   const ShadingState& p, const LayerState& q, FragmentOutputs& out) {
-  const Radiance around(s);
+template <class F, class Radiance, class Layers>
+void light_layered_in(const ShadingUniforms& s, const Layers& u, const FragmentBatch& batch, const ShadingState& p,
+                      const LayerState& q, FragmentOutputs& out) {
+  const Radiance around(s, p);
+  const LobeRows<F> rows(s);
   AnyUniforms kind(s);
   kind.has_emissive = kind.has_emissive_texture = false;  // added below the coat
   const Viewer<F> viewer(s.viewpoint);
   const F one(1.0f), zero(0.0f);
   for (int i = 0; i < p.count; i += F::lanes) {
-    const LayeredSurface<F> surface = make_surface<F>(u, p, q, viewer.direction(batch, p, i), i);
+    const LayeredSurface<F> surface = make_surface<F>(u, rows, p, q, viewer.direction(batch, p, i), i);
     Vector<F> sum = zeros<F>(), coat = zeros<F>();
     LightThrough<F> through{zeros<F>(), zeros<F>(), zero};
     for (int k = 0; k < s.lights; ++k) {
@@ -335,7 +380,7 @@ void light_layered(const ShadingUniforms& s, const LayeredUniforms& u, const Fra
       sum = sum + layered_environment(u, surface, around, through.color, seen, q, i);
       if (u.has_clearcoat) {
         const Vector<F> towards = lobe_direction(surface.coat_n, surface.v, surface.coat_roughness);
-        coat = coat + around.specular(towards, surface.coat_roughness) * seen;
+        coat = coat + around.of_coat(towards, surface.coat_roughness) * seen;
       }
     }
     if (s.has_emissive_texture) {
@@ -357,11 +402,12 @@ void light_layered(const ShadingUniforms& s, const LayeredUniforms& u, const Fra
   }
 }
 
-template <class F>
+template <class F, class Wide>
 void light_layered(const ShadingUniforms& s, const LayeredUniforms& u, const FragmentBatch& batch,
                    const ShadingState& p, const LayerState& q, FragmentOutputs& out) {
-  if (s.map != nullptr) return light_layered<F, MappedRadiance<F>>(s, u, batch, p, q, out);
-  light_layered<F, ConstantRadiance<F>>(s, u, batch, p, q, out);
+  if (s.map == nullptr) return light_layered_in<F, ConstantRadiance<F>>(s, u, batch, p, q, out);
+  if (is_plain(u)) return light_layered_in<Wide, MappedRadiance<Wide>>(s, PlainLayers(u), batch, p, q, out);
+  light_layered_in<F, MappedRadiance<F>>(s, u, batch, p, q, out);
 }
 
 }  // namespace zoneplate::stages

@@ -54,7 +54,8 @@ struct Sample {
     const auto q = std::make_unique<LayerState>();
     const LayeredUniforms u = make_layered_uniforms(layers);
     fill(u, *p, *q);
-    const stages::LayeredSurface<F> surface = stages::make_surface<F>(u, *p, *q, lanes(view), 0);
+    const stages::LayeredSurface<F> surface =
+        stages::make_surface(u, stages::LobeRows<F>(ShadingUniforms()), *p, *q, lanes(view), 0);
     std::vector<std::array<double, 3>> out;
     for (const Direction& l : from) {
       const V color = stages::layered_light(u, surface, {}, {lanes(l), {}, {}});
@@ -70,7 +71,8 @@ struct Sample {
     const auto q = std::make_unique<LayerState>();
     const LayeredUniforms u = make_layered_uniforms(layers);
     fill(u, *p, *q);
-    const stages::LayeredSurface<F> surface = stages::make_surface<F>(u, *p, *q, lanes(view), 0);
+    const stages::LayeredSurface<F> surface =
+        stages::make_surface(u, stages::LobeRows<F>(ShadingUniforms()), *p, *q, lanes(view), 0);
     const std::vector<Direction> from = directions(steps);
     double sum = 0;
     for (std::size_t k = 0; k < from.size(); ++k)

@@ -65,12 +65,12 @@ template <class F>
 /// diffuse.
 template <class F, class Radiance>
 [[gnu::always_inline]] inline LightComponents<F> layered_components(const ShadingUniforms& s, const LayeredUniforms& u,
-                                                                    const AnyUniforms& kind, const FragmentBatch& batch,
-                                                                    const ShadingState& p, const LayerState& q,
-                                                                    Vector<F> v, int i) {
+                                                                    const LobeRows<F>& rows, const AnyUniforms& kind,
+                                                                    const FragmentBatch& batch, const ShadingState& p,
+                                                                    const LayerState& q, Vector<F> v, int i) {
   const F one(1.0f), zero(0.0f);
-  const Radiance around(s);
-  const LayeredSurface<F> surface = make_surface<F>(u, p, q, v, i);
+  const Radiance around(s, p);
+  const LayeredSurface<F> surface = make_surface<F>(u, rows, p, q, v, i);
   const Vector<F> dark = zeros<F>();
   Vector<F> front = irradiance(s, p, surface.n, inverse_pi, i), back = dark, through = dark;
   if (u.has_diffuse_transmission) back = irradiance(s, p, dark - surface.n, inverse_pi, i);
@@ -115,14 +115,15 @@ void keep_component(LightComponent component, const ShadingUniforms& s, const La
                     const FragmentBatch& batch, const ShadingState& p, const LayerState& q, FragmentOutputs& out) {
   const AnyUniforms kind(s);
   const Viewer<F> viewer(s.viewpoint);
+  const LobeRows<F> rows(s);
   const F one(1.0f), zero(0.0f);
   for (int i = 0; i < p.count; i += F::lanes) {
     const auto v = s.needs_viewer || layers != nullptr ? viewer.direction(batch, p, i) : zeros<F>();
     LightComponents<F> all;
     if (layers != nullptr && s.map != nullptr)
-      all = layered_components<F, MappedRadiance<F>>(s, *layers, kind, batch, p, q, v, i);
+      all = layered_components<F, MappedRadiance<F>>(s, *layers, rows, kind, batch, p, q, v, i);
     else if (layers != nullptr)
-      all = layered_components<F, ConstantRadiance<F>>(s, *layers, kind, batch, p, q, v, i);
+      all = layered_components<F, ConstantRadiance<F>>(s, *layers, rows, kind, batch, p, q, v, i);
     else if (s.is_metallic)
       all = metallic_components(s, kind, p, v, i);
     else

@@ -297,12 +297,17 @@ void light_phong(const ShadingUniforms& s, const FragmentBatch& batch, const Sha
   light_phong<F, Highlight::BlinnPhong>(s, batch, p, out);
 }
 
+template <class F>
+[[gnu::always_inline]] inline bool is_dielectric(F metallic) {
+  return all(metallic == F(0.0f));
+}
+
 /// The reflection of an environment of one colour.
 template <class F>
 struct ConstantEnvironment {
   Vector<F> radiance;
 
-  explicit ConstantEnvironment(const ShadingUniforms& s) : radiance(Vector<F>::all(s.environment)) {}
+  ConstantEnvironment(const ShadingUniforms& s, const ShadingState& /*p*/) : radiance(Vector<F>::all(s.environment)) {}
 
   template <class Kind>
   [[gnu::always_inline]] Vector<F> reflected(const Kind& kind, const ShadingState& p, Vector<F> /*n*/, Vector<F> /*v*/,
@@ -312,21 +317,27 @@ struct ConstantEnvironment {
   }
 };
 
-/// The reflection of an environment map.
-template <class F>
+/// The reflection of an environment map; with `is_mixed`, for the roughness of ShadingState::mixed.
+template <class F, bool is_mixed>
 struct MappedEnvironment {
   const EnvironmentView& map;
+  const MixedLevel level;
 
-  explicit MappedEnvironment(const ShadingUniforms& s) : map(*s.map) {}
+  MappedEnvironment(const ShadingUniforms& s, const ShadingState& p) : map(*s.map), level(p.mixed) {}
 
   template <class Kind>
   [[gnu::always_inline]] Vector<F> reflected(const Kind& kind, const ShadingState& p, Vector<F> n, Vector<F> v,
                                              Vector<F> base, F metallic, F roughness, SpecularWeights<F> weights,
                                              int i) const {
-    const EnvironmentShares<F> shares = metallic_shares(base, metallic, weights);
-    const Vector<F> sum = shares.mirrored * specular_light(map, lobe_direction(n, v, roughness), roughness) +
-                          shares.scattered * diffuse_light(map, n);
-    return unoccluded(kind, p, sum, i);
+    const EnvironmentShares<F> shares =
+        is_dielectric(metallic) ? dielectric_shares(base, weights) : metallic_shares(base, metallic, weights);
+    const Vector<F> direction = lobe_direction(n, v, roughness);
+    Vector<F> mirrored;
+    if constexpr (is_mixed)
+      mirrored = specular_light(map, level, direction);
+    else
+      mirrored = specular_light(map, direction, roughness);
+    return unoccluded(kind, p, shares.mirrored * mirrored + shares.scattered * diffuse_light(map, n), i);
   }
 };
 
@@ -334,8 +345,8 @@ struct MappedEnvironment {
 /// by the mean over all directions.
 template <class F, bool has_texture, class Environment, bool turns = false>
 void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p, FragmentOutputs& out) {
-  const Environment environment(s);
-  const SpecularFit<F> one_fit{F(s.roughness)};
+  const Environment environment(s, p);
+  const SpecularRow<F> row(s.roughness);
   const AnyUniforms kind(s);
   const Viewer<F> viewer(s.viewpoint);
   for (int i = 0; i < p.count; i += F::lanes) {
@@ -345,9 +356,10 @@ void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const 
     const F own_roughness = has_texture ? F::load(p.roughness + i) : F(s.roughness);
     F roughness = own_roughness;
     if constexpr (turns) roughness = widened(own_roughness, F::load(p.normal_variance + i));
-    const SpecularFit<F> fit = has_texture ? SpecularFit<F>(roughness) : one_fit;
-    const SpecularWeights<F> weights = fit.at(min(max(dot(n, v), F(0.0f)), F(1.0f)));
-    const Metallic<F> m = make_metallic(base, metallic, roughness, weights);
+    const F nv = min(max(dot(n, v), F(0.0f)), F(1.0f));
+    const SpecularWeights<F> weights = has_texture ? SpecularFit<F>(roughness).at(nv) : row.at(nv);
+    const Metallic<F> m = is_dielectric(metallic) ? make_dielectric(base, roughness, weights)
+                                                  : make_metallic(base, metallic, roughness, weights);
     const auto turning_lobe = [&](const PreparedLight& light, const Arriving<F>& arriving) {
       const F r = max(own_roughness, F(least_roughness));
       return TurningLobe<F>(n, v, Vector<F>::load(p.normal_dx, i), Vector<F>::load(p.normal_dy, i),
@@ -377,9 +389,11 @@ void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const 
 template <class F>
 void light_metallic_in_map(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p,
                            FragmentOutputs& out) {
-  if (s.has_turning_normals) return light_metallic<F, true, MappedEnvironment<F>, true>(s, batch, p, out);
-  if (s.has_material_texture) return light_metallic<F, true, MappedEnvironment<F>>(s, batch, p, out);
-  light_metallic<F, false, MappedEnvironment<F>>(s, batch, p, out);
+  using Map = MappedEnvironment<F, false>;
+  if (s.has_turning_normals) return light_metallic<F, true, Map, true>(s, batch, p, out);
+  if (s.has_material_texture) return light_metallic<F, true, Map>(s, batch, p, out);
+  if (p.mixed.texels == nullptr) return light_metallic<F, false, Map>(s, batch, p, out);
+  light_metallic<F, false, MappedEnvironment<F, true>>(s, batch, p, out);
 }
 
 template <class F>

@@ -93,6 +93,9 @@ void find_slots(const Material& m, const TextureSet& textures, const ViewUniform
   LayeredPlan layers{.layers = *m.layers, .slots = {}, .uniforms = make_layered_uniforms(*m.layers)};
   for_used_layer_slots(
       m, [&](std::size_t i, const TextureUse& use, TexelMeaning meaning) { layers.slots[i] = slot_of(use, meaning); });
+  const float3 color = m.layers->specular_color;
+  layers.uniforms.has_grey_interface =
+      color.x == color.y && color.y == color.z && !layers.has(LayerSlotIndex::SpecularColor);
   plan.layers = std::make_shared<const LayeredPlan>(std::move(layers));
 }
 

@@ -46,7 +46,9 @@ struct ShadingUniforms {
   float metallic = 1, roughness = 1;
   float environment[3] = {0, 0, 0};  ///< radiance from all sides, where `map` is null; not for (Blinn-)Phong
   const EnvironmentView* map = nullptr;
-  bool has_pixels = true;                  ///< FragmentBatch::x and y are set; else the positions are
+  bool has_pixels = true;  ///< FragmentBatch::x and y are set; else the positions are
+  /// Of materials with layers, those that all fragments have; negative where they differ.
+  float layered_roughness = -1, coat_roughness = -1;
   const BackdropView* backdrop = nullptr;  ///< what transmissive surfaces refract; null: the environment alone
   bool has_environment_behind = true;      ///< the background is the environment
   bool has_background_color = false;       ///< the background is a colour

@@ -31,7 +31,7 @@ constexpr SurfaceKernels all() {
       .light_phong = &light_phong<Wide>,
       .light_metallic = &light_metallic<Wide>,
       .light_metallic_in_map = &light_metallic_in_map<Wide>,
-      .light_layered = &light_layered<F>,
+      .light_layered = &light_layered<F, Wide>,
       .keep_component = &keep_component<F>,
       .unlit = &unlit<Wide>,
   };

@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "zoneplate/raster/types/batch.h"
+#include "zoneplate/shade/environment/environment_view.h"
 
 namespace zoneplate {
 
@@ -21,6 +22,9 @@ struct ShadingState {
   /// The part of each light that reaches each fragment, in [0, 1]: one array of padded_capacity for each light, one
   /// after the other; null: no light is shadowed.
   const float* light_visibility = nullptr;
+
+  /// The environment's levels of the roughness that all fragments have, and of their clear coat's.
+  MixedLevel mixed, coat_mixed;
 
   // Interpolated from the vertices; in world space after the transform stages.
   alignas(64) Array position[3], normal[3], tangent[4], color[4];

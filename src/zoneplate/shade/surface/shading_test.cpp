@@ -15,8 +15,8 @@
 
 #include "zoneplate/base/isa.h"
 #include "zoneplate/math/random.h"
-#include "zoneplate/scene/environment.h"
-#include "zoneplate/shade/environment/prepared_environment.h"
+#include "zoneplate/shade/environment/level_mix.h"
+#include "zoneplate/shade/environment/random_map_for_test.h"
 
 namespace zoneplate {
 namespace {
@@ -127,17 +127,6 @@ const std::vector<float>& visibility() {
   return weights;
 }
 
-/// A room of three colours, small enough that levels differ.
-const EnvironmentView& room() {
-  static const PreparedEnvironment prepared = [] {
-    Plane<float4> image(16, 8, float4{0.5f, 0.25f, 1, 1});
-    image(3, 1) = {40, 30, 20, 1}, image(11, 5) = {0, 3, 0, 1};
-    return prepare_equirectangular(TexelImage(image));
-  }();
-  static const EnvironmentView view = prepared.view({.color = {1, 0.5f, 2}}, {0, 1, 0});
-  return view;
-}
-
 struct Stage {
   std::string name;
   std::function<void(const SurfaceKernels&, Bench&)> run;
@@ -203,13 +192,6 @@ std::vector<Stage> stages() {
         {"light_phong", [light](K k, B b) { light(b), k.light_phong(b.light, b.batch, b.points, b.shaded); }});
     all.push_back(
         {"light_metallic", [light](K k, B b) { light(b), k.light_metallic(b.light, b.batch, b.points, b.shaded); }});
-    const auto light_in_room = [light](B b) { light(b), b.light.map = &room(); };
-    all.push_back({"light_phong in a map", [light_in_room](K k, B b) {
-                     light_in_room(b), k.light_phong(b.light, b.batch, b.points, b.shaded);
-                   }});
-    all.push_back({"light_metallic_in_map", [light_in_room](K k, B b) {
-                     light_in_room(b), k.light_metallic_in_map(b.light, b.batch, b.points, b.shaded);
-                   }});
     LayeredUniforms layers;
     layers.has_clearcoat = bit(0), layers.has_sheen = bit(1), layers.has_anisotropy = bit(2);
     layers.has_iridescence = bit(3), layers.has_transmission = bit(4), layers.has_diffuse_transmission = bit(5);
@@ -218,8 +200,31 @@ std::vector<Stage> stages() {
     all.push_back({"light_layered", [light, layers](K k, B b) {
                      light(b), k.light_layered(b.light, layers, b.batch, b.points, b.layers, b.shaded);
                    }});
-    all.push_back({"light_layered in a map", [light_in_room, layers](K k, B b) {
-                     light_in_room(b), k.light_layered(b.light, layers, b.batch, b.points, b.layers, b.shaded);
+    // In a map: of one roughness, with mixed levels and without, and of roughness that differs.
+    const auto in_map = [light, bit](B b) {
+      static const RandomMap map;
+      static LevelMix mixes[] = {{map.view, 0.1f}, {map.view, 0.8f}};
+      light(b);
+      b.light.map = &map.view, b.light.roughness = b.light.layered_roughness = bit(1) ? 0.1f : 0.8f;
+      b.light.coat_roughness = bit(1) ? 0.8f : 0.1f;
+      const auto level = [](LevelMix& mix) { return mix.for_lookups(10000), mix.for_lookups(1); };
+      if (bit(3)) b.points.mixed = level(mixes[bit(1) ? 0 : 1]), b.points.coat_mixed = level(mixes[bit(1) ? 1 : 0]);
+      for (int i = 0; i < b.points.count; ++i) {
+        float &roughness = b.points.roughness[i], &coat = b.layers.clearcoat_roughness[i];
+        roughness = std::clamp(std::abs(roughness), 0.0f, 1.0f), coat = std::clamp(std::abs(coat), 0.0f, 1.0f);
+        if (bit(2)) roughness = b.light.roughness, coat = b.light.coat_roughness;
+      }
+      if (!bit(2)) b.light.layered_roughness = b.light.coat_roughness = -1, b.points.mixed = b.points.coat_mixed = {};
+      b.light.metallic = bit(4) ? 0.0f : 0.5f;
+    };
+    all.push_back({"light_phong in a map",
+                   [in_map](K k, B b) { in_map(b), k.light_phong(b.light, b.batch, b.points, b.shaded); }});
+    all.push_back({"light_metallic_in_map",
+                   [in_map](K k, B b) { in_map(b), k.light_metallic_in_map(b.light, b.batch, b.points, b.shaded); }});
+    all.push_back({"light_layered_in_map", [in_map, layers, bit](K k, B b) {
+                     LayeredUniforms some = layers;
+                     if (bit(5)) some = {.has_clearcoat = bit(0), .has_grey_interface = true};
+                     in_map(b), k.light_layered(b.light, some, b.batch, b.points, b.layers, b.shaded);
                    }});
   }
   return all;

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <optional>
 
+#include "zoneplate/shade/reflection/brdf.h"
 #include "zoneplate/shade/shadow/receivers.h"
+#include "zoneplate/shade/surface/layered_plan.h"
 
 namespace zoneplate {
 namespace {
@@ -28,6 +31,16 @@ bool has_traced_occlusion(const ViewUniforms& view) {
   return view.visibility != nullptr && view.visibility->has_occlusion();
 }
 
+void set_layered_roughness(const MaterialPlan& plan, ShadingUniforms& s) {
+  const LayeredPlan& layers = *plan.layers;
+  const std::optional<float>& glossiness = layers.layers.glossiness;
+  const bool has_texture = glossiness ? layers.has(LayerSlotIndex::SpecularColor)
+                                      : plan.slot(TextureSlotIndex::MetallicRoughness).texture != nullptr;
+  if (!has_texture && !plan.widens()) s.layered_roughness = glossiness ? 1 - *glossiness : plan.roughness;
+  if (layers.uniforms.has_clearcoat && !layers.has(LayerSlotIndex::ClearcoatRoughness))
+    s.coat_roughness = layers.layers.clearcoat_roughness;
+}
+
 /// The constants of a material under the scene's lights; `lights` and `view` must outlive them.
 ShadingUniforms make_shading_uniforms(const MaterialPlan& plan, const std::vector<PreparedLight>& lights,
                                       const Viewpoint& viewpoint, const ViewUniforms& view) {
@@ -49,6 +62,7 @@ ShadingUniforms make_shading_uniforms(const MaterialPlan& plan, const std::vecto
   s.has_material_texture = plan.slot(TextureSlotIndex::MetallicRoughness).texture != nullptr || plan.widens();
   s.has_turning_normals = plan.has_turning_lobes();
   s.metallic = plan.metallic, s.roughness = plan.roughness;
+  if (plan.layers != nullptr) set_layered_roughness(plan, s);
   s.backdrop = view.backdrop ? &*view.backdrop : nullptr;
   s.has_environment_behind = view.has_environment_behind, s.has_background_color = view.background.has_value();
   if (const auto b = view.background) s.background[0] = b->x, s.background[1] = b->y, s.background[2] = b->z;
@@ -77,7 +91,23 @@ SurfaceConstants::SurfaceConstants(const Scene& scene_in, const ViewUniforms& vi
   for (std::size_t m = 0; m < plans.size(); ++m) {
     shading_uniforms.push_back(make_shading_uniforms(plans[m], lights, viewpoint, view));
     needs_of_color.push_back(make_needs(static_cast<int>(m), plans[m].attributes, plans[m].needs_viewer));
+    lobes.push_back(make_lobes(plans[m], shading_uniforms.back()));
   }
+}
+
+SurfaceConstants::Lobes SurfaceConstants::make_lobes(const MaterialPlan& plan, const ShadingUniforms& s) {
+  if (s.map == nullptr || !s.is_metallic) return {};
+  const auto mix_of = [&](float roughness) {
+    std::unique_ptr<LevelMix>& mix = mixes[roughness];
+    if (mix == nullptr) mix = std::make_unique<LevelMix>(*s.map, roughness);
+    return mix.get();
+  };
+  if (plan.layers == nullptr) return {s.has_material_texture ? nullptr : mix_of(s.roughness), nullptr};
+  // As light_layered bounds it.
+  const auto bounded = [&](float roughness) {
+    return roughness >= 0 ? mix_of(std::max(roughness, least_roughness)) : nullptr;
+  };
+  return {bounded(s.layered_roughness), bounded(s.coat_roughness)};
 }
 
 SurfaceConstants::Needs SurfaceConstants::make_needs(int material, Attributes attributes, bool needs_viewer) const {

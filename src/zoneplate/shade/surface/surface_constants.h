@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <map>
+#include <memory>
 #include <vector>
 
 #include "zoneplate/scene/scene.h"
+#include "zoneplate/shade/environment/level_mix.h"
 #include "zoneplate/shade/surface/lighting.h"
 #include "zoneplate/shade/surface/material_plan.h"
 #include "zoneplate/shade/surface/shading.h"
@@ -29,6 +32,14 @@ struct SurfaceConstants {
   /// The direction to the viewer may require the fragments' positions.
   Needs make_needs(int material, Attributes attributes, bool needs_viewer) const;
 
+  /// The mixes of the environment's levels for a material's lobes; null where their roughness differs between
+  /// fragments.
+  struct Lobes {
+    LevelMix* base = nullptr;
+    LevelMix* coat = nullptr;
+  };
+  Lobes make_lobes(const MaterialPlan& plan, const ShadingUniforms& uniforms);
+
   const Scene& scene;
   const ViewUniforms view;
   const InterleavedVertices& records;
@@ -39,8 +50,10 @@ struct SurfaceConstants {
   const SurfaceKernels& kernels;
   const FilteringKernels& filtering;
   const SolidTextureKernels& solid;
-  std::vector<ShadingUniforms> shading_uniforms;  ///< by material
-  std::vector<Needs> needs_of_color;              ///< by material
+  std::vector<ShadingUniforms> shading_uniforms;     ///< by material
+  std::vector<Needs> needs_of_color;                 ///< by material
+  std::vector<Lobes> lobes;                          ///< by material
+  std::map<float, std::unique_ptr<LevelMix>> mixes;  ///< by roughness
 };
 
 }  // namespace zoneplate

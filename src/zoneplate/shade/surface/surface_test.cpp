@@ -161,7 +161,7 @@ TEST(Surface, TheBitsAreTheSameForEveryCompiler) {
         word = hash(word, number);
       }
   }
-  EXPECT_EQ(word, 1500485731u);
+  EXPECT_EQ(word, 3013516634u);
 }
 
 TEST(Surface, APointsColourDoesNotDependOnItsNeighbours) {
