@@ -13,6 +13,13 @@ namespace sgsr2 {
 
 constexpr float smallest_difference = 1.19e-7f;  // of depths
 
+/// GLSL's `mix` as its specification defines it: both ends are exact. Rounding matters, since the history that an image
+/// leaves lies on the border of the colours around it wherever a channel is constant.
+template <class F>
+[[gnu::always_inline]] inline F mix(F a, F b, F t) {
+  return a * (F(1.0f) - t) + b * t;
+}
+
 template <class F>
 [[gnu::always_inline]] inline F least(F a, F b, F c, F d) {
   return min(min(a, b), min(c, d));
@@ -110,11 +117,11 @@ template <class F>
 
   const F kernel_max = F(frame.is_first ? 0.0f : frame.kernel_max),
           kernel_min = max(one, F(0.3f) + F(0.3f) * kernel_max);
-  const F kernel = F(0.5f) * mixed(kernel_max, kernel_min, frame.is_first ? one : F(0.25f) * clip);
+  const F kernel = F(0.5f) * mix(kernel_max, kernel_min, frame.is_first ? one : F(0.25f) * clip);
   const F kernel2 = kernel * kernel;
   const F px = motion_x * F(static_cast<float>(frame.width)), py = motion_y * F(static_cast<float>(frame.height));
   const F velocity = sqrt(px * px + py * py);
-  const F curve = mixed(F(-2.0f), F(-3.0f), saturated(velocity * F(0.02f)));
+  const F curve = mix(F(-2.0f), F(-3.0f), saturated(velocity * F(0.02f)));
 
   // The frame's samples: mean by a narrow kernel, and mean, deviation and range for what history may be.
   static constexpr int places[9][2] = {{0, 1}, {1, 0}, {-1, 0}, {0, 0}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}};
@@ -138,9 +145,9 @@ template <class F>
   const F box_inverse = one / box_weight, third = weight * F(1.0f / 3);
 
   F base = one - clip;
-  base = min(base, mixed(base, third * F(10.0f), saturated(F(10.0f) * velocity)));
-  base = min(base, mixed(base, third, saturated(velocity * F(0.05f))));
-  const F deviations = mixed(F(frame.box_scale), one, max(clip, saturated(velocity * F(0.05f))));
+  base = min(base, mix(base, third * F(10.0f), saturated(F(10.0f) * velocity)));
+  base = min(base, mix(base, third, saturated(velocity * F(0.05f))));
+  const F deviations = mix(F(frame.box_scale), one, max(clip, saturated(velocity * F(0.05f))));
   F fresh[3], clamped[3];
   auto is_outside = zero > one;
   for (int c = 0; c < 3; ++c) {
@@ -153,10 +160,10 @@ template <class F>
   }
   const auto moves = abs(motion_x) + abs(motion_y) > F(1e-6f);
   const F kept = select(is_outside, select(moves, zero, F(frame.rest_share)), one);
-  base = mixed(min(base, F(0.1f)), base, kept);
+  base = mix(min(base, F(0.1f)), base, kept);
   const F alpha = saturated(third / max(F(1.192e-7f), base + third) + F(frame.is_first ? 1.0f : 0.0f));
   F out[4] = {zero, zero, zero, zero};
-  for (int c = 0; c < 3; ++c) out[c] = mixed(mixed(clamped[c], history[c], kept), fresh[c], alpha);
+  for (int c = 0; c < 3; ++c) out[c] = mix(mix(clamped[c], history[c], kept), fresh[c], alpha);
   F::store_fours(out, row.history + 4 * i);
 
   const F low_sum = out[0] - out[2];
