@@ -234,13 +234,17 @@ class SmaaSubsamples : public Resolver {
     return static_cast<int>(std::clamp(place, 0.0f, static_cast<float>(size - 1)));
   }
 
-  /// The speeds of a first frame, in which nothing has moved yet: those that its surfaces have in the next frame.
+  /// The speeds of a first frame, in which nothing has moved yet: those that its surfaces have in the next frame, also
+  /// around them, where filtered outlines and the samples of another frame lie.
   static Plane<float> speed_before(const Plane<float2>& motion, const Plane<float>& speed) {
-    Plane<float> out(speed.width(), speed.height());
-    for (int y = 0; y < out.height(); ++y)
-      for (int x = 0; x < out.width(); ++x) {
-        float& before = out(source(x, motion(x, y).x, out.width()), source(y, motion(x, y).y, out.height()));
-        before = std::max(before, speed(x, y));
+    const int width = speed.width(), height = speed.height();
+    Plane<float> out(width, height);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const int from_x = source(x, motion(x, y).x, width), from_y = source(y, motion(x, y).y, height);
+        for (int j = std::max(from_y - 1, 0); j <= std::min(from_y + 1, height - 1); ++j)
+          for (int i = std::max(from_x - 1, 0); i <= std::min(from_x + 1, width - 1); ++i)
+            out(i, j) = std::max(out(i, j), speed(x, y));
       }
     return out;
   }
