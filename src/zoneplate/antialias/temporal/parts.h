@@ -15,7 +15,7 @@ struct TemporalParts {
   /// moves towards its centre until it is inside.
   enum class Rectification { None, Clamp, Clip };
   /// The box of the 3 × 3 colours: their extremes, the mean of the extremes of 3 × 3 and of the plus-shaped 5, their
-  /// mean ± gamma standard deviations, or that and, of what it allows, what the extremes allow.
+  /// mean ± gamma standard deviations, or that and, of what it allows, what the extremes of R, G and B allow.
   enum class Box { Extremes, Rounded, Variance, Both };
   /// When history is dropped: never; where all of the 3 × 3 surfaces around the reprojected position were nearer than
   /// the surface was then (Depth), or of other objects (Id); where all were of other objects or depths and none was

@@ -75,27 +75,31 @@ template <class F, class Differences>
   return {(square.low + plus.low) * half, (square.high + plus.high) * half};
 }
 
-/// The mean ± gamma standard deviations; and, if `limits` is given, the extremes.
-///
-/// Source    Salvi, An Excursion in Temporal Supersampling, GDC 2016.
-template <class F, class Differences>
-[[gnu::always_inline]] inline DifferenceBox<F> variance_box(const Differences& d, F gamma,
-                                                            DifferenceBox<F>* limits = nullptr) {
-  Rgba<F> sum = d(0), squares = sum * sum;
-  const Rgba<F> zero = Rgba<F>::all(F(0.0f));
-  DifferenceBox<F> ends{min(zero, sum), max(zero, sum)};
-#pragma GCC unroll 9
-  for (int k = 1; k < 9; ++k) {
-    const Rgba<F> c = d(k);
-    sum = sum + c, squares = squares + c * c;
-    ends.low = min(ends.low, c), ends.high = max(ends.high, c);
+/// The sums of nine differences and of their squares.
+template <class F>
+struct Moments {
+  Rgba<F> sum, squares;
+
+  [[gnu::always_inline]] explicit Moments(const Rgba<F>& first) : sum(first), squares(first * first) {}
+  [[gnu::always_inline]] void add(const Rgba<F>& c) { sum = sum + c, squares = squares + c * c; }
+  /// The mean ± gamma standard deviations.
+  ///
+  /// Source    Salvi, An Excursion in Temporal Supersampling, GDC 2016.
+  [[gnu::always_inline]] DifferenceBox<F> box(F gamma) const {
+    const F ninth(1.0f / 9);
+    const Rgba<F> mean = sum * ninth, variance = squares * ninth - mean * mean;
+    Rgba<F> radius;
+    for (int c = 0; c < 4; ++c) radius.c[c] = gamma * sqrt(max(variance.c[c], F(0.0f)));
+    return {mean - radius, mean + radius};
   }
-  if (limits) *limits = ends;
-  const F ninth(1.0f / 9);
-  const Rgba<F> mean = sum * ninth, variance = squares * ninth - mean * mean;
-  Rgba<F> radius;
-  for (int c = 0; c < 4; ++c) radius.c[c] = gamma * sqrt(max(variance.c[c], F(0.0f)));
-  return {mean - radius, mean + radius};
+};
+
+template <class F, class Differences>
+[[gnu::always_inline]] inline DifferenceBox<F> variance_box(const Differences& d, F gamma) {
+  Moments<F> moments(d(0));
+#pragma GCC unroll 9
+  for (int k = 1; k < 9; ++k) moments.add(d(k));
+  return moments.box(gamma);
 }
 
 template <class F, class Differences>
@@ -129,18 +133,32 @@ template <class F>
                                                 const antialias::TemporalParts& parts, F gamma) {
   using Rectification = antialias::TemporalParts::Rectification;
   if (parts.rectification == Rectification::None) return history;
-  const bool is_turned = parts.is_ycocg, is_both = parts.box == antialias::TemporalParts::Box::Both;
+  const bool is_turned = parts.is_ycocg;
+  const auto turned_if = [&](const Rgba<F>& c) { return is_turned ? scaled_ycocg_of(c) : c; };
   const auto turned = [&](int k) { return scaled_ycocg_of(around.difference(k)); };
   const auto plain = [&](int k) { return around.difference(k); };
-  DifferenceBox<F> box, limits{};
-  if (is_both)
-    box = is_turned ? variance_box(turned, gamma, &limits) : variance_box(plain, gamma, &limits);
-  else
-    box = is_turned ? box_of(turned, parts.box, gamma) : box_of(plain, parts.box, gamma);
-  const Rgba<F> difference = history - around.middle, d = is_turned ? scaled_ycocg_of(difference) : difference;
-  Rgba<F> inside = parts.rectification == Rectification::Clip ? clipped(d, box) : min(max(d, box.low), box.high);
-  // After the clip, so that its centre stays the mean.
-  if (is_both) inside = min(max(inside, limits.low), limits.high);
+  const Rgba<F> difference = history - around.middle, d = turned_if(difference);
+  if (parts.box == antialias::TemporalParts::Box::Both) {
+    const Rgba<F> first = around.difference(0), zero = Rgba<F>::all(F(0.0f));
+    Moments<F> moments(turned_if(first));
+    DifferenceBox<F> limits{min(zero, first), max(zero, first)};
+#pragma GCC unroll 9
+    for (int k = 1; k < 9; ++k) {
+      const Rgba<F> c = around.difference(k);
+      moments.add(turned_if(c));
+      limits.low = min(limits.low, c), limits.high = max(limits.high, c);
+    }
+    const DifferenceBox<F> box = moments.box(gamma);
+    const Rgba<F> inside =
+        parts.rectification == Rectification::Clip ? clipped(d, box) : min(max(d, box.low), box.high);
+    const Rgba<F> color = select(inside == d, difference, is_turned ? rgb_of_scaled(inside) : inside);
+    // After the clip, so that its centre stays the mean; and in R, G, B, since corners of a box in Y, Co, Cg are
+    // colours with less of a channel than any of the nine.
+    const Rgba<F> limited = min(max(color, limits.low), limits.high);
+    return select(limited == difference, history, max(around.middle + limited, zero));
+  }
+  const DifferenceBox<F> box = is_turned ? box_of(turned, parts.box, gamma) : box_of(plain, parts.box, gamma);
+  const Rgba<F> inside = parts.rectification == Rectification::Clip ? clipped(d, box) : min(max(d, box.low), box.high);
   const Rgba<F> moved = around.middle + (is_turned ? rgb_of_scaled(inside) : inside);
   return select(inside == d, history, max(moved, Rgba<F>::all(F(0.0f))));
 }

@@ -137,6 +137,32 @@ TEST(Taa, ADarkObjectHasNoBlackEdge) {
     for (const Linear& c : image.values()) ASSERT_GE(c.g, 0.0999f);
 }
 
+// A box in Y, Co and Cg has corners with less of a channel than any of the nine colours.
+TEST(Taa, HistoryHasNoMoreAndNoLessOfAChannelThanNineSamples) {
+  MovingScene moving = still(*make_builtin_scene("moving-texture"));
+  moving.camera = [camera = moving.camera(0)](int i) {
+    Camera moved = camera;
+    moved.world_from_camera = camera.world_from_camera * translation(float3{0.013f * static_cast<float>(i), 0, 0});
+    return moved;
+  };
+  constexpr int frames = 12;
+  const std::vector<LinearImage> images = film(moving, "taa", frames),
+                                 samples = film(moving, "taa:blend=fixed,alpha=1,rectify=none,rest=test", frames);
+  constexpr int border = 8;  // beyond which the history has no surface
+  for (std::size_t f = 1; f < frames; ++f)
+    for (int y = border; y < moving.height - border; ++y)
+      for (int x = border; x < moving.width - border; ++x)
+        for (const auto channel : {&Linear::r, &Linear::g, &Linear::b}) {
+          float low = 1e9f, high = -1e9f;
+          for (int k = 0; k < 9; ++k) {
+            const float near = samples[f](x + k % 3 - 1, y + k / 3 - 1).*channel;
+            low = std::min(low, near), high = std::max(high, near);
+          }
+          ASSERT_GE(images[f](x, y).*channel, low - 1e-5f) << f << ": " << x << ", " << y;
+          ASSERT_LE(images[f](x, y).*channel, high + 1e-5f) << f << ": " << x << ", " << y;
+        }
+}
+
 TEST(Taa, NewPixelsMayBeSmoothedBySmaa) {
   const MovingScene moving = still(*make_builtin_scene("thin-diagonal"));
   const auto frames = [&](const std::string& method) {
