@@ -19,7 +19,7 @@ set(laborious shade/environment/prepared_environment shade/surface/shading shade
     raster/tile/rasterize
     raster/geometry/small_triangles signal/fourier/fourier formats/gltf/damage antialias/post/smaa/smaa sdf/shape)
 list(TRANSFORM laborious REPLACE "(.+)" "src/zoneplate/\\1_test.cpp")
-list(APPEND laborious tests/motion_test.cpp tests/layers_test.cpp tests/words_test.cpp)
+list(APPEND laborious tests/motion_test.cpp tests/environment_error_test.cpp tests/layers_test.cpp tests/words_test.cpp)
 set_source_files_properties(${laborious} PROPERTIES SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "${built_quickly}")
 add_paths_for_tests("$<TARGET_FILE:zoneplate_program>" "$<TARGET_FILE:fuzz_appetite>")
 add_dependencies(zoneplate_tests zoneplate_program fuzz_appetite)
@@ -46,6 +46,11 @@ foreach(pattern RANGE 5)
            COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=Coverage/Million.*/${pattern})
   set_tests_properties(million_triangles_${pattern} PROPERTIES TIMEOUT 3600 FAIL_REGULAR_EXPRESSION "Running 0 tests")
 endforeach()
+
+# The tables of docs/environment.md.
+add_test(NAME environment_error CONFIGURATIONS Long
+         COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=EnvironmentError.*)
+set_tests_properties(environment_error PROPERTIES TIMEOUT 3600 FAIL_REGULAR_EXPRESSION "Running 0 tests")
 
 # Every input of fuzz_appetite takes minutes: only for `ctest -C Long`.
 foreach(test EveryInputStaysWithinTheLimits JobsBesideAllOfThemAreDone)

@@ -23,6 +23,13 @@ inline float3 point(int face, float s, float t) {
   return {s, t, one};
 }
 
+/// The coordinates of a vector along s and t of a face.
+inline float2 across(int face, float3 v) {
+  if (face < 2) return {v.y, v.z};
+  if (face < 4) return {v.z, v.x};
+  return {v.x, v.y};
+}
+
 /// The coordinate of the centre of texel i of a row of `side`; i may lie beyond the row.
 inline float centre(int i, int side) { return (2 * static_cast<float>(i) + 1) / static_cast<float>(side) - 1; }
 

@@ -2,6 +2,7 @@
 #include "zoneplate/shade/environment/equirectangular.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <type_traits>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/math/elementary_constants.h"
 #include "zoneplate/shade/environment/radiance.h"
+#include "zoneplate/shade/environment/texel_light.h"
 
 namespace zoneplate {
 namespace {
@@ -46,6 +48,10 @@ float3 direction_of(const Step& column, const Step& row) {
   return {-column.angle.cosine * row.angle.sine, row.angle.cosine, -column.angle.sine * row.angle.sine};
 }
 
+float3 derivative_by_row(const Step& column, const Step& row) {
+  return {-column.angle.cosine * row.angle.cosine, -row.angle.sine, -column.angle.sine * row.angle.cosine};
+}
+
 float3 mix(float3 a, float3 b, float weight) { return a + (b - a) * weight; }
 
 float3 between(const Plane<float3>& light, const Step& column, const Step& row) {
@@ -67,42 +73,76 @@ float3 look_up(const Plane<float3>& light, float3 direction) {
                  step(acos(d.y) / elementary::pi, light.height(), false));
 }
 
-/// One face: the mean over the steps in each texel, weighted by their solid angles, in the order of the image.
+/// The pieces into which a whole number divides an interval of a width below 1: where none lies in it, one.
+struct Pieces {
+  int first, count;
+  float part[2], centre[2];
+
+  Pieces(float at, float width) {
+    const float begin = at - width * 0.5f, end = at + width * 0.5f;
+    first = static_cast<int>(std::floor(begin));
+    const auto cut = static_cast<float>(first + 1);
+    count = cut < end ? 2 : 1;
+    part[0] = count == 1 ? 1.0f : (cut - begin) / width, part[1] = 1 - part[0];
+    centre[0] = count == 1 ? at : (begin + cut) * 0.5f, centre[1] = (cut + end) * 0.5f;
+  }
+};
+
+/// The light of the texels of one face, in the order of the image. The texels that a step overlaps share it, so that
+/// every texel has nearly its solid angle of steps.
 void make_face(const Plane<float3>& light, const std::vector<Step>& columns, const std::vector<Step>& rows,
-               int per_pixel, int face, CubeImage& cube) {
+               int per_pixel, int face, int side, TexelLight* texels) {
   const float3 axis = cube::point(face, 0, 0);
   // A face lies within the cone of cosine 1 / √3 about its axis; the diagonal of a pixel is a margin.
   const float pixel = std::max(2 * elementary::pi / static_cast<float>(light.width()),
                                elementary::pi / static_cast<float>(light.height())) *
                       1.5f;
   const float least = 0.57f - pixel;
-  const auto side = static_cast<float>(cube.side);
-  const auto texels = static_cast<std::size_t>(cube.side) * static_cast<std::size_t>(cube.side);
-  std::vector<float4> sums(texels, float4{0, 0, 0, 0});
+  const float half_side = static_cast<float>(side) * 0.5f;
+  const float column_angle = 2 * elementary::pi / static_cast<float>(columns.size()),
+              row_angle = elementary::pi / static_cast<float>(rows.size());
   for (const Step& row : rows) {
     for (std::size_t c = 0; c < columns.size(); ++c) {
       const float3 d = direction_of(columns[c], row);
-      if (dot(d, axis) < least) {
+      const float ahead = dot(d, axis);
+      if (ahead < least) {
         // The rest of the pixel is outside as well.
         c += static_cast<std::size_t>(per_pixel) - 1 - c % static_cast<std::size_t>(per_pixel);
         continue;
       }
-      const cube::Place place = cube::place(d);
-      if (place.face != face) continue;
-      const int x = std::min(static_cast<int>((place.s + 1) * 0.5f * side), cube.side - 1);
-      const int y = std::min(static_cast<int>((place.t + 1) * 0.5f * side), cube.side - 1);
-      const float3 radiance = between(light, columns[c], row) * row.angle.sine;
-      float4& sum = sums[static_cast<std::size_t>(y * cube.side + x)];
-      sum = {sum.x + radiance.x, sum.y + radiance.y, sum.z + radiance.z, sum.w + row.angle.sine};
+      // On the plane of the face, where steps from beyond its edges may overlap it.
+      if (ahead < 0.5f) continue;
+      const float distance = 1 / ahead;
+      const float2 at = cube::across(face, d) * distance;
+      // A step covers a rectangle of the sum of its extents by row and by column. These rectangles cover the face
+      // evenly where the steps lie along its axes, or at 45 degrees to them.
+      const auto step = [&](float3 derivative, float angle) {
+        const float2 move = cube::across(face, derivative);
+        const float away = dot(derivative, axis), scale = distance * angle * half_side;
+        return float2{std::abs(move.x - at.x * away) * scale, std::abs(move.y - at.y * away) * scale};
+      };
+      const float2 by_column = step({-d.z, 0, d.x}, column_angle),
+                   by_row = step(derivative_by_row(columns[c], row), row_angle);
+      const Pieces across((at.x + 1) * half_side, by_column.x + by_row.x),
+          down((at.y + 1) * half_side, by_column.y + by_row.y);
+      if (across.first + across.count <= 0 || down.first + down.count <= 0 || across.first >= side ||
+          down.first >= side)
+        continue;
+      const float3 radiance = between(light, columns[c], row);
+      for (int j = 0; j < down.count; ++j)
+        for (int i = 0; i < across.count; ++i) {
+          const int x = across.first + i, y = down.first + j;
+          if (x < 0 || y < 0 || x >= side || y >= side) continue;
+          texels[y * side + x].add(radiance, row.angle.sine * across.part[i] * down.part[j],
+                                   across.centre[i] - (static_cast<float>(x) + 0.5f),
+                                   down.centre[j] - (static_cast<float>(y) + 0.5f));
+        }
     }
   }
-  for (int y = 0; y < cube.side; ++y)
-    for (int x = 0; x < cube.side; ++x) {
-      const float4 sum = sums[static_cast<std::size_t>(y * cube.side + x)];
-      cube.texels[cube.index(face, x, y)] =
-          sum.w > 0 ? xyz(sum) * (1 / sum.w)
-                    : look_up(light, cube::point(face, cube::centre(x, cube.side), cube::centre(y, cube.side)));
-    }
+  for (int y = 0; y < side; ++y)
+    for (int x = 0; x < side; ++x)
+      if (TexelLight& texel = texels[y * side + x]; !(texel.weight > 0))
+        texel.add(look_up(light, cube::point(face, cube::centre(x, side), cube::centre(y, side))), 1, 0, 0);
 }
 
 }  // namespace
@@ -120,8 +160,8 @@ Plane<float3> light_of(const TexelImage& image) {
 }
 
 int cube_side(int equirectangular_width) {
-  int side = 32;
-  while (side < 512 && (side < 256 ? 4 : 8) * side <= equirectangular_width) side *= 2;
+  int side = 64, columns = 2 * side;
+  while (side < 512 && columns <= equirectangular_width) side *= 2, columns *= 4;
   return side;
 }
 
@@ -133,10 +173,12 @@ CubeImage cube_of_equirectangular(const TexelImage& image, int side) {
   const int per_pixel = std::max(1, static_cast<int>(pixel * 2 * static_cast<float>(side)) + 1);
   const std::vector<Step> columns = make_steps(light.width(), per_pixel, 2 * elementary::pi, true);
   const std::vector<Step> rows = make_steps(light.height(), per_pixel, elementary::pi, false);
-  CubeImage cube{side, std::vector<float3>(static_cast<std::size_t>(cube::faces * side * side))};
-  parallel_for(cube::faces,
-               [&](std::size_t face) { make_face(light, columns, rows, per_pixel, static_cast<int>(face), cube); });
-  return cube;
+  std::vector<TexelLight> texels(static_cast<std::size_t>(cube::faces * side * side));
+  parallel_for(cube::faces, [&](std::size_t face) {
+    make_face(light, columns, rows, per_pixel, static_cast<int>(face), side,
+              texels.data() + face * static_cast<std::size_t>(side * side));
+  });
+  return cube_of_texels(side, texels);
 }
 
 }  // namespace zoneplate

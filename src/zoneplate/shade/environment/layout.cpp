@@ -3,12 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/math/elementary_constants.h"
 #include "zoneplate/shade/environment/equirectangular.h"
 #include "zoneplate/shade/environment/radiance.h"
+#include "zoneplate/shade/environment/texel_light.h"
 
 namespace zoneplate {
 namespace {
@@ -101,24 +104,23 @@ float3 look_up(const Plane<float3>& light, const Spot& spot) {
              mix(light(x.first, y.second), light(x.second, y.second), x.part), y.part);
 }
 
-/// The mean over 4 × 4 directions of each texel.
+/// By 4 × 4 directions in each texel.
 template <class SpotOf>
 CubeImage sampled(const Plane<float3>& light, int side, const SpotOf& spot_of) {
   constexpr int steps = 4;
-  CubeImage cube{side, std::vector<float3>(static_cast<std::size_t>(cube::faces * side * side))};
+  std::vector<TexelLight> texels(static_cast<std::size_t>(cube::faces * side * side));
   parallel_for(static_cast<std::size_t>(cube::faces * side), [&](std::size_t row) {
     const int face = static_cast<int>(row) / side, y = static_cast<int>(row) % side;
-    for (int x = 0; x < side; ++x) {
-      float3 sum{0, 0, 0};
+    for (int x = 0; x < side; ++x)
       for (int i = 0; i < steps * steps; ++i) {
         const float s = cube::centre(x * steps + i % steps, side * steps);
         const float t = cube::centre(y * steps + i / steps, side * steps);
-        sum = sum + look_up(light, spot_of(normalize(cube::point(face, s, t))));
+        texels[row * static_cast<std::size_t>(side) + static_cast<std::size_t>(x)].add(
+            look_up(light, spot_of(normalize(cube::point(face, s, t)))), 1, cube::centre(i % steps, steps) * 0.5f,
+            cube::centre(i / steps, steps) * 0.5f);
       }
-      cube.texels[cube.index(face, x, y)] = sum * (1.0f / (steps * steps));
-    }
   });
-  return cube;
+  return cube_of_texels(side, texels);
 }
 
 }  // namespace

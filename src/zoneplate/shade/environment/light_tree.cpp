@@ -25,45 +25,74 @@ Node square(int face, float s, float t, float width, float3 radiance) {
   // The area over the cube of the distance.
   out.solid_angle = width * width / (distance2 * distance);
   out.spread = out.even_spread = out.solid_angle / 12;
-  out.prominence = 1;
+  out.prominence = out.fineness = 1;
   set(out.direction, p * (1 / distance));
   set(out.light, radiance * out.solid_angle);
   return out;
 }
 
-/// The quadratic B-spline over a texel: its mean, and the first moments about the centre, in texels.
-struct TexelMoments {
+/// The weights of three control points in the mean of the quadratic B-spline over a part of a texel, and in its first
+/// moment about the part's centre, in texels.
+struct PartWeights {
+  float mean[3], moment[3];
+};
+constexpr PartWeights weights_of(int part, int parts) {
+  const float u = (2 * static_cast<float>(part) + 1) / static_cast<float>(2 * parts) - 0.5f;
+  const float before = 0.5f - u, after = 0.5f + u, variance = 1 / static_cast<float>(12 * parts * parts);
+  return {{(before * before + variance) * 0.5f, 0.75f - u * u - variance, (after * after + variance) * 0.5f},
+          {-before * variance, -2 * u * variance, after * variance}};
+}
+
+/// Of all parts: part k of 1, 2, 4 ... equal ones is element parts - 1 + k.
+struct AllPartWeights {
+  PartWeights of[2 * LightTree::most_parts - 1];
+  constexpr AllPartWeights() : of{} {
+    for (int parts = 1; parts <= LightTree::most_parts; parts *= 2)
+      for (int k = 0; k < parts; ++k) of[parts - 1 + k] = weights_of(k, parts);
+  }
+};
+constexpr AllPartWeights part_weights;
+
+/// The mean of the radiance over a part of a texel, and its first moments about the part's centre, in texels.
+struct PartMoments {
   float3 mean, along_s, along_t;
 };
-TexelMoments moments_of(const BorderedCube& points, int face, int x, int y) {
-  constexpr float inner = 2.0f / 3, outer = 1.0f / 6, slope = 1.0f / 24;
-  float3 mean[3], along_s[3];
+PartMoments moments_of(const BorderedCube& points, int face, int x, int y, const PartWeights& across,
+                       const PartWeights& down) {
+  PartMoments out{};
   for (int k = 0; k < 3; ++k) {
-    const float3 before = points.at(face, x - 1, y + k - 1), after = points.at(face, x + 1, y + k - 1);
-    mean[k] = points.at(face, x, y + k - 1) * inner + (after + before) * outer;
-    along_s[k] = (after - before) * slope;
+    const float3 before = points.at(face, x - 1, y + k - 1), at = points.at(face, x, y + k - 1),
+                 after = points.at(face, x + 1, y + k - 1);
+    const float3 mean = before * across.mean[0] + at * across.mean[1] + after * across.mean[2];
+    const float3 moment = before * across.moment[0] + at * across.moment[1] + after * across.moment[2];
+    out.mean = out.mean + mean * down.mean[k];
+    out.along_s = out.along_s + moment * down.mean[k];
+    out.along_t = out.along_t + mean * down.moment[k];
   }
-  return {mean[1] * inner + (mean[0] + mean[2]) * outer, along_s[1] * inner + (along_s[0] + along_s[2]) * outer,
-          (mean[2] - mean[0]) * slope};
+  return out;
 }
+
+/// The part of a vector that is perpendicular to a unit vector.
+float3 tangential(float3 v, float3 direction) { return v - direction * dot(v, direction); }
 
 float sum_of(float3 c) { return c.x + c.y + c.z; }
 float power(const Node& n) { return n.light[0] + n.light[1] + n.light[2]; }
 
-/// The light from a texel.
-Node leaf(const BorderedCube& points, int face, int x, int y) {
-  const TexelMoments moments = moments_of(points, face, x, y);
-  const float s = cube::centre(x, points.side), t = cube::centre(y, points.side);
-  const float width = 2 / static_cast<float>(points.side), total = sum_of(moments.mean);
-  Node out = square(face, s, t, width, moments.mean);
+/// The light of a part of a texel, of which there are `parts` along each edge; (x, y) counts parts.
+Node node_of(const BorderedCube& texels, int parts, int face, int x, int y) {
+  const PartWeights* const weights = part_weights.of + parts - 1;
+  const PartMoments moments = moments_of(texels, face, x / parts, y / parts, weights[x % parts], weights[y % parts]);
+  const int side = texels.side * parts;
+  const float s = cube::centre(x, side), t = cube::centre(y, side), total = sum_of(moments.mean);
+  Node out = square(face, s, t, 2 / static_cast<float>(side), moments.mean);
   if (!(total > 0)) return out;
-  const float3 centre = direction_of(out);
-  const float3 of_light = normalize(
-      cube::point(face, s + width * (sum_of(moments.along_s) / total), t + width * (sum_of(moments.along_t) / total)));
-  set(out.direction, of_light);
-  const float3 away = centre - of_light;
-  set(out.centre, away);
-  out.even_spread += dot(away, away) * 0.5f;
+  const float width_over_total = 2 / (static_cast<float>(texels.side) * total);
+  const float3 of_light =
+      cube::point(face, s + sum_of(moments.along_s) * width_over_total, t + sum_of(moments.along_t) * width_over_total);
+  const float inverse = 1 / std::sqrt(dot(of_light, of_light));
+  const float3 direction = of_light * inverse;
+  set(out.direction, direction);
+  set(out.centre, tangential((cube::point(face, s, t) - of_light) * inverse, direction));
   return out;
 }
 
@@ -72,25 +101,24 @@ Node sum(const Node* const (&parts)[4]) {
   float total = 0;
   for (const Node* part : parts) total += power(*part);
   const auto weight = [&](const Node& part) { return total > 0 ? power(part) : part.solid_angle; };
-  float3 direction{0, 0, 0}, centre{0, 0, 0};
+  float3 mean{0, 0, 0}, even_mean{0, 0, 0};
   float weights = 0;
   for (const Node* part : parts) {
     all.solid_angle += part->solid_angle;
     for (int c = 0; c < 3; ++c) all.light[c] += part->light[c];
-    direction = direction + direction_of(*part) * weight(*part);
+    mean = mean + direction_of(*part) * weight(*part);
     weights += weight(*part);
-    centre = centre + (direction_of(*part) + centre_of(*part)) * part->solid_angle;
+    even_mean = even_mean + (direction_of(*part) + centre_of(*part)) * part->solid_angle;
   }
-  direction = normalize(direction);
+  even_mean = even_mean * (1 / all.solid_angle);
+  const float3 direction = normalize(mean);
   for (const Node* part : parts) {
-    const float3 away = direction_of(*part) - direction;
-    const float half_square = dot(away, away) * 0.5f;
-    all.spread += (part->spread + half_square) * (weight(*part) / weights);
-    all.even_spread +=
-        (part->even_spread + dot(centre_of(*part), away) + half_square) * (part->solid_angle / all.solid_angle);
+    const float3 away = direction_of(*part) - direction, even_away = direction_of(*part) + centre_of(*part) - even_mean;
+    all.spread += (part->spread + dot(away, away) * 0.5f) * (weight(*part) / weights);
+    all.even_spread += (part->even_spread + dot(even_away, even_away) * 0.5f) * (part->solid_angle / all.solid_angle);
   }
   set(all.direction, direction);
-  set(all.centre, normalize(centre) - direction);
+  set(all.centre, tangential(even_mean - direction, direction));
   return all;
 }
 
@@ -107,21 +135,21 @@ float3 LightTree::mean() const {
   return light * (1 / angle);
 }
 
-void LightTree::divide(int face, int x, int y, int parts, Node* out) const {
-  const auto between = [parts](int part, float3 before, float3 at, float3 after) {
-    const float u = cube::centre(part, parts) * 0.5f;
-    return before * ((0.5f - u) * (0.5f - u) * 0.5f) + at * (0.75f - u * u) + after * ((0.5f + u) * (0.5f + u) * 0.5f);
-  };
-  for (int i = 0; i < parts; ++i) {
-    const auto in_row = [&](int row) {
-      return between(i, texels.at(face, x - 1, row), texels.at(face, x, row), texels.at(face, x + 1, row));
-    };
-    const float3 above = in_row(y - 1), at = in_row(y), below = in_row(y + 1);
-    for (int j = 0; j < parts; ++j)
-      out[j * parts + i] =
-          square(face, cube::centre(x * parts + i, side * parts), cube::centre(y * parts + j, side * parts),
-                 2 / static_cast<float>(side * parts), between(j, above, at, below));
-  }
+void LightTree::weigh(Node& n) const {
+  // The lobe's expansion over a node has terms of the second order, so that nodes whose light is on one side need the
+  // most detail.
+  constexpr float one_sided = 8;
+  n.prominence = std::sqrt(std::max(power(n) / (n.solid_angle * mean_power), 1.0f));
+  const float eighth_root = std::sqrt(std::sqrt(n.prominence));
+  n.fineness = eighth_root +
+               one_sided * (eighth_root * eighth_root) * std::sqrt(dot(centre_of(n), centre_of(n)) / n.solid_angle);
+}
+
+LightTree::Node LightTree::part(int parts, int face, int x, int y) const {
+  Node out = node_of(texels, parts, face, x, y);
+  const Node& texel = node(side, face, x / parts, y / parts);
+  out.prominence = texel.prominence, out.fineness = texel.fineness;
+  return out;
 }
 
 LightTree make_light_tree(const CubeImage& cube) {
@@ -137,7 +165,7 @@ LightTree make_light_tree(const CubeImage& cube) {
         first[row * static_cast<std::size_t>(side) + static_cast<std::size_t>(x)] = node(face, x, y);
     });
   };
-  fill(cube.side, [&](int face, int x, int y) { return leaf(tree.texels, face, x, y); });
+  fill(cube.side, [&](int face, int x, int y) { return node_of(tree.texels, 1, face, x, y); });
   for (int side = cube.side / 2; side > 0; side /= 2)
     fill(side, [&](int face, int x, int y) {
       const auto part = [&](int dx, int dy) { return &tree.node(2 * side, face, 2 * x + dx, 2 * y + dy); };
@@ -145,9 +173,8 @@ LightTree make_light_tree(const CubeImage& cube) {
       return sum(parts);
     });
   const float3 mean = tree.mean();
-  const float threshold = std::max(mean.x + mean.y + mean.z, 1e-30f);
-  for (Node& n : tree.nodes)
-    n.prominence = std::sqrt(std::sqrt(std::max(power(n) / (n.solid_angle * threshold), 1.0f)));
+  tree.mean_power = std::max(mean.x + mean.y + mean.z, 1e-30f);
+  for (Node& n : tree.nodes) tree.weigh(n);
   return tree;
 }
 

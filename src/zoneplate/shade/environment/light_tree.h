@@ -16,13 +16,15 @@ struct LightTree {
     float solid_angle;
     float light[3];     ///< radiance × solid angle
     float spread;       ///< variance of the directions along one axis, weighted by the light
-    float centre[3];    ///< from `direction` to the unit vector of their unweighted mean
-    float even_spread;  ///< their unweighted variance about `direction` along one axis
-    float prominence;   ///< the fourth root of its radiance relative to the mean over all directions, at least 1
+    float centre[3];    ///< from `direction` to the unweighted mean of the directions, perpendicular to `direction`
+    float even_spread;  ///< the unweighted variance about that along one axis
+    float prominence;   ///< the root of its radiance relative to the mean over all directions, at least 1
+    float fineness;     ///< by which its distance from a direction counts less, rising with that and with `centre`
   };
   int side = 0;             ///< nodes along an edge of the finest level, a power of two
   std::vector<Node> nodes;  ///< by level, from one node a face to `side` × `side`; then by face and row
   BorderedCube texels;
+  float mean_power = 1;  ///< sum of the channels of the mean radiance
 
   /// The first node of the level with `level_side` nodes along an edge.
   static std::size_t offset(int level_side) {
@@ -31,9 +33,13 @@ struct LightTree {
   const Node& node(int level_side, int face, int x, int y) const {
     return nodes[offset(level_side) + static_cast<std::size_t>((face * level_side + y) * level_side + x)];
   }
-  /// The light of `parts` × `parts` equal squares of a texel, by rows, where the radiance is the quadratic B-spline
-  /// whose control points are the texels.
-  void divide(int face, int x, int y, int parts, Node* out) const;
+  /// A texel is divided into at most this many parts along each edge, a power of two.
+  static constexpr int most_parts = 8;
+  /// The light of a part of a texel, where the radiance is the quadratic B-spline whose control points are the texels.
+  /// There are `parts` along each edge of a texel, a power of two; (x, y) counts parts from the corner of the face.
+  Node part(int parts, int face, int x, int y) const;
+  /// Sets the prominence of a node with light.
+  void weigh(Node& node) const;
   /// The mean radiance over all directions.
   float3 mean() const;
 };

@@ -42,18 +42,26 @@ struct Division {
         core(std::min(2 * lobes.alpha[0], 0.7f)),
         width_at_horizon(0.08f / lobes.alpha[lobes.count - 1]) {}
 
-  /// The least number of equal parts along each axis into which a node of this width is divided: 1 where it is taken
-  /// whole, 0 where it is skipped.
-  [[gnu::always_inline]] int parts(const LightTree::Node& node, float width, float prominence) const {
+  /// Whether a node is skipped, taken whole or divided.
+  struct Limits {
+    bool is_below;    ///< the horizon of all directions: skipped
+    bool is_whole;    ///< for all directions
+    bool is_divided;  ///< for any
+    float distance2;  ///< if neither, it is divided where a direction is nearer than this, by its square
+  };
+
+  [[gnu::always_inline]] Limits limits(const LightTree::Node& node, float width) const {
     const float3 away = float3{node.direction[0], node.direction[1], node.direction[2]} - cone.centre;
+    const float3 from_middle = away + float3{node.centre[0], node.centre[1], node.centre[2]};
     const float distance = std::sqrt(dot(away, away)) - cone.radius;
+    const float nearer = std::min(distance, std::sqrt(dot(from_middle, from_middle)) - cone.radius);
     // A node is at most √2 widths long.
     const float above = horizon - (distance - 1.5f * width);
-    if (above < 0) return 0;
     const bool straddles = above < 3 * width + 2 * cone.radius;
-    const float limit = std::min(detail * std::max(distance, core) / prominence,
-                                 straddles ? width_at_horizon / (prominence * prominence) : 1.0f);
-    return width > limit ? (width > 2 * limit ? 4 : 2) : 1;
+    // The distance and the core that allow the width.
+    const float least = width * node.fineness / detail;
+    return {above < 0, least <= nearer || least <= core, straddles && width * node.prominence > width_at_horizon,
+            least * least};
   }
 };
 
@@ -73,25 +81,40 @@ struct LobeSums {
     }
   }
 
+  /// True if a direction of the block is nearer to a node than this distance, by its square.
+  [[gnu::always_inline]] bool is_near(const LightTree::Node& node, float square) const {
+    const auto l = Vector<F>::all(node.direction), centre = Vector<F>::all(node.centre);
+    bool is_far = true;
+    for (int k = 0; k < vectors; ++k) {
+      const Vector<F> away = direction[k] - l, from_middle = away - centre;
+      is_far = is_far && all(min(dot(away, away), dot(from_middle, from_middle)) >= F(square));
+    }
+    return !is_far;
+  }
+
   /// With c = n·l, (n·h)² = (1 + c) / 2 = 1 - u, where u = |n - l|² / 4: this form loses no digits near n.
   ///
-  /// The mean of the lobe K over a node is K at its centre, and half of its Laplacian times the variance along an axis.
-  /// Of K = (1 - 2u) / d², d = u + α² (1 - u), the Laplacian is near 2 K (3 u (1 - u) / d - (1 - 2u)) / d, and its
-  /// derivative by u near -2 K / d.
+  /// The mean of the lobe K over a node of directions l + δ is K + K' m + K'' v / 2, where m and v are the mean and the
+  /// mean square of -n·δ / 2. For K = c / d², d = u + α² (1 - u), with b = (1 - α²) / d and e = 1 + b c, K' is
+  /// -2 e / d² and K'' is 2 b (3 e + 1) / d².
   [[gnu::always_inline]] void add(const LightTree::Node& node) {
     const auto l = Vector<F>::all(node.direction), light_of_node = Vector<F>::all(node.light),
                centre = Vector<F>::all(node.centre);
-    const F angle(node.solid_angle), spread(node.spread), even_spread(node.even_spread), one(1.0f);
+    const F angle(node.solid_angle), one(1.0f), zero(0.0f), quarter(0.25f);
+    const F spread(node.spread), even_spread(node.even_spread);
     for (int k = 0; k < vectors; ++k) {
       const Vector<F> away = direction[k] - l;
-      const F u = dot(away, away) * F(0.25f), rest = one - u, cosine = max(one - (u + u), F(0.0f));
-      const F bend = F(3.0f) * u * rest, shift = dot(away, centre);
+      const F u = dot(away, away) * quarter, rest = one - u, cosine = one - (u + u);
+      const F shift = dot(away, centre), bend = u * rest;
+      const F square = bend * spread, mean = cosine * spread;
+      const F even_square = bend * even_spread + shift * shift * quarter, even_mean = cosine * even_spread - shift;
+      const auto is_above = cosine > zero;
       for (int a = 0; a < N; ++a) {
-        const F inverse = one / (u + alpha2[a] * rest);
-        const F lobe = cosine * inverse * inverse;
-        const F curvature = (bend * inverse - cosine) * inverse;
-        light[a][k] = light[a][k] + light_of_node * (lobe + lobe * (curvature * spread));
-        weight[a][k] = weight[a][k] + angle * (lobe + lobe * (curvature * even_spread + inverse * shift));
+        const F inverse = one / (u + alpha2[a] * rest), b = (one - alpha2[a]) * inverse;
+        const F slope = one + b * cosine, scale = select(is_above, inverse * inverse, zero);
+        const F second = b * (F(3.0f) * slope + one);
+        light[a][k] = light[a][k] + light_of_node * (scale * (cosine + second * square - slope * mean));
+        weight[a][k] = weight[a][k] + angle * (scale * (cosine + second * even_square - slope * even_mean));
       }
     }
   }
@@ -116,23 +139,24 @@ void filter_lobes(const LightTree& tree, const Lobes& lobes, const DirectionBloc
   struct Place {
     int side, face, x, y;
   };
+  const int finest = LightTree::most_parts * tree.side;
   Place stack[cube::faces + 3 * 16];
   int depth = 0;
   for (int face = cube::faces - 1; face >= 0; --face) stack[depth++] = {1, face, 0, 0};
   while (depth > 0) {
     const Place p = stack[--depth];
-    const LightTree::Node& node = tree.node(p.side, p.face, p.x, p.y);
-    const bool is_leaf = p.side == tree.side;
-    const int parts = division.parts(node, 2 / static_cast<float>(p.side), node.prominence);
-    if (parts == 1) {
+    LightTree::Node part;
+    if (p.side > tree.side) part = tree.part(p.side / tree.side, p.face, p.x, p.y);
+    const LightTree::Node& node = p.side > tree.side ? part : tree.node(p.side, p.face, p.x, p.y);
+    const auto limits = division.limits(node, 2 / static_cast<float>(p.side));
+    if (limits.is_below) continue;
+    const bool is_divided =
+        p.side < finest && (limits.is_divided || (!limits.is_whole && sums.is_near(node, limits.distance2)));
+    if (!is_divided) {
       sums.add(node);
-    } else if (parts > 1 && !is_leaf) {
-      for (int k = 3; k >= 0; --k) stack[depth++] = {2 * p.side, p.face, 2 * p.x + k % 2, 2 * p.y + k / 2};
-    } else if (parts > 1) {
-      LightTree::Node in_leaf[16];
-      tree.divide(p.face, p.x, p.y, parts, in_leaf);
-      for (int k = 0; k < parts * parts; ++k) sums.add(in_leaf[k]);
+      continue;
     }
+    for (int k = 3; k >= 0; --k) stack[depth++] = {2 * p.side, p.face, 2 * p.x + k % 2, 2 * p.y + k / 2};
   }
   sums.store(out);
 }

@@ -23,9 +23,13 @@ namespace {
 /// there by equal factors to 1.
 class Levels {
  public:
-  /// Of an environment with faces of `side` texels.
-  explicit Levels(int side)
-      : side_(side), finest_(std::min(side, 256)), sharpness_(4.0f * static_cast<float>(finest_ * finest_)) {
+  /// Of an environment with faces of `side` texels, which may have lamps of a texel.
+  Levels(int side, bool has_sharp_lights)
+      : side_(side),
+        narrowest_(std::min(side, 256)),
+        largest_(has_sharp_lights ? std::min(narrowest_ * 3 / 2, 320) : narrowest_),
+        per_alpha_(has_sharp_lights ? 3.3f : 2.86f),
+        sharpness_(4.0f * static_cast<float>(narrowest_ * narrowest_)) {
     const float octaves = log2(1 + sharpness_);
     count_ = static_cast<int>(octaves * density) + 2;
     per_octave_ = static_cast<float>(count_ - 1) / octaves;
@@ -34,11 +38,13 @@ class Levels {
   float alpha(int level) const {
     return level == count_ - 1 ? 1.0f : std::sqrt((exp2(static_cast<float>(level) / per_octave_) - 1) / sharpness_);
   }
-  /// Texels somewhat narrower than α, of the width of the lobe.
+  /// Texels somewhat narrower than α, of the width of the lobe, where there are as many. The radiance at roughness 0 is
+  /// a sum of the first three levels, which have the texels of the image, such that it is a spline over these.
   int side(int level) const {
     if (level == 0) return side_;
+    if (level < 3) return narrowest_;
     constexpr int least = 48;
-    return std::min(finest_, std::max(least, static_cast<int>(2.86f / alpha(level)) / 4 * 4 + 4));
+    return std::min(largest_, std::max(least, static_cast<int>(per_alpha_ / alpha(level)) / 4 * 4 + 4));
   }
   /// Of the levels, and of irradiance after them; returns the number of texels.
   std::size_t lay_out(EnvironmentView& view) const {
@@ -58,7 +64,8 @@ class Levels {
 
  private:
   static constexpr float density = 1.22f;  ///< least number of levels per octave of α²
-  int side_, finest_;                      ///< of level 0, and the greatest of the others
+  int side_, narrowest_, largest_;         ///< of level 0, of the next two, and the greatest of the others
+  float per_alpha_;                        ///< texels of a level times its α, where there are as many
   int count_;
   float sharpness_, per_octave_;
 };
@@ -91,10 +98,29 @@ std::vector<BorderedCube> filtered(const LightTree& tree, const Lobes& lobes, in
   return out;
 }
 
+/// True if a texel exceeds its neighbours by so many times the mean radiance that maps of the image's texels would be
+/// some percent off for lobes of about their width (docs/environment.md).
+bool has_sharp_lights(const LightTree& tree) {
+  constexpr float limit = 64;
+  const auto power = [&](int face, int x, int y) {
+    const float3 c = tree.texels.at(face, x, y);
+    return c.x + c.y + c.z;
+  };
+  for (int face = 0; face < cube::faces; ++face)
+    for (int y = 0; y < tree.side; ++y)
+      for (int x = 0; x < tree.side; ++x) {
+        const float twice = 2 * power(face, x, y);
+        if (std::max(twice - power(face, x - 1, y) - power(face, x + 1, y),
+                     twice - power(face, x, y - 1) - power(face, x, y + 1)) > limit * tree.mean_power)
+          return true;
+      }
+  return false;
+}
+
 /// The lobes of a level and those after it that share its cube map's size.
 Lobes lobes_from(const Levels& levels, int level) {
   // Errors of whole texels vanish in lobes of about their size.
-  constexpr float coarse = 0.4f, fine = 0.28f;
+  constexpr float coarse = 0.7f, fine = 0.48f;
   Lobes lobes{{levels.alpha(level)}, 1, levels.alpha(level) * static_cast<float>(levels.side(0)) < 4 ? coarse : fine};
   while (lobes.count < Lobes::most && level + lobes.count < levels.count() &&
          levels.side(level + lobes.count) == levels.side(level))
@@ -116,27 +142,38 @@ BorderedCube sampled(int side, const Function& function) {
   return out;
 }
 
-/// The control points, with a border of one texel, of the spline that interpolates samples with a border of four. The
-/// inverse of the filter (1, 6, 1) / 8 falls by the factor √8 - 3 from one sample to the next, and ends after three.
+/// `count` samples, `step` apart, become the control points of the spline that interpolates them, by the inverse of the
+/// filter (1, 6, 1) / 8, which is one recursion forwards and one backwards. The samples continue mirrored at both ends,
+/// whose influence falls by the factor 0.17 from one sample to the next.
 /// Source: Unser, Aldroubi and Eden, B-Spline Signal Processing, IEEE Transactions on Signal Processing 41, 1993.
+void invert_filter(float3* samples, int count, std::size_t step) {
+  constexpr float pole = -0.171572875f;  // √8 - 3
+  const auto at = [&](int i) -> float3& { return samples[static_cast<std::size_t>(i) * step]; };
+  constexpr int horizon = 9;
+  float3 sum = at(0);
+  float power = 1;
+  for (int i = 1; i < horizon; ++i) power *= pole, sum = sum + at(i) * power;
+  at(0) = sum;
+  for (int i = 1; i < count; ++i) at(i) = at(i) + at(i - 1) * pole;
+  const int last = count - 1;
+  at(last) = (at(last) + at(last - 1) * pole) * (-pole / (1 - pole * pole));
+  for (int i = last - 1; i >= 0; --i) at(i) = (at(i + 1) - at(i)) * pole;
+  for (int i = 0; i < count; ++i) at(i) = at(i) * 8.0f;
+}
+
+/// The control points, with a border of one texel, of the spline that interpolates samples with a border of four.
 void fit_spline(const BorderedCube& samples, float* out) {
-  constexpr float inverse[4] = {1 + 2 * (0.242641f - 0.041631f + 0.007143f), -0.242641f, 0.041631f, -0.007143f};
-  const int side = samples.side;
-  const auto filter = [&](const auto& at) {
-    float3 sum = at(0) * inverse[0];
-    for (int k = 1; k < 4; ++k) sum = sum + (at(-k) + at(k)) * inverse[k];
-    return sum;
-  };
-  BorderedCube in_rows = samples;
+  const int side = samples.side, pitch = samples.pitch();
+  BorderedCube points = samples;
   parallel_for(static_cast<std::size_t>(cube::faces), [&](std::size_t f) {
     const int face = static_cast<int>(f);
     float* to = out + 3 * f * static_cast<std::size_t>((side + 2) * (side + 2));
-    for (int y = -border; y < side + border; ++y)
-      for (int x = -1; x <= side; ++x)
-        in_rows.at(face, x, y) = filter([&](int k) { return samples.at(face, x + k, y); });
+    for (int k = -border; k < side + border; ++k) invert_filter(&points.at(face, -border, k), pitch, 1);
+    for (int k = -border; k < side + border; ++k)
+      invert_filter(&points.at(face, k, -border), pitch, static_cast<std::size_t>(pitch));
     for (int y = -1; y <= side; ++y)
       for (int x = -1; x <= side; ++x, to += 3) {
-        const float3 point = filter([&](int k) { return in_rows.at(face, x, y + k); });
+        const float3 point = points.at(face, x, y);
         to[0] = point.x, to[1] = point.y, to[2] = point.z;
       }
   });
@@ -152,24 +189,25 @@ float3 control_point(int level, int levels, const At& at) {
 }
 
 /// A change of the filter changes its version.
-constexpr char magic[8] = {'z', 'p', 'e', 'n', 'v', '0', '0', '6'};
+constexpr char magic[8] = {'z', 'p', 'e', 'n', 'v', '0', '0', '7'};
 
 }  // namespace
 
 struct PreparedEnvironment::Header {
   char magic[8];
-  std::int32_t side, unused;
+  std::int32_t side, has_sharp_lights;
   float3 mean, greatest;
   std::uint64_t hash;  ///< of the texels
 };
 
 PreparedEnvironment::PreparedEnvironment(const CubeImage& cube, const std::function<void(double)>& progress) {
-  const Levels levels(cube.side);
+  const LightTree tree = make_light_tree(cube);
+  has_sharp_lights_ = has_sharp_lights(tree);
+  const Levels levels(cube.side, has_sharp_lights_);
   texels_.resize(3 * levels.lay_out(view_) + 1);
   const auto first = [&](int level) { return texels_.data() + 3 * static_cast<std::size_t>(view_.offset[level]); };
 
   // Every level as a spline of its own.
-  const LightTree tree = make_light_tree(cube);
   for (std::size_t i = 0; i < tree.texels.texels.size(); ++i) {
     const float3 texel = tree.texels.texels[i];
     first(0)[3 * i] = texel.x, first(0)[3 * i + 1] = texel.y, first(0)[3 * i + 2] = texel.z;
@@ -220,7 +258,8 @@ std::vector<std::uint8_t> PreparedEnvironment::bytes() const {
   const std::span texels(reinterpret_cast<const std::uint8_t*>(texels_.data()), texels_.size() * sizeof(float));
   Header header{};
   std::copy_n(magic, std::size(magic), header.magic);
-  header.side = view_.side[0], header.mean = mean_, header.greatest = greatest_, header.hash = content_hash(texels);
+  header.side = view_.side[0], header.has_sharp_lights = has_sharp_lights_ ? 1 : 0, header.mean = mean_,
+  header.greatest = greatest_, header.hash = content_hash(texels);
   std::vector<std::uint8_t> out(sizeof header + texels.size());
   std::memcpy(out.data(), &header, sizeof header);
   std::memcpy(out.data() + sizeof header, texels.data(), texels.size());
@@ -235,11 +274,11 @@ std::optional<PreparedEnvironment> PreparedEnvironment::from_bytes(std::span<con
   if (!std::equal(std::begin(magic), std::end(magic), header.magic)) return std::nullopt;
   if (header.side < 32 || header.side > 512 || (header.side & (header.side - 1)) != 0) return std::nullopt;
   PreparedEnvironment out;
-  const std::size_t floats = 3 * Levels(header.side).lay_out(out.view_) + 1;
+  const std::size_t floats = 3 * Levels(header.side, header.has_sharp_lights != 0).lay_out(out.view_) + 1;
   if (texels.size() != floats * sizeof(float) || content_hash(texels) != header.hash) return std::nullopt;
   out.texels_.resize(floats);
   std::memcpy(out.texels_.data(), texels.data(), texels.size());
-  out.mean_ = header.mean, out.greatest_ = header.greatest;
+  out.mean_ = header.mean, out.greatest_ = header.greatest, out.has_sharp_lights_ = header.has_sharp_lights != 0;
   return out;
 }
 

@@ -44,6 +44,7 @@ class PreparedEnvironment {
   EnvironmentView view_;
   std::vector<float> texels_;
   float3 mean_{0, 0, 0}, greatest_{0, 0, 0};
+  bool has_sharp_lights_ = false;  ///< narrow lobes have larger maps
 };
 
 /// A number for bytes, by which prepared environments are found again: equal for equal bytes only, but for chance.

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -149,6 +150,66 @@ TEST(LookUp, IsTheIntegralOfTheLobeAtEveryRoughness) {
       if (roughness < 1) continue;
       EXPECT_NEAR(value(diffuse_light(view, lanes(n))).y / expected.g, 1, 0.005) << k;
     }
+}
+
+/// The integral of the lobe over all directions: about n, over the half angle's square u, of the solid angle 4π du.
+double lobe_integral(double alpha) {
+  constexpr int steps = 100000;
+  const double octaves = std::log(1 + 0.5 / (alpha * alpha));
+  double sum = 0;
+  for (int i = 0; i < steps; ++i) {
+    const double u = alpha * alpha * (std::exp(octaves * (i + 0.5) / steps) - 1);
+    const double d = u + alpha * alpha * (1 - u);
+    sum += (1 - 2 * u) / (d * d) * (u + alpha * alpha) * octaves / steps;
+  }
+  return 4 * pi * sum;
+}
+
+/// The quadratic B-spline at t, in texels.
+double spline_at(double t) {
+  const double x = std::abs(t), rest = 1.5 - x;
+  return x < 0.5 ? 0.75 - x * x : rest > 0 ? rest * rest / 2 : 0.0;
+}
+
+TEST(LookUp, IsTheIntegralBesideATexelThatIs8000TimesBrighter) {
+  constexpr int side = 64, face = 2, column = 40, row = 23;
+  constexpr double excess = 7999;
+  CubeImage cube{side, std::vector<float3>(cube::faces * side * side, float3{1, 1, 1})};
+  cube.texels[cube.index(face, column, row)] = {8000, 8000, 8000};
+  const PreparedEnvironment environment(cube);
+  const EnvironmentView view = plain_view(environment);
+  // The integral is that of the constant, and of the texel's spline by 120 × 120 directions in each of nine texels.
+  constexpr int parts = 360;
+  struct Light {
+    float3 direction;
+    double weight;
+  };
+  std::vector<Light> lights;
+  for (int k = 0; k < parts * parts; ++k) {
+    const double x = 3.0 * (k % parts + 0.5) / parts - 1.5, y = 3.0 * (k / parts + 0.5) / parts - 1.5;
+    const float3 p = cube::point(face, cube::centre(column, side) + static_cast<float>(2 * x / side),
+                                 cube::centre(row, side) + static_cast<float>(2 * y / side));
+    const double square = dot(p, p), area = 36.0 / (side * side) / (parts * parts);
+    lights.push_back({normalize(p), spline_at(x) * spline_at(y) * area / (square * std::sqrt(square))});
+  }
+  const float3 bright = normalize(cube::point(face, cube::centre(column, side), cube::centre(row, side)));
+  for (const float roughness : {0.2f, 0.25f, 0.3f, 0.4f, 0.5f, 0.7f, 1.0f}) {
+    const double alpha = static_cast<double>(roughness) * roughness, whole = lobe_integral(alpha);
+    for (std::uint32_t k = 0; k < 6; ++k) {
+      const float3 r{unit_float(hash(k, 1)) - 0.5f, unit_float(hash(k, 2)) - 0.5f, unit_float(hash(k, 3)) - 0.5f};
+      const float3 n = normalize(bright + r * (static_cast<float>(k) * roughness));
+      double sum = 0;
+      for (const Light& light : lights) {
+        const float3 away = light.direction - n;
+        const double u = static_cast<double>(dot(away, away)) / 4, d = u + alpha * alpha * (1 - u);
+        sum += std::max(1 - 2 * u, 0.0) / (d * d) * light.weight;
+      }
+      const double expected = 1 + excess * sum / whole;
+      EXPECT_NEAR(value(specular_light(view, lanes(n), F(roughness))).y / expected, 1, 0.005) << roughness << ' ' << k;
+      if (roughness < 1) continue;
+      EXPECT_NEAR(value(diffuse_light(view, lanes(n))).y / expected, 1, 0.005) << k;
+    }
+  }
 }
 
 /// The mean of the light of all directions that a rough surface reflects to a viewer at v, weighted by its lobe with
