@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdint>
 
 #include "zoneplate/base/isa.h"
+#include "zoneplate/base/parallel.h"
 #include "zoneplate/math/lanes.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/shade/environment/lookup_lanes.h"
@@ -53,6 +55,25 @@ TEST(LevelMix, FewLookUpsDoNotMix) {
   EXPECT_GT(count, 50);
   EXPECT_LT(count, 600);  // the control points of a level
   EXPECT_EQ(mix.for_lookups(8).side, 8);
+}
+
+TEST(LevelMix, ThreadsShareOneMixture) {
+  const RandomMap map;
+  LevelMix mix(map.view, map.roughness(5));
+  const auto control_point = [&] {
+    LevelMix alone(map.view, map.roughness(5));
+    alone.for_lookups(many);
+    return alone.for_lookups(1).texels[100];
+  }();
+  with_threads(4, [&] {
+    parallel_for(2000, [&](std::size_t) {
+      const MixedLevel level = mix.for_lookups(8);
+      if (level.texels != nullptr) {
+        EXPECT_EQ(level.texels[100], control_point);
+      }
+    });
+  });
+  EXPECT_NE(mix.for_lookups(8).texels, nullptr);
 }
 
 }  // namespace
