@@ -121,8 +121,9 @@ TEST_F(EnvironmentImages, AreFilteredOnceAndKept) {
 }
 
 TEST_F(EnvironmentImages, StandBehindTheSceneInCropsToo) {
+  const Cache cache(place / "cache");
   const auto picture = [&](const std::string& options) {
-    const ProgramAnswer answer = render("--no-cache --background environment -o p.png " + options);
+    const ProgramAnswer answer = render("--background environment -o p.png " + options);
     EXPECT_EQ(answer.code, 0) << answer.out;
     const std::string bytes = text_of(place / "p.png");
     return decode_png({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, "p.png").pixels;

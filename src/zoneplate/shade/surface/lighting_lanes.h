@@ -212,35 +212,42 @@ template <class F, Highlight highlight>
   return {radiance * F::load(cosines.diffuse + i), radiance * F::load(cosines.highlight + i)};
 }
 
-/// The light of an environment map: its irradiance over π, and the light about the highlight's lobe times what the
-/// highlight reflects of light from all sides.
-template <class F, Highlight highlight, class Kind>
-[[gnu::always_inline]] inline Gathered<F> gather_map(const ShadingUniforms& s, const Kind& kind,
-                                                     const FragmentBatch& batch, const ShadingState& p, int i) {
-  const auto n = Vector<F>::load(p.normal, i);
-  Gathered<F> light{unoccluded(kind, p, diffuse_light(*s.map, n), i), zeros<F>()};
-  if constexpr (highlight != Highlight::None) {
-    const Vector<F> v = Viewer<F>(s.viewpoint).direction(batch, p, i);
-    const F exponent = kind.has_exponent_texture ? F::load(p.exponent + i) : F(s.exponent.value);
-    const bool is_phong = highlight == Highlight::Phong;
+/// The light of an environment map at a batch's fragments.
+struct MapLight {
+  alignas(64) ShadingState::Array diffuse[3];  ///< its irradiance over π
+  alignas(64)
+      ShadingState::Array specular[3];  ///< about the highlight's lobe, times what the highlight reflects of all
+};
+
+/// Computes the light of the environment map; the specular one where the surface has a highlight.
+template <class F>
+[[gnu::noinline]] void gather_map(const ShadingUniforms& s, const FragmentBatch& batch, const ShadingState& p,
+                                  MapLight& out) {
+  const AnyUniforms kind(s);
+  const Viewer<F> viewer(s.viewpoint);
+  for (int i = 0; i < p.count; i += F::lanes) {
+    const auto n = Vector<F>::load(p.normal, i);
+    unoccluded(kind, p, diffuse_light(*s.map, n), i).store(out.diffuse, i);
+    if (!s.has_specular) continue;
+    const Vector<F> v = viewer.direction(batch, p, i);
+    const F exponent = s.has_exponent_texture ? F::load(p.exponent + i) : F(s.exponent.value);
     const F nv = min(max(dot(n, v), F(0.0f)), F(1.0f));
-    const F share = is_phong ? phong_albedo(exponent) : blinn_phong_albedo(exponent, nv);
-    const F roughness = roughness_of_exponent(is_phong ? exponent * F(4.0f) : exponent);
+    const F share = s.is_phong ? phong_albedo(exponent) : blinn_phong_albedo(exponent, nv);
+    const F roughness = roughness_of_exponent(s.is_phong ? exponent * F(4.0f) : exponent);
     const Vector<F> about = specular_light(*s.map, lobe_direction(n, v, roughness), roughness);
-    light.specular = unoccluded(kind, p, about * share, i);
+    unoccluded(kind, p, about * share, i).store(out.specular, i);
   }
-  return light;
 }
 
-/// Stores the colour that follows from the accumulated light of all lights.
+/// Stores the colour that follows from the accumulated light of all lights; `around` is read where there is a map.
 template <class F, Highlight highlight, class Kind>
-[[gnu::always_inline]] inline void store_gathered(const ShadingUniforms& s, const Kind& kind,
-                                                  const FragmentBatch& batch, const ShadingState& p, Gathered<F> light,
-                                                  FragmentOutputs& out, int i) {
+[[gnu::always_inline]] inline void store_gathered(const ShadingUniforms& s, const Kind& kind, const ShadingState& p,
+                                                  const MapLight& around, Gathered<F> light, FragmentOutputs& out,
+                                                  int i) {
   const auto base = Vector<F>::load(p.base, i), ambient = Vector<F>::all(s.ambient);
   if (kind.has_map) {
-    const Gathered<F> around = gather_map<F, highlight>(s, kind, batch, p, i);
-    light = {light.diffuse + around.diffuse, light.specular + around.specular};
+    light.diffuse = light.diffuse + Vector<F>::load(around.diffuse, i);
+    if constexpr (highlight != Highlight::None) light.specular = light.specular + Vector<F>::load(around.specular, i);
   }
   Vector<F> sum = base * (unoccluded(kind, p, ambient, i) + light.diffuse);
   if constexpr (highlight != Highlight::None)
@@ -253,9 +260,11 @@ template <class F, Highlight highlight, class Kind>
 template <class F, Highlight highlight, class Kind>
 void light_phong(const ShadingUniforms s, const Kind& kind, const FragmentBatch& batch, const ShadingState& p,
                  FragmentOutputs& out) {
+  MapLight around;
+  if (kind.has_map) gather_map<F>(s, batch, p, around);
   if (kind.lights == 0) {
     for (int i = 0; i < p.count; i += F::lanes)
-      store_gathered<F, highlight>(s, kind, batch, p, {zeros<F>(), zeros<F>()}, out, i);
+      store_gathered<F, highlight>(s, kind, p, around, {zeros<F>(), zeros<F>()}, out, i);
     return;
   }
   Cosines cosines;
@@ -278,7 +287,7 @@ void light_phong(const ShadingUniforms s, const Kind& kind, const FragmentBatch&
       if (k + 1 < kind.lights) {
         all.diffuse.store(diffuse, i), all.specular.store(specular, i);
       } else {
-        store_gathered<F, highlight>(s, kind, batch, p, all, out, i);
+        store_gathered<F, highlight>(s, kind, p, around, all, out, i);
       }
     }
   }
