@@ -83,7 +83,8 @@ EnvironmentRays::Hemisphere::Hemisphere(const EnvironmentRays& rays, float3 norm
 float3 EnvironmentRays::Hemisphere::next() {
   constexpr std::uint32_t golden = 2654435769u;  // 2^32 divided by the golden ratio
   while (ring_ + 1 < rings && before_ + sum_[ring_] <= target_) before_ += sum_[ring_++];
-  const float across = std::clamp((target_ - before_) / sum_[ring_], 0.0f, 1.0f);
+  // By rounding, the last of the targets may lie behind the last ring with light.
+  const float sum = sum_[ring_], across = sum > 0 ? std::clamp((target_ - before_) / sum, 0.0f, 1.0f) : 0.5f;
   float along = unit_float(turn_) * sum_[ring_];
   target_ += step_, turn_ += golden;
 

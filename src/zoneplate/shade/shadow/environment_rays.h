@@ -19,8 +19,9 @@ namespace zoneplate {
 /// across the rings, then along each ring. Under light from all sides alike it stays as it is.
 ///
 /// Exact     the same bits for any number of threads and any instruction set.
-/// Source    the octahedron: Praun and Hoppe, Spherical Parametrization and Remeshing, SIGGRAPH 2003; importance sampling by marginal and conditional distributions: Pharr, Jakob and Humphreys, Physically Based
-///           Rendering, 4th edition, A.5.
+/// Source    the octahedron: Praun and Hoppe, Spherical Parametrization and Remeshing, SIGGRAPH 2003; importance sampling
+///           by marginal and conditional distributions: Pharr, Jakob and Humphreys, Physically Based Rendering, 4th
+///           edition, A.5.
 class EnvironmentRays {
  public:
   static constexpr int rings = 16, sectors = 32;
