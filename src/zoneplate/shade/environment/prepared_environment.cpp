@@ -98,8 +98,8 @@ std::vector<BorderedCube> filtered(const LightTree& tree, const Lobes& lobes, in
   return out;
 }
 
-/// True if a texel exceeds its neighbours by so many times the mean radiance that maps of the image's texels would be
-/// some percent off for lobes of about their width (docs/environment.md).
+/// True if the radiance of a texel exceeds that of its neighbours by `limit` times the mean radiance. Maps with the
+/// image's texels would then have errors of some percent for lobes of about a texel's width (docs/environment.md).
 bool has_sharp_lights(const LightTree& tree) {
   constexpr float limit = 64;
   const auto power = [&](int face, int x, int y) {
