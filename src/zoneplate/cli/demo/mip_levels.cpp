@@ -150,8 +150,8 @@ Lesson make(const DemoSize& size, const Settings& settings) {
                             "--aov anisotropy\nThe footprint's length over its width: towards the horizon, where no "
                             "square level fits; pale is 16 and more."});
 
-  const auto board = [&](const char* filter, MipFilter mips) {
-    return shown(shoot(scene, "none",
+  const auto board = [&](const char* filter, MipFilter mips, const char* method = "none") {
+    return shown(shoot(scene, method,
                        RenderOptions{.width = side, .height = side, .texture_filter = parse_texture_filter(filter)},
                        {.filter = mips}));
   };
@@ -162,6 +162,8 @@ Lesson make(const DemoSize& size, const Settings& settings) {
   figure.rows[1].push_back(
       {board("trilinear", MipFilter::Kaiser),
        "Kaiser levels\nA wider filter with negative lobes keeps more contrast: --mip-filter kaiser."});
+  figure.rows[1].push_back({board("bilinear", MipFilter::Box, "ssaa:samples=256"),
+                            "256 samples a pixel\nThe reference, without levels: what an ideal filter keeps."});
 
   const TexelImage blades = grass();
   const Scene hedges = receding(blades, cutoff);
@@ -177,6 +179,10 @@ Lesson make(const DemoSize& size, const Settings& settings) {
                             "Coverage kept\nAlpha is scaled level by level (--mip-filter box:alpha=coverage): " +
                                 coverage_text(Texture(blades, TexelMeaning::Color, {.kept_cutoff = cutoff}), cutoff) +
                                 "."});
+  figure.rows[2].push_back(
+      {view("msaa:n=8,alpha=samples", small, true),
+       "Tested at 8 samples\nThe default method tests alpha at each sample: edges are as smooth as "
+       "those of triangles."});
   figure.rows[2].push_back({view("ssaa:samples=256", small, false), "256 samples a pixel\nThe reference."});
   figure.text =
       "Levels are made in linear light, as light adds up. Source of the pyramid: Williams, Pyramidal Parametrics, "

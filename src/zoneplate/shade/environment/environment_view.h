@@ -14,7 +14,7 @@ namespace zoneplate {
 ///           of the radiance weighted by the cosine, irradiance / π, and is a spline of its own.
 /// Range     finite; the spline is at least 0 but for its error.
 struct EnvironmentView {
-  static constexpr int max_levels = 24, faces = 6;
+  static constexpr int max_levels = 28, faces = 6;
   const float* texels = nullptr;             ///< null: no environment; one float after the last texel is readable
   std::int32_t levels = 0;                   ///< at least 4
   std::int32_t side[max_levels + 1] = {};    ///< of a face, without its border

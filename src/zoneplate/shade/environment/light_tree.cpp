@@ -5,30 +5,24 @@
 #include <cmath>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/math/basis.h"
 
 namespace zoneplate {
 namespace {
 
 using Node = LightTree::Node;
+using Squares = LightTree::Squares;
 
 float3 direction_of(const Node& n) { return {n.direction[0], n.direction[1], n.direction[2]}; }
 
-float3 centre_of(const Node& n) { return {n.centre[0], n.centre[1], n.centre[2]}; }
+/// The coordinates of a vector near the plane of a basis.
+struct Coordinates {
+  float x, y;
+};
+Coordinates along(const Basis& basis, float3 v) { return {dot(basis.first, v), dot(basis.second, v)}; }
 
-void set(float (&to)[3], float3 v) { to[0] = v.x, to[1] = v.y, to[2] = v.z; }
-
-/// The even light from the square of a face about a point, with sides of this width.
-Node square(int face, float s, float t, float width, float3 radiance) {
-  const float3 p = cube::point(face, s, t);
-  const float distance2 = dot(p, p), distance = std::sqrt(distance2);
-  Node out{};
-  // The area over the cube of the distance.
-  out.solid_angle = width * width / (distance2 * distance);
-  out.spread = out.even_spread = out.solid_angle / 12;
-  out.prominence = out.fineness = 1;
-  set(out.direction, p * (1 / distance));
-  set(out.light, radiance * out.solid_angle);
-  return out;
+void add_product(Squares& to, Coordinates a, Coordinates b, float weight) {
+  to.xx += a.x * b.x * weight, to.xy += (a.x * b.y + a.y * b.x) * 0.5f * weight, to.yy += a.y * b.y * weight;
 }
 
 /// The weights of three control points in the mean of the quadratic B-spline over a part of a texel, and in its first
@@ -72,9 +66,6 @@ PartMoments moments_of(const BorderedCube& points, int face, int x, int y, const
   return out;
 }
 
-/// The part of a vector that is perpendicular to a unit vector.
-float3 tangential(float3 v, float3 direction) { return v - direction * dot(v, direction); }
-
 float sum_of(float3 c) { return c.x + c.y + c.z; }
 float power(const Node& n) { return n.light[0] + n.light[1] + n.light[2]; }
 
@@ -83,42 +74,80 @@ Node node_of(const BorderedCube& texels, int parts, int face, int x, int y) {
   const PartWeights* const weights = part_weights.of + parts - 1;
   const PartMoments moments = moments_of(texels, face, x / parts, y / parts, weights[x % parts], weights[y % parts]);
   const int side = texels.side * parts;
-  const float s = cube::centre(x, side), t = cube::centre(y, side), total = sum_of(moments.mean);
-  Node out = square(face, s, t, 2 / static_cast<float>(side), moments.mean);
-  if (!(total > 0)) return out;
-  const float width_over_total = 2 / (static_cast<float>(texels.side) * total);
-  const float3 of_light =
-      cube::point(face, s + sum_of(moments.along_s) * width_over_total, t + sum_of(moments.along_t) * width_over_total);
-  const float inverse = 1 / std::sqrt(dot(of_light, of_light));
+  const float s = cube::centre(x, side), t = cube::centre(y, side), width = 2 / static_cast<float>(side);
+  const float3 middle = cube::point(face, s, t);
+  const float texel = 2 / static_cast<float>(texels.side), total = sum_of(moments.mean);
+  const auto at = [&](float along_s, float along_t) {
+    return cube::point(face, s + along_s * texel, t + along_t * texel);
+  };
+  const float3 of_light = total > 0 ? at(sum_of(moments.along_s) / total, sum_of(moments.along_t) / total) : middle;
+  const float inverse = 1 / std::sqrt(dot(of_light, of_light)), inverse_of_middle = 1 / std::sqrt(dot(middle, middle));
+
+  Node out{};
   const float3 direction = of_light * inverse;
-  set(out.direction, direction);
-  set(out.centre, tangential((cube::point(face, s, t) - of_light) * inverse, direction));
+  out.direction[0] = direction.x, out.direction[1] = direction.y, out.direction[2] = direction.z;
+  const Basis basis(direction);
+  // The area over the cube of the distance.
+  out.solid_angle = width * width * (inverse_of_middle * inverse_of_middle * inverse_of_middle);
+  const Coordinates s_axis = along(basis, (at(1, 0) - at(0, 0)) * inverse),
+                    t_axis = along(basis, (at(0, 1) - at(0, 0)) * inverse);
+  const Coordinates to_middle = along(basis, (middle - of_light) * inverse);
+  const auto set = [&](int channel, float mean, float along_s, float along_t) {
+    out.light[channel] = mean * out.solid_angle;
+    out.first[channel][0] = (to_middle.x * mean + s_axis.x * along_s + t_axis.x * along_t) * out.solid_angle;
+    out.first[channel][1] = (to_middle.y * mean + s_axis.y * along_s + t_axis.y * along_t) * out.solid_angle;
+  };
+  set(0, moments.mean.x, moments.along_s.x, moments.along_t.x);
+  set(1, moments.mean.y, moments.along_s.y, moments.along_t.y);
+  set(2, moments.mean.z, moments.along_s.z, moments.along_t.z);
+  out.centre[0] = to_middle.x, out.centre[1] = to_middle.y;
+  const float variance = 1 / static_cast<float>(12 * parts * parts);
+  add_product(out.of_light, s_axis, s_axis, variance);
+  add_product(out.of_light, t_axis, t_axis, variance);
+  out.of_angle = out.of_light;
+  add_product(out.of_angle, to_middle, to_middle, 1);
+  out.prominence = out.fineness = 1;
   return out;
 }
 
 Node sum(const Node* const (&parts)[4]) {
   Node all{};
   float total = 0;
-  for (const Node* part : parts) total += power(*part);
-  const auto weight = [&](const Node& part) { return total > 0 ? power(part) : part.solid_angle; };
-  float3 mean{0, 0, 0}, even_mean{0, 0, 0};
-  float weights = 0;
   for (const Node* part : parts) {
-    all.solid_angle += part->solid_angle;
+    total += power(*part);
     for (int c = 0; c < 3; ++c) all.light[c] += part->light[c];
-    mean = mean + direction_of(*part) * weight(*part);
-    weights += weight(*part);
-    even_mean = even_mean + (direction_of(*part) + centre_of(*part)) * part->solid_angle;
+    all.solid_angle += part->solid_angle;
   }
-  even_mean = even_mean * (1 / all.solid_angle);
+  const auto part_of_angle = [&](const Node& part) { return part.solid_angle / all.solid_angle; };
+  const auto weight = [&](const Node& part) { return total > 0 ? power(part) / total : part_of_angle(part); };
+  float3 mean{0, 0, 0};
+  for (const Node* part : parts) mean = mean + direction_of(*part) * weight(*part);
   const float3 direction = normalize(mean);
+  all.direction[0] = direction.x, all.direction[1] = direction.y, all.direction[2] = direction.z;
+  const Basis basis(direction);
   for (const Node* part : parts) {
-    const float3 away = direction_of(*part) - direction, even_away = direction_of(*part) + centre_of(*part) - even_mean;
-    all.spread += (part->spread + dot(away, away) * 0.5f) * (weight(*part) / weights);
-    all.even_spread += (part->even_spread + dot(even_away, even_away) * 0.5f) * (part->solid_angle / all.solid_angle);
+    const Basis own(direction_of(*part));
+    const Coordinates away = along(basis, direction_of(*part) - direction), x = along(basis, own.first),
+                      y = along(basis, own.second);
+    for (int c = 0; c < 3; ++c) {
+      const float* const first = part->first[c];
+      all.first[c][0] += away.x * part->light[c] + x.x * first[0] + y.x * first[1];
+      all.first[c][1] += away.y * part->light[c] + x.y * first[0] + y.y * first[1];
+    }
+    const float weight_of_angle = part_of_angle(*part);
+    const Coordinates centre{x.x * part->centre[0] + y.x * part->centre[1],
+                             x.y * part->centre[0] + y.y * part->centre[1]};
+    all.centre[0] += (away.x + centre.x) * weight_of_angle, all.centre[1] += (away.y + centre.y) * weight_of_angle;
+    const auto add = [&](Squares& to, const Squares& squares, float part_of_all) {
+      add_product(to, x, x, squares.xx * part_of_all);
+      add_product(to, x, y, 2 * squares.xy * part_of_all);
+      add_product(to, y, y, squares.yy * part_of_all);
+      add_product(to, away, away, part_of_all);
+    };
+    add(all.of_light, part->of_light, weight(*part));
+    add(all.of_angle, part->of_angle, weight_of_angle);
+    add_product(all.of_angle, away, centre, 2 * weight_of_angle);
   }
-  set(all.direction, direction);
-  set(all.centre, tangential(even_mean - direction, direction));
   return all;
 }
 
@@ -138,11 +167,11 @@ float3 LightTree::mean() const {
 void LightTree::weigh(Node& n) const {
   // The lobe's expansion over a node has terms of the second order, so that nodes whose light is on one side need the
   // most detail.
-  constexpr float one_sided = 8;
+  constexpr float one_sided = 4;
   n.prominence = std::sqrt(std::max(power(n) / (n.solid_angle * mean_power), 1.0f));
-  const float eighth_root = std::sqrt(std::sqrt(n.prominence));
-  n.fineness = eighth_root +
-               one_sided * (eighth_root * eighth_root) * std::sqrt(dot(centre_of(n), centre_of(n)) / n.solid_angle);
+  const float eighth_root = std::sqrt(std::sqrt(n.prominence)), x = n.centre[0], y = n.centre[1];
+  const float shift = std::sqrt((x * x + y * y) / n.solid_angle);
+  n.fineness = eighth_root + one_sided * (eighth_root * eighth_root) * shift;
 }
 
 LightTree::Node LightTree::part(int parts, int face, int x, int y) const {

@@ -10,16 +10,23 @@ namespace zoneplate {
 
 /// The light of a cube map as a quadtree on each face: each node has the light of the four below it, and its moments,
 /// so that an integral over all directions needs small nodes only where its weight changes quickly.
+///
+/// Each channel has first moments of its own: where a lamp and its surroundings differ in colour, so do the centroids
+/// of the channels.
 struct LightTree {
+  /// Means of the products of two coordinates.
+  struct Squares {
+    float xx, xy, yy;
+  };
   struct Node {
-    float direction[3];  ///< unit; the mean of the directions, weighted by the light from them
+    float direction[3];  ///< unit; the mean of the directions, weighted by the sum of the channels
+    float light[3];      ///< radiance × solid angle
+    float first[3][2];   ///< first moments of that about `direction`, along the vectors of Basis(direction)
     float solid_angle;
-    float light[3];     ///< radiance × solid angle
-    float spread;       ///< variance of the directions along one axis, weighted by the light
-    float centre[3];    ///< from `direction` to the unweighted mean of the directions, perpendicular to `direction`
-    float even_spread;  ///< the unweighted variance about that along one axis
-    float prominence;   ///< the root of its radiance relative to the mean over all directions, at least 1
-    float fineness;     ///< by which its distance from a direction counts less, rising with that and with `centre`
+    float centre[2];             ///< the unweighted mean of the directions, in the same coordinates
+    Squares of_light, of_angle;  ///< second moments about `direction`, weighted by the sum of the channels, unweighted
+    float prominence;            ///< the root of its radiance relative to the mean over all directions, at least 1
+    float fineness;  ///< by which its distance from a direction counts less, rising with that and with `centre`
   };
   int side = 0;             ///< nodes along an edge of the finest level, a power of two
   std::vector<Node> nodes;  ///< by level, from one node a face to `side` × `side`; then by face and row

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "zoneplate/math/basis.h"
 #include "zoneplate/math/lanes_vector.h"
 #include "zoneplate/shade/environment/prefilter.h"
 
@@ -28,6 +29,18 @@ struct Cone {
   return {centre, std::sqrt(square)};
 }
 
+/// Where a node is: the centroid of its light with a basis, and that of its directions.
+struct NodePlace {
+  float3 of_light;
+  Basis basis;
+  float3 of_angle;
+
+  [[gnu::always_inline]] explicit NodePlace(const LightTree::Node& node)
+      : of_light{node.direction[0], node.direction[1], node.direction[2]},
+        basis(of_light),
+        of_angle(of_light + basis.first * node.centre[0] + basis.second * node.centre[1]) {}
+};
+
 /// Which nodes are divided.
 struct Division {
   Cone cone;
@@ -50,9 +63,8 @@ struct Division {
     float distance2;  ///< if neither, it is divided where a direction is nearer than this, by its square
   };
 
-  [[gnu::always_inline]] Limits limits(const LightTree::Node& node, float width) const {
-    const float3 away = float3{node.direction[0], node.direction[1], node.direction[2]} - cone.centre;
-    const float3 from_middle = away + float3{node.centre[0], node.centre[1], node.centre[2]};
+  [[gnu::always_inline]] Limits limits(const LightTree::Node& node, const NodePlace& place, float width) const {
+    const float3 away = place.of_light - cone.centre, from_middle = place.of_angle - cone.centre;
     const float distance = std::sqrt(dot(away, away)) - cone.radius;
     const float nearer = std::min(distance, std::sqrt(dot(from_middle, from_middle)) - cone.radius);
     // A node is at most √2 widths long.
@@ -72,6 +84,14 @@ struct LobeSums {
   Vector<F> direction[vectors], light[N][vectors];
   F weight[N][vectors], alpha2[N];
 
+  /// Of a node's second moments: the mean square along n, over 4, and the mean of |δ|² / 2.
+  struct Moments {
+    F xx, xy, yy, mean;
+    explicit Moments(const LightTree::Squares& s)
+        : xx(s.xx * 0.25f), xy(s.xy * 0.5f), yy(s.yy * 0.25f), mean((s.xx + s.yy) * 0.5f) {}
+    F square(F along_xx, F along_xy, F along_yy) const { return xx * along_xx + xy * along_xy + yy * along_yy; }
+  };
+
   LobeSums(const DirectionBlock& b, const Lobes& lobes) {
     for (int k = 0; k < vectors; ++k)
       direction[k] = {F::load(b.x + k * F::lanes), F::load(b.y + k * F::lanes), F::load(b.z + k * F::lanes)};
@@ -81,12 +101,14 @@ struct LobeSums {
     }
   }
 
+  [[gnu::always_inline]] static Vector<F> broadcast(float3 v) { return {F(v.x), F(v.y), F(v.z)}; }
+
   /// True if a direction of the block is nearer to a node than this distance, by its square.
-  [[gnu::always_inline]] bool is_near(const LightTree::Node& node, float square) const {
-    const auto l = Vector<F>::all(node.direction), centre = Vector<F>::all(node.centre);
+  [[gnu::always_inline]] bool is_near(const NodePlace& node, float square) const {
+    const Vector<F> l = broadcast(node.of_light), middle = broadcast(node.of_angle);
     bool is_far = true;
     for (int k = 0; k < vectors; ++k) {
-      const Vector<F> away = direction[k] - l, from_middle = away - centre;
+      const Vector<F> away = direction[k] - l, from_middle = direction[k] - middle;
       is_far = is_far && all(min(dot(away, away), dot(from_middle, from_middle)) >= F(square));
     }
     return !is_far;
@@ -96,25 +118,30 @@ struct LobeSums {
   ///
   /// The mean of the lobe K over a node of directions l + δ is K + K' m + K'' v / 2, where m and v are the mean and the
   /// mean square of -n·δ / 2. For K = c / d², d = u + α² (1 - u), with b = (1 - α²) / d and e = 1 + b c, K' is
-  /// -2 e / d² and K'' is 2 b (3 e + 1) / d².
-  [[gnu::always_inline]] void add(const LightTree::Node& node) {
-    const auto l = Vector<F>::all(node.direction), light_of_node = Vector<F>::all(node.light),
-               centre = Vector<F>::all(node.centre);
-    const F angle(node.solid_angle), one(1.0f), zero(0.0f), quarter(0.25f);
-    const F spread(node.spread), even_spread(node.even_spread);
+  /// -2 e / d² and K'' is 2 b (3 e + 1) / d². The part of δ that is perpendicular to l gives m the first moments, each
+  /// channel's its own, and the part along l, -|δ|² / 2, gives it the trace of the second ones.
+  [[gnu::always_inline]] void add(const LightTree::Node& node, const NodePlace& place) {
+    const Vector<F> l = broadcast(place.of_light), x_axis = broadcast(place.basis.first),
+                    y_axis = broadcast(place.basis.second), light_of_node = Vector<F>::all(node.light);
+    const F one(1.0f), zero(0.0f), quarter(0.25f), angle(node.solid_angle);
+    const Moments of_light(node.of_light), of_angle(node.of_angle);
     for (int k = 0; k < vectors; ++k) {
       const Vector<F> away = direction[k] - l;
       const F u = dot(away, away) * quarter, rest = one - u, cosine = one - (u + u);
-      const F shift = dot(away, centre), bend = u * rest;
-      const F square = bend * spread, mean = cosine * spread;
-      const F even_square = bend * even_spread + shift * shift * quarter, even_mean = cosine * even_spread - shift;
+      const F x = dot(away, x_axis), y = dot(away, y_axis), xx = x * x, xy = x * y, yy = y * y;
+      const F square = of_light.square(xx, xy, yy), mean = of_light.mean * cosine;
+      const auto shift = [&](const float(&first)[2]) { return x * F(first[0]) + y * F(first[1]); };
+      const Vector<F> shift_of_light{shift(node.first[0]), shift(node.first[1]), shift(node.first[2])};
+      const F square_of_angle = of_angle.square(xx, xy, yy),
+              mean_of_angle = of_angle.mean * cosine - shift(node.centre);
       const auto is_above = cosine > zero;
       for (int a = 0; a < N; ++a) {
         const F inverse = one / (u + alpha2[a] * rest), b = (one - alpha2[a]) * inverse;
         const F slope = one + b * cosine, scale = select(is_above, inverse * inverse, zero);
-        const F second = b * (F(3.0f) * slope + one);
-        light[a][k] = light[a][k] + light_of_node * (scale * (cosine + second * square - slope * mean));
-        weight[a][k] = weight[a][k] + angle * (scale * (cosine + second * even_square - slope * even_mean));
+        const F second = b * (F(3.0f) * slope + one), scaled_slope = scale * slope;
+        light[a][k] = light[a][k] + light_of_node * (scale * (cosine + second * square - slope * mean)) +
+                      shift_of_light * scaled_slope;
+        weight[a][k] = weight[a][k] + angle * (scale * (cosine + second * square_of_angle - slope * mean_of_angle));
       }
     }
   }
@@ -148,12 +175,13 @@ void filter_lobes(const LightTree& tree, const Lobes& lobes, const DirectionBloc
     LightTree::Node part;
     if (p.side > tree.side) part = tree.part(p.side / tree.side, p.face, p.x, p.y);
     const LightTree::Node& node = p.side > tree.side ? part : tree.node(p.side, p.face, p.x, p.y);
-    const auto limits = division.limits(node, 2 / static_cast<float>(p.side));
+    const NodePlace place(node);
+    const auto limits = division.limits(node, place, 2 / static_cast<float>(p.side));
     if (limits.is_below) continue;
     const bool is_divided =
-        p.side < finest && (limits.is_divided || (!limits.is_whole && sums.is_near(node, limits.distance2)));
+        p.side < finest && (limits.is_divided || (!limits.is_whole && sums.is_near(place, limits.distance2)));
     if (!is_divided) {
-      sums.add(node);
+      sums.add(node, place);
       continue;
     }
     for (int k = 3; k >= 0; --k) stack[depth++] = {2 * p.side, p.face, 2 * p.x + k % 2, 2 * p.y + k / 2};

@@ -27,7 +27,8 @@ class Levels {
   Levels(int side, bool has_sharp_lights)
       : side_(side),
         narrowest_(std::min(side, 256)),
-        largest_(has_sharp_lights ? std::min(narrowest_ * 3 / 2, 320) : narrowest_),
+        largest_(has_sharp_lights ? std::min(narrowest_ * 2, 320) : narrowest_),
+        smallest_(has_sharp_lights ? 64 : 48),
         per_alpha_(has_sharp_lights ? 3.3f : 2.86f),
         sharpness_(4.0f * static_cast<float>(narrowest_ * narrowest_)) {
     const float octaves = log2(1 + sharpness_);
@@ -43,8 +44,7 @@ class Levels {
   int side(int level) const {
     if (level == 0) return side_;
     if (level < 3) return narrowest_;
-    constexpr int least = 48;
-    return std::min(largest_, std::max(least, static_cast<int>(per_alpha_ / alpha(level)) / 4 * 4 + 4));
+    return std::min(largest_, std::max(smallest_, static_cast<int>(per_alpha_ / alpha(level)) / 4 * 4 + 4));
   }
   /// Of the levels, and of irradiance after them; returns the number of texels.
   std::size_t lay_out(EnvironmentView& view) const {
@@ -63,9 +63,10 @@ class Levels {
   }
 
  private:
-  static constexpr float density = 1.22f;  ///< least number of levels per octave of α²
-  int side_, narrowest_, largest_;         ///< of level 0, of the next two, and the greatest of the others
-  float per_alpha_;                        ///< texels of a level times its α, where there are as many
+  static constexpr float density = 1.4f;  ///< least number of levels per octave of α²
+  int side_, narrowest_;                  ///< of level 0, of the next two
+  int largest_, smallest_;                ///< the limits of the others
+  float per_alpha_;                       ///< texels of a level times its α, where there are as many
   int count_;
   float sharpness_, per_octave_;
 };
@@ -120,7 +121,7 @@ bool has_sharp_lights(const LightTree& tree) {
 /// The lobes of a level and those after it that share its cube map's size.
 Lobes lobes_from(const Levels& levels, int level) {
   // Errors of whole texels vanish in lobes of about their size.
-  constexpr float coarse = 0.7f, fine = 0.48f;
+  constexpr float coarse = 0.85f, fine = 0.58f;
   Lobes lobes{{levels.alpha(level)}, 1, levels.alpha(level) * static_cast<float>(levels.side(0)) < 4 ? coarse : fine};
   while (lobes.count < Lobes::most && level + lobes.count < levels.count() &&
          levels.side(level + lobes.count) == levels.side(level))
@@ -189,7 +190,7 @@ float3 control_point(int level, int levels, const At& at) {
 }
 
 /// A change of the filter changes its version.
-constexpr char magic[8] = {'z', 'p', 'e', 'n', 'v', '0', '0', '7'};
+constexpr char magic[8] = {'z', 'p', 'e', 'n', 'v', '0', '0', '8'};
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "zoneplate/math/basis.h"
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/math/vec.h"
@@ -125,15 +126,9 @@ class TurnedSpiral {
 };
 
 /// Directions about a unit axis.
-/// Source    the basis: Duff et al., Building an Orthonormal Basis, Revisited, JCGT 2017.
 class DirectionsAbout {
  public:
-  explicit DirectionsAbout(float3 axis) : axis_(axis) {
-    const float sign = axis.z < 0 ? -1.0f : 1.0f;
-    const float a = -1 / (sign + axis.z), b = axis.x * axis.y * a;
-    first_ = {1 + sign * axis.x * axis.x * a, sign * b, -sign * axis.x};
-    second_ = {b, sign + axis.y * axis.y * a, -axis.y};
-  }
+  explicit DirectionsAbout(float3 axis) : axis_(axis), basis_(axis) {}
 
   /// Uniform in solid angle over the cone of the directions whose cosine with the axis is at least 1 - height.
   float3 of_cone(const ShiftedDisc::Point& p, float height) const {
@@ -143,13 +138,14 @@ class DirectionsAbout {
   /// Density proportional to the cosine with the axis.
   float3 of_cosine(const ShiftedDisc::Point& p) const { return at(std::sqrt(p.square), std::sqrt(1 - p.square), p); }
   /// A direction about +z, turned to the axis.
-  float3 turned(float3 d) const { return first_ * d.x + second_ * d.y + axis_ * d.z; }
+  float3 turned(float3 d) const { return basis_.first * d.x + basis_.second * d.y + axis_ * d.z; }
 
  private:
   float3 at(float sine, float cosine, const ShiftedDisc::Point& p) const {
-    return first_ * (sine * p.cosine) + second_ * (sine * p.sine) + axis_ * cosine;
+    return basis_.first * (sine * p.cosine) + basis_.second * (sine * p.sine) + axis_ * cosine;
   }
-  float3 axis_, first_, second_;
+  float3 axis_;
+  Basis basis_;
 };
 
 }  // namespace zoneplate
