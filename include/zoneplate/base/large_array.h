@@ -55,17 +55,23 @@ class LargeArray {
     array.size_ = count;
     return array;
   }
+  /// Copies the elements.
   LargeArray(const LargeArray& other) : LargeArray(unset(other.size_)) { std::copy_n(other.data(), size_, data()); }
+  /// Takes the memory of the other array, which is empty afterwards.
   LargeArray(LargeArray&& other) noexcept { swap(other); }
+  /// Replaces the elements by those of a copy or of a moved array.
   LargeArray& operator=(LargeArray other) noexcept {
     swap(other);
     return *this;
   }
   ~LargeArray() = default;
 
+  /// The first element; null if the array is empty.
   T* data() { return data_.get(); }
-  const T* data() const { return data_.get(); }
+  const T* data() const { return data_.get(); }  ///< the same
+  /// The number of elements.
   std::size_t size() const { return size_; }
+  /// Whether both arrays have the same size and equal elements.
   bool operator==(const LargeArray& other) const {
     return size_ == other.size_ && std::equal(data(), data() + size_, other.data());
   }
