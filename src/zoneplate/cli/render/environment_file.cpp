@@ -40,7 +40,7 @@ Map read_cached(const std::string& path) {
   std::error_code ignored;
   if (path.empty() || !fs::is_regular_file(path, ignored)) return nullptr;
   try {
-    const FileBytes file(path, most_environment_bytes);
+    const FileBytes file(path, PreparedEnvironment::most_bytes());
     std::optional<PreparedEnvironment> found = PreparedEnvironment::from_bytes(file.bytes());
     return found ? std::make_shared<const PreparedEnvironment>(std::move(*found)) : nullptr;
   } catch (const Error&) {

@@ -32,9 +32,6 @@ void store_environment(const std::string& path, std::span<const std::uint8_t> by
 void trim_cache(const std::string& folder, std::uint64_t most);
 inline constexpr std::uint64_t most_cache_bytes = std::uint64_t{256} << 20;
 
-/// The greatest number of bytes of a prepared environment.
-inline constexpr std::uint64_t most_environment_bytes = std::uint64_t{1} << 26;
-
 /// The environments of an item's process.
 class Environments {
  public:

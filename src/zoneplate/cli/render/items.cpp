@@ -10,6 +10,7 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/cli/render/film.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/shade/environment/prepared_environment.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -83,7 +84,7 @@ Summary RenderItems::next() {
   };
 
   events.environment = [&](std::uint64_t key, std::uint64_t size, const ItemEvents::Read& read) {
-    if (args.cache.empty() || size > most_environment_bytes)
+    if (args.cache.empty() || size > PreparedEnvironment::most_bytes())
       throw Error(ErrorKind::Failed, args.input + ": an environment that no cache takes");
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
     read(bytes);

@@ -273,7 +273,7 @@ std::optional<PreparedEnvironment> PreparedEnvironment::from_bytes(std::span<con
   std::memcpy(&header, bytes.data(), sizeof header);
   const std::span texels = bytes.subspan(sizeof header);
   if (!std::equal(std::begin(magic), std::end(magic), header.magic)) return std::nullopt;
-  if (header.side < 32 || header.side > 512 || (header.side & (header.side - 1)) != 0) return std::nullopt;
+  if (header.side < 32 || header.side > largest_side || (header.side & (header.side - 1)) != 0) return std::nullopt;
   PreparedEnvironment out;
   const std::size_t floats = 3 * Levels(header.side, header.has_sharp_lights != 0).lay_out(out.view_) + 1;
   if (texels.size() != floats * sizeof(float) || content_hash(texels) != header.hash) return std::nullopt;
@@ -281,6 +281,11 @@ std::optional<PreparedEnvironment> PreparedEnvironment::from_bytes(std::span<con
   std::memcpy(out.texels_.data(), texels.data(), texels.size());
   out.mean_ = header.mean, out.greatest_ = header.greatest, out.has_sharp_lights_ = header.has_sharp_lights != 0;
   return out;
+}
+
+std::size_t PreparedEnvironment::most_bytes() {
+  EnvironmentView view;
+  return sizeof(Header) + (3 * Levels(largest_side, true).lay_out(view) + 1) * sizeof(float);
 }
 
 std::uint64_t content_hash(std::span<const std::uint8_t> bytes) {

@@ -21,9 +21,11 @@ struct Environment;
 /// Exact     the same bits for any number of threads and any instruction set.
 class PreparedEnvironment {
  public:
+  static constexpr int largest_side = 512;
+
   /// `progress` takes the fraction that is complete, in [0, 1].
   ///
-  /// Requires  the side is a power of two from 32 to 512.
+  /// Requires  the side is a power of two from 32 to largest_side.
   explicit PreparedEnvironment(const CubeImage& cube, const std::function<void(double)>& progress = {});
 
   /// The radiance multiplied and turned as `environment` says; its image is this one.
@@ -33,6 +35,8 @@ class PreparedEnvironment {
   std::vector<std::uint8_t> bytes() const;
   /// The environment of such bytes; nothing where they are damaged or of another version.
   static std::optional<PreparedEnvironment> from_bytes(std::span<const std::uint8_t> bytes);
+  /// The greatest number of them.
+  static std::size_t most_bytes();
 
   /// The mean radiance over all directions, and the greatest of each channel, both without the factors of a view.
   float3 mean() const { return mean_; }

@@ -356,6 +356,16 @@ TEST(PreparedEnvironment, DoesNotDependOnThreads) {
   EXPECT_EQ(found[0], found[1]);
 }
 
+TEST(PreparedEnvironment, TheLargestHasTheMostBytes) {
+  constexpr int side = PreparedEnvironment::largest_side;
+  CubeImage cube{side, std::vector<float3>(cube::faces * side * side, float3{1, 1, 1})};
+  cube.texels[cube.index(2, 300, 200)] = {8000, 8000, 8000};
+  const PreparedEnvironment environment(cube);
+  const std::vector<std::uint8_t> bytes = environment.bytes();
+  EXPECT_EQ(bytes.size(), PreparedEnvironment::most_bytes());
+  EXPECT_TRUE(PreparedEnvironment::from_bytes(bytes).has_value());
+}
+
 TEST(PreparedEnvironment, ConstantLightStaysConstant) {
   const TexelImage image = Plane<float4>(64, 32, {0.5f, 1, 2, 1});
   const PreparedEnvironment environment = prepare_equirectangular(image);
