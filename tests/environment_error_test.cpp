@@ -245,7 +245,7 @@ TEST(EnvironmentError, DISABLED_OfPhotographsAndSuns) {
     for (std::size_t i = 0; i < errors.size(); ++i)
       EXPECT_TRUE(roughnesses[i] < least || errors[i] < bound) << roughnesses[i] << ": " << errors[i];
   };
-  // Lobes of a roughness of `least` are wider than a texel.
+  // From a roughness of `least` on, the maps resolve the lobes beside the brightest texel.
   const auto measure = [&](const std::string& name, const CubeImage& cube, const TexelImage* image,
                            float least = 0.1f) {
     const PreparedEnvironment environment(cube);

@@ -104,7 +104,7 @@ Lesson make(const DemoSize& size, const Settings& settings) {
       fmt::format("Bump mapping\nThe gradient of the heights turns the normal while shading. {} triangles.",
                   counted(before)),
       "The studs are shaded, but the outline stays a circle, and no stud hides another. Where a normal turns away "
-      "from the viewer, the Fresnel term mirrors grey surroundings.");
+      "from the viewer, Fresnel reflection of the grey surroundings replaces the colour.");
   add(parallax, "Parallax occlusion\nThe viewing ray is followed down to the height map, and coordinates are shifted.",
       "Studs hide each other; the outline is still a circle.");
   add(displaced,
