@@ -2,6 +2,7 @@
 #include "zoneplate/shade/shadow/traced_visibility.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -70,7 +71,7 @@ TracedVisibility::TracedVisibility(const Bvh& bvh, const OpacityOfHits& opacity,
       shadows_(shadows),
       occlusion_(occlusion),
       lattice_(shadows.method == ShadowMethod::Soft ? shadows.samples : 0),
-      spiral_(occlusion.samples),
+      hemisphere_(occlusion.samples),
       kernels_(RayKernels::of()) {
   if (environment != nullptr && occlusion.samples > 0) environment_.emplace(*environment);
   if (environment_ && environment_->is_uniform()) environment_.reset();
@@ -134,20 +135,13 @@ void TracedVisibility::of_light(int k, const Receivers& receivers, float* visibl
 
 /// The mean over directions of a density proportional to the cosine.
 float TracedVisibility::of_uniform_light(const Receivers& receivers, int i, float3 origin) const {
-  Ray rays[chunk];
-  float seen[chunk];
-  const TurnedSpiral disc(spiral_, receivers.seed[i], 0);
   const DirectionsAbout directions(at(receivers.normal, i));
-  float sum = 0;
-  for (int first = 0; first < occlusion_.samples; first += chunk) {
-    const int count = std::min(chunk, occlusion_.samples - first);
-    for (int s = 0; s < count; ++s)
-      rays[s] =
-          make_ray(origin, directions.of_cosine(disc(static_cast<std::uint32_t>(first + s))), occlusion_.distance);
-    kernels_.visibility(bvh_, rays, static_cast<std::size_t>(count), opacity_, seen);
-    for (int s = 0; s < count; ++s) sum += seen[s];
-  }
-  return sum / static_cast<float>(occlusion_.samples);
+  const auto see = [&](const ShiftedDisc::Point* points, int count, float* visible) {
+    Ray rays[chunk];
+    for (int s = 0; s < count; ++s) rays[s] = make_ray(origin, directions.of_cosine(points[s]), occlusion_.distance);
+    kernels_.visibility(bvh_, rays, static_cast<std::size_t>(count), opacity_, visible);
+  };
+  return hemisphere_.mean(receivers.seed[i], std::ref(see));
 }
 
 /// The mean over equal parts of the environment's irradiance.

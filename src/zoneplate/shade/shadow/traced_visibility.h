@@ -7,6 +7,7 @@
 #include "zoneplate/ray/trace.h"
 #include "zoneplate/scene/light.h"
 #include "zoneplate/shade/environment/environment_view.h"
+#include "zoneplate/shade/shadow/adaptive_disc.h"
 #include "zoneplate/shade/shadow/disc_samples.h"
 #include "zoneplate/shade/shadow/environment_rays.h"
 #include "zoneplate/shade/shadow/light_visibility.h"
@@ -51,7 +52,7 @@ class TracedVisibility : public LightVisibility {
   OcclusionOptions occlusion_;
   std::optional<EnvironmentRays> environment_;  ///< none: light from all sides alike
   DiscLattice lattice_;                         ///< of rays to lights
-  DiscSpiral spiral_;                           ///< of rays to the environment
+  AdaptiveDisc hemisphere_;                     ///< of rays to light from all sides
   const RayKernels& kernels_;
 };
 

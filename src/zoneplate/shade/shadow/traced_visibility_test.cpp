@@ -160,9 +160,9 @@ TEST(TracedVisibility, OcclusionByASphereIsThatOfTheFormula) {
     return 255 * rms(plane, plane.visible(visibility, true), exact);
   };
   // The nearer to the sphere, the longer is the outline of what it hides.
-  EXPECT_LT(codes_off(4), 0.92);
-  EXPECT_LT(codes_off(3), 1.05);
-  EXPECT_LT(codes_off(2), 1.25);
+  EXPECT_LT(codes_off(4), 0.45);
+  EXPECT_LT(codes_off(3), 0.56);
+  EXPECT_LT(codes_off(2), 0.78);
 }
 
 // An environment that shines from one side only is hidden by what stands on that side.
@@ -260,9 +260,10 @@ TEST(TracedVisibilityBits, AreTheSameForAllInstructionSets) {
     with_isa(isa, [&] {
       const TracedVisibility visibility(bvh, {}, {sun_from({1, 1, 1})}, {.method = ShadowMethod::Soft, .angle = 0.2f},
                                         {.samples = 8, .distance = 2});
+      const TracedVisibility adaptive(bvh, {}, {}, {}, {.samples = 192, .distance = 2});
       const TracedVisibility in_room(bvh, {}, {}, {}, {.samples = 8, .distance = 2}, &view);
       std::vector<float> found = plane.visible(visibility);
-      for (const TracedVisibility* const v : {&visibility, &in_room}) {
+      for (const TracedVisibility* const v : {&visibility, &adaptive, &in_room}) {
         const std::vector<float> occluded = plane.visible(*v, true);
         found.insert(found.end(), occluded.begin(), occluded.end());
       }
