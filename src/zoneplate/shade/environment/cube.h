@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "zoneplate/math/vec.h"
+#include "zoneplate/shade/environment/texel_light.h"
 
 namespace zoneplate {
 
@@ -53,6 +54,8 @@ inline Place place(float3 d) {
 struct CubeImage {
   int side = 0;
   std::vector<float3> texels;
+  /// The light of each texel as it was before it became control points of a spline. Empty: the spline is the light.
+  std::vector<TexelLight> source;
 
   std::size_t index(int face, int x, int y) const {
     return (static_cast<std::size_t>(face) * static_cast<std::size_t>(side) + static_cast<std::size_t>(y)) *

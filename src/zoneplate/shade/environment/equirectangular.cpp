@@ -141,7 +141,7 @@ void make_face(const Plane<float3>& light, const std::vector<Step>& columns, con
   }
   for (int y = 0; y < side; ++y)
     for (int x = 0; x < side; ++x)
-      if (TexelLight& texel = texels[y * side + x]; !(texel.weight > 0))
+      if (TexelLight& texel = texels[y * side + x]; !(texel.weights.one > 0))
         texel.add(look_up(light, cube::point(face, cube::centre(x, side), cube::centre(y, side))), 1, 0, 0);
 }
 
@@ -178,7 +178,7 @@ CubeImage cube_of_equirectangular(const TexelImage& image, int side) {
     make_face(light, columns, rows, per_pixel, static_cast<int>(face), side,
               texels.data() + face * static_cast<std::size_t>(side * side));
   });
-  return cube_of_texels(side, texels);
+  return cube_of_texels(side, std::move(texels));
 }
 
 }  // namespace zoneplate

@@ -120,7 +120,7 @@ CubeImage sampled(const Plane<float3>& light, int side, const SpotOf& spot_of) {
             cube::centre(i / steps, steps) * 0.5f);
       }
   });
-  return cube_of_texels(side, texels);
+  return cube_of_texels(side, std::move(texels));
 }
 
 }  // namespace

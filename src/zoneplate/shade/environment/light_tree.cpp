@@ -69,29 +69,33 @@ PartMoments moments_of(const BorderedCube& points, int face, int x, int y, const
 float sum_of(float3 c) { return c.x + c.y + c.z; }
 float power(const Node& n) { return n.light[0] + n.light[1] + n.light[2]; }
 
-/// The light of a part of a texel, of which there are `parts` along each edge; (x, y) counts parts.
-Node node_of(const BorderedCube& texels, int parts, int face, int x, int y) {
-  const PartWeights* const weights = part_weights.of + parts - 1;
-  const PartMoments moments = moments_of(texels, face, x / parts, y / parts, weights[x % parts], weights[y % parts]);
-  const int side = texels.side * parts;
+/// Second moments in texels.
+struct Variance {
+  float ss, st, tt;
+};
+
+/// A node of a part of a texel, of which there are `parts` along each edge; (x, y) counts parts. `of_light` is about
+/// the centroid of the light of all channels.
+Node make_node(const PartMoments& moments, Variance of_light, int texels, int parts, int face, int x, int y) {
+  const int side = texels * parts;
   const float s = cube::centre(x, side), t = cube::centre(y, side), width = 2 / static_cast<float>(side);
   const float3 middle = cube::point(face, s, t);
-  const float texel = 2 / static_cast<float>(texels.side), total = sum_of(moments.mean);
+  const float texel = 2 / static_cast<float>(texels), total = sum_of(moments.mean);
   const auto at = [&](float along_s, float along_t) {
     return cube::point(face, s + along_s * texel, t + along_t * texel);
   };
-  const float3 of_light = total > 0 ? at(sum_of(moments.along_s) / total, sum_of(moments.along_t) / total) : middle;
-  const float inverse = 1 / std::sqrt(dot(of_light, of_light)), inverse_of_middle = 1 / std::sqrt(dot(middle, middle));
+  const float3 centroid = total > 0 ? at(sum_of(moments.along_s) / total, sum_of(moments.along_t) / total) : middle;
+  const float inverse = 1 / std::sqrt(dot(centroid, centroid)), inverse_of_middle = 1 / std::sqrt(dot(middle, middle));
 
   Node out{};
-  const float3 direction = of_light * inverse;
+  const float3 direction = centroid * inverse;
   out.direction[0] = direction.x, out.direction[1] = direction.y, out.direction[2] = direction.z;
   const Basis basis(direction);
   // The area over the cube of the distance.
   out.solid_angle = width * width * (inverse_of_middle * inverse_of_middle * inverse_of_middle);
   const Coordinates s_axis = along(basis, (at(1, 0) - at(0, 0)) * inverse),
                     t_axis = along(basis, (at(0, 1) - at(0, 0)) * inverse);
-  const Coordinates to_middle = along(basis, (middle - of_light) * inverse);
+  const Coordinates to_middle = along(basis, (middle - centroid) * inverse);
   const auto set = [&](int channel, float mean, float along_s, float along_t) {
     out.light[channel] = mean * out.solid_angle;
     out.first[channel][0] = (to_middle.x * mean + s_axis.x * along_s + t_axis.x * along_t) * out.solid_angle;
@@ -101,13 +105,44 @@ Node node_of(const BorderedCube& texels, int parts, int face, int x, int y) {
   set(1, moments.mean.y, moments.along_s.y, moments.along_t.y);
   set(2, moments.mean.z, moments.along_s.z, moments.along_t.z);
   out.centre[0] = to_middle.x, out.centre[1] = to_middle.y;
+  const auto add = [&](Squares& to, Variance v) {
+    add_product(to, s_axis, s_axis, v.ss), add_product(to, t_axis, t_axis, v.tt);
+    if (v.st != 0) add_product(to, s_axis, t_axis, 2 * v.st);
+  };
   const float variance = 1 / static_cast<float>(12 * parts * parts);
-  add_product(out.of_light, s_axis, s_axis, variance);
-  add_product(out.of_light, t_axis, t_axis, variance);
-  out.of_angle = out.of_light;
+  add(out.of_light, of_light);
+  add(out.of_angle, {variance, 0, variance});
   add_product(out.of_angle, to_middle, to_middle, 1);
   out.prominence = out.fineness = 1;
   return out;
+}
+
+/// The light of the spline in a part of a texel.
+Node node_of(const BorderedCube& texels, int parts, int face, int x, int y) {
+  const PartWeights* const weights = part_weights.of + parts - 1;
+  const PartMoments moments = moments_of(texels, face, x / parts, y / parts, weights[x % parts], weights[y % parts]);
+  const float variance = 1 / static_cast<float>(12 * parts * parts);
+  return make_node(moments, {variance, 0, variance}, texels.side, parts, face, x, y);
+}
+
+/// The light of a texel. Places are counted from the centroid of its directions, and variances are relative to theirs,
+/// so that even light has the moments of the texel.
+Node node_of(const TexelLight& light, int side, int face, int x, int y) {
+  const TexelLight::Sums &power = light.power, &weights = light.weights;
+  const float inverse = 1 / weights.one, middle_x = weights.x * inverse, middle_y = weights.y * inverse;
+  const float3 mean = light.light * inverse;
+  const PartMoments moments{mean, light.light_x * inverse - mean * middle_x, light.light_y * inverse - mean * middle_y};
+  const auto variance = [](const TexelLight::Sums& of) {
+    const float mean_x = of.x / of.one, mean_y = of.y / of.one;
+    return Variance{of.xx / of.one - mean_x * mean_x, of.xy / of.one - mean_x * mean_y,
+                    of.yy / of.one - mean_y * mean_y};
+  };
+  Variance v{1.0f / 12, 0, 1.0f / 12};
+  if (power.one > 0) {
+    const Variance own = variance(power), even = variance(weights);
+    v = {v.ss + (own.ss - even.ss), own.st - even.st, v.tt + (own.tt - even.tt)};
+  }
+  return make_node(moments, v, side, 1, face, x, y);
 }
 
 Node sum(const Node* const (&parts)[4]) {
@@ -181,12 +216,13 @@ LightTree::Node LightTree::part(int parts, int face, int x, int y) const {
   return out;
 }
 
-LightTree make_light_tree(const CubeImage& cube) {
-  LightTree tree;
-  tree.side = cube.side;
-  tree.texels = with_border(cube);
-  tree.nodes.resize(LightTree::offset(2 * cube.side));
-  const auto fill = [&](int side, auto node) {
+namespace {
+
+/// Of `texel`(face, x, y), the nodes of the finest level.
+template <class Texel>
+void fill(LightTree& tree, const Texel& texel) {
+  tree.nodes.resize(LightTree::offset(2 * tree.side));
+  const auto fill_level = [&](int side, auto node) {
     Node* const first = tree.nodes.data() + LightTree::offset(side);
     parallel_for(static_cast<std::size_t>(cube::faces * side), [&](std::size_t row) {
       const int face = static_cast<int>(row) / side, y = static_cast<int>(row) % side;
@@ -194,9 +230,9 @@ LightTree make_light_tree(const CubeImage& cube) {
         first[row * static_cast<std::size_t>(side) + static_cast<std::size_t>(x)] = node(face, x, y);
     });
   };
-  fill(cube.side, [&](int face, int x, int y) { return node_of(tree.texels, 1, face, x, y); });
-  for (int side = cube.side / 2; side > 0; side /= 2)
-    fill(side, [&](int face, int x, int y) {
+  fill_level(tree.side, texel);
+  for (int side = tree.side / 2; side > 0; side /= 2)
+    fill_level(side, [&](int face, int x, int y) {
       const auto part = [&](int dx, int dy) { return &tree.node(2 * side, face, 2 * x + dx, 2 * y + dy); };
       const Node* const parts[4] = {part(0, 0), part(1, 0), part(0, 1), part(1, 1)};
       return sum(parts);
@@ -204,6 +240,23 @@ LightTree make_light_tree(const CubeImage& cube) {
   const float3 mean = tree.mean();
   tree.mean_power = std::max(mean.x + mean.y + mean.z, 1e-30f);
   for (Node& n : tree.nodes) tree.weigh(n);
+}
+
+}  // namespace
+
+LightTree make_light_tree(const CubeImage& cube) {
+  LightTree tree;
+  tree.side = cube.side;
+  tree.texels = with_border(cube);
+  fill(tree, [&](int face, int x, int y) { return node_of(tree.texels, 1, face, x, y); });
+  return tree;
+}
+
+LightTree make_light_tree_of_source(const CubeImage& cube) {
+  LightTree tree;
+  tree.side = cube.side, tree.texel_parts = 1;
+  fill(tree,
+       [&](int face, int x, int y) { return node_of(cube.source[cube.index(face, x, y)], cube.side, face, x, y); });
   return tree;
 }
 

@@ -28,10 +28,13 @@ struct LightTree {
     float prominence;            ///< the root of its radiance relative to the mean over all directions, at least 1
     float fineness;  ///< by which its distance from a direction counts less, rising with that and with `centre`
   };
-  int side = 0;             ///< nodes along an edge of the finest level, a power of two
-  std::vector<Node> nodes;  ///< by level, from one node a face to `side` × `side`; then by face and row
-  BorderedCube texels;
-  float mean_power = 1;  ///< sum of the channels of the mean radiance
+  static constexpr int most_parts = 8;
+
+  int side = 0;                  ///< nodes along an edge of the finest level, a power of two
+  std::vector<Node> nodes;       ///< by level, from one node a face to `side` × `side`; then by face and row
+  int texel_parts = most_parts;  ///< into which a texel is divided at most along each edge, a power of two
+  BorderedCube texels;           ///< of which `part` is made; not set where there is one
+  float mean_power = 1;          ///< sum of the channels of the mean radiance
 
   /// The first node of the level with `level_side` nodes along an edge.
   static std::size_t offset(int level_side) {
@@ -40,8 +43,6 @@ struct LightTree {
   const Node& node(int level_side, int face, int x, int y) const {
     return nodes[offset(level_side) + static_cast<std::size_t>((face * level_side + y) * level_side + x)];
   }
-  /// A texel is divided into at most this many parts along each edge, a power of two.
-  static constexpr int most_parts = 8;
   /// The light of a part of a texel, where the radiance is the quadratic B-spline whose control points are the texels.
   /// There are `parts` along each edge of a texel, a power of two; (x, y) counts parts from the corner of the face.
   Node part(int parts, int face, int x, int y) const;
@@ -51,7 +52,14 @@ struct LightTree {
   float3 mean() const;
 };
 
+/// Of the spline whose control points are the texels.
+///
 /// Requires  the side is a power of two.
 LightTree make_light_tree(const CubeImage& cube);
+/// Of the source of a cube map, where each texel's light has the moments of its directions. The spline is wider, by a
+/// sixth of a texel's square along each axis where light is even, and by more in lamps.
+///
+/// Requires  the same, and there is a source.
+LightTree make_light_tree_of_source(const CubeImage& cube);
 
 }  // namespace zoneplate

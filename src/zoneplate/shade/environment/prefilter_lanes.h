@@ -166,7 +166,7 @@ void filter_lobes(const LightTree& tree, const Lobes& lobes, const DirectionBloc
   struct Place {
     int side, face, x, y;
   };
-  const int finest = LightTree::most_parts * tree.side;
+  const int finest = tree.texel_parts * tree.side;
   Place stack[cube::faces + 3 * 16];
   int depth = 0;
   for (int face = cube::faces - 1; face >= 0; --face) stack[depth++] = {1, face, 0, 0};

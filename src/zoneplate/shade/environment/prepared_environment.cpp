@@ -39,6 +39,12 @@ class Levels {
   float alpha(int level) const {
     return level == count_ - 1 ? 1.0f : std::sqrt((exp2(static_cast<float>(level) / per_octave_) - 1) / sharpness_);
   }
+  /// The first level whose lobe is so wide, some three texels of the image, that the moments of their light suffice.
+  int first_wide() const {
+    int level = 0;
+    while (alpha(level) * static_cast<float>(side_) < 0.8f) ++level;
+    return level;
+  }
   /// Texels somewhat narrower than α, of the width of the lobe, where there are as many. The radiance at roughness 0 is
   /// a sum of the first three levels, which have the texels of the image, such that it is a spline over these.
   int side(int level) const {
@@ -118,12 +124,12 @@ bool has_sharp_lights(const LightTree& tree) {
   return false;
 }
 
-/// The lobes of a level and those after it that share its cube map's size.
-Lobes lobes_from(const Levels& levels, int level) {
+/// The lobes of a level and those after it, before `end`, that share its cube map's size.
+Lobes lobes_from(const Levels& levels, int level, int end) {
   // Errors of whole texels vanish in lobes of about their size.
   constexpr float coarse = 0.85f, fine = 0.58f;
   Lobes lobes{{levels.alpha(level)}, 1, levels.alpha(level) * static_cast<float>(levels.side(0)) < 4 ? coarse : fine};
-  while (lobes.count < Lobes::most && level + lobes.count < levels.count() &&
+  while (lobes.count < Lobes::most && level + lobes.count < end &&
          levels.side(level + lobes.count) == levels.side(level))
     lobes.alpha[lobes.count] = levels.alpha(level + lobes.count), ++lobes.count;
   return lobes;
@@ -190,7 +196,7 @@ float3 control_point(int level, int levels, const At& at) {
 }
 
 /// A change of the filter changes its version.
-constexpr char magic[8] = {'z', 'p', 'e', 'n', 'v', '0', '0', '8'};
+constexpr char magic[8] = {'z', 'p', 'e', 'n', 'v', '0', '0', '9'};
 
 }  // namespace
 
@@ -202,21 +208,28 @@ struct PreparedEnvironment::Header {
 };
 
 PreparedEnvironment::PreparedEnvironment(const CubeImage& cube, const std::function<void(double)>& progress) {
-  const LightTree tree = make_light_tree(cube);
-  has_sharp_lights_ = has_sharp_lights(tree);
+  LightTree tree = make_light_tree(cube);
+  mean_ = tree.mean(), has_sharp_lights_ = has_sharp_lights(tree);
   const Levels levels(cube.side, has_sharp_lights_);
   texels_.resize(3 * levels.lay_out(view_) + 1);
   const auto first = [&](int level) { return texels_.data() + 3 * static_cast<std::size_t>(view_.offset[level]); };
 
   // Every level as a spline of its own.
-  for (std::size_t i = 0; i < tree.texels.texels.size(); ++i) {
-    const float3 texel = tree.texels.texels[i];
+  const std::vector<float3> points = tree.texels.texels;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const float3 texel = points[i];
     first(0)[3 * i] = texel.x, first(0)[3 * i + 1] = texel.y, first(0)[3 * i + 2] = texel.z;
   }
+  const int of_source = cube.source.empty() ? levels.count() : levels.first_wide();  // the first of these levels
   std::vector<BorderedCube> samples(1);
   for (int level = 1; level < levels.count(); level = static_cast<int>(samples.size())) {
     if (progress) progress(static_cast<double>(view_.offset[level]) / view_.offset[levels.count()]);
-    for (BorderedCube& of_level : filtered(tree, lobes_from(levels, level), levels.side(level)))
+    if (level == of_source) {
+      tree = LightTree();
+      tree = make_light_tree_of_source(cube);
+    }
+    const int end = level < of_source ? of_source : levels.count();
+    for (BorderedCube& of_level : filtered(tree, lobes_from(levels, level, end), levels.side(level)))
       samples.push_back(std::move(of_level));
   }
   for (int level = 1; level < levels.count(); ++level)
@@ -247,10 +260,8 @@ PreparedEnvironment::PreparedEnvironment(const CubeImage& cube, const std::funct
                        return light_at(place, 1) * 0.25f - light_at(place, 2) * 0.125f;
                      }),
              first(0));
-  for (std::size_t i = 0; i < 3 * tree.texels.texels.size(); ++i)
-    first(0)[i] = (first(0)[i] + separate[i]) * (1 / 1.125f);
+  for (std::size_t i = 0; i < 3 * points.size(); ++i) first(0)[i] = (first(0)[i] + separate[i]) * (1 / 1.125f);
 
-  mean_ = tree.mean();
   for (const float3& c : cube.texels)
     greatest_ = {std::max(greatest_.x, c.x), std::max(greatest_.y, c.y), std::max(greatest_.z, c.z)};
 }

@@ -181,6 +181,67 @@ TEST(LookUp, IsTheIntegralOfTheLobeAtEveryRoughness) {
     }
 }
 
+/// The mean of an image that is bilinear between its pixels over the lobe.
+Mean mean_of_image(const Plane<float4>& image, float3 n, double alpha) {
+  constexpr int parts = 6;
+  const int width = image.width(), height = image.height();
+  double sum[4] = {};
+  for (int y = 0; y < height * parts; ++y) {
+    const double row = (y + 0.5) / parts - 0.5, v = (y + 0.5) / (height * parts), sine = std::sin(pi * v);
+    const int above = static_cast<int>(std::floor(row));
+    for (int x = 0; x < width * parts; ++x) {
+      const double column = (x + 0.5) / parts - 0.5, phi = 2 * pi * (x + 0.5) / (width * parts);
+      const double c =
+          -std::cos(phi) * sine * double{n.x} + std::cos(pi * v) * double{n.y} - std::sin(phi) * sine * double{n.z};
+      if (c <= 0) continue;
+      const double u = (1 - c) / 2, d = u + alpha * alpha * (1 - u), weight = c / (d * d) * sine;
+      const int left = static_cast<int>(std::floor(column));
+      for (int k = 0; k < 4; ++k) {
+        const double part =
+            (k % 2 == 0 ? left + 1 - column : column - left) * (k / 2 == 0 ? above + 1 - row : row - above);
+        const float4& pixel = image((left + k % 2 + width) % width, std::clamp(above + k / 2, 0, height - 1));
+        sum[0] += weight * part * double{pixel.x}, sum[1] += weight * part * double{pixel.y},
+            sum[2] += weight * part * double{pixel.z};
+      }
+      sum[3] += weight;
+    }
+  }
+  return {sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]};
+}
+
+// The spline that the texels control is wider than the lamps of the image; lobes that are wider than texels are not.
+TEST(LookUp, IsTheIntegralOfTheImageForWideLobes) {
+  constexpr int width = 128;
+  Plane<float4> pixels(width, width / 2, {1, 1, 1, 1});
+  pixels(81, 17) = {2000, 1000, 500, 1};
+  const double turn = 2 * pi * 81.5 / width, polar = pi * 17.5 / (width / 2);
+  const float3 lamp{static_cast<float>(-std::cos(turn) * std::sin(polar)), static_cast<float>(std::cos(polar)),
+                    static_cast<float>(-std::sin(turn) * std::sin(polar))};
+  const TexelImage image(std::move(pixels));
+  CubeImage cube = cube_of_equirectangular(image, 64);
+  const PreparedEnvironment environment(cube);
+  cube.source.clear();
+  const PreparedEnvironment as_wide_as_the_spline(cube);
+  for (const float roughness : {0.2f, 0.3f, 0.5f}) {
+    double most = 0, most_of_spline = 0;
+    for (std::uint32_t k = 0; k < 6; ++k) {
+      const float3 away{unit_float(hash(k, 1)) - 0.5f, unit_float(hash(k, 2)) - 0.5f, unit_float(hash(k, 3)) - 0.5f};
+      const float3 n = normalize(lamp + away * (static_cast<float>(k) * roughness * roughness));
+      const Mean expected = mean_of_image(image.as<float4>(), n, static_cast<double>(roughness) * roughness);
+      const auto error = [&](const PreparedEnvironment& e) {
+        const float3 found = value(specular_light(plain_view(e), lanes(n), F(roughness)));
+        return std::max(std::abs(double{found.x} / expected.r - 1), std::abs(double{found.z} / expected.b - 1));
+      };
+      most = std::max(most, error(environment));
+      most_of_spline = std::max(most_of_spline, error(as_wide_as_the_spline));
+    }
+    EXPECT_LT(most, 0.004) << roughness;
+    if (roughness < 0.4f) {
+      EXPECT_GT(most_of_spline, 2 * most) << roughness;
+    }
+  }
+}
+
 /// The integral of the lobe over all directions: about n, over the half angle's square u, of the solid angle 4π du.
 double lobe_integral(double alpha) {
   constexpr int steps = 100000;

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
+
+#include "zoneplate/shade/environment/cube.h"
 
 namespace zoneplate {
 namespace {
@@ -27,8 +30,8 @@ float density(const CubeImage& cube, int face, int x, int y) {
 
 }  // namespace
 
-CubeImage cube_of_texels(int side, const std::vector<TexelLight>& texels) {
-  CubeImage cube{side, std::vector<float3>(texels.size())};
+CubeImage cube_of_texels(int side, std::vector<TexelLight> texels) {
+  CubeImage cube{side, std::vector<float3>(texels.size()), {}};
   const auto offset = [&](float power_sum, float power, float sum, float weight) {
     return std::clamp(power_sum / power - sum / weight, -0.5f, 0.5f);
   };
@@ -36,10 +39,11 @@ CubeImage cube_of_texels(int side, const std::vector<TexelLight>& texels) {
     for (int y = 0; y < side; ++y)
       for (int x = 0; x < side; ++x) {
         const TexelLight& from = texels[cube.index(face, x, y)];
-        if (!(from.power > 0)) continue;
-        const float3 light = from.light * (density(cube, face, x, y) / from.weight);
-        const float right = offset(from.power_x, from.power, from.x, from.weight),
-                    down = offset(from.power_y, from.power, from.y, from.weight);
+        const TexelLight::Sums &power = from.power, &weights = from.weights;
+        if (!(power.one > 0)) continue;
+        const float3 light = from.light * (density(cube, face, x, y) / weights.one);
+        const float right = offset(power.x, power.one, weights.x, weights.one),
+                    down = offset(power.y, power.one, weights.y, weights.one);
         const float across[2] = {1 - std::abs(right), std::abs(right)}, along[2] = {1 - std::abs(down), std::abs(down)};
         const int step_x = right < 0 ? -1 : 1, step_y = down < 0 ? -1 : 1;
         for (int k = 0; k < 4; ++k) {
@@ -53,6 +57,7 @@ CubeImage cube_of_texels(int side, const std::vector<TexelLight>& texels) {
         float3& texel = cube.texels[cube.index(face, x, y)];
         texel = texel * (1 / density(cube, face, x, y));
       }
+  cube.source = std::move(texels);
   return cube;
 }
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "zoneplate/scene/texel_image.h"
+#include "zoneplate/shade/environment/cube.h"
 #include "zoneplate/shade/environment/equirectangular.h"
 
 namespace zoneplate {
