@@ -107,7 +107,7 @@ Node make_node(const PartMoments& moments, Variance of_light, int texels, int pa
   out.centre[0] = to_middle.x, out.centre[1] = to_middle.y;
   const auto add = [&](Squares& to, Variance v) {
     add_product(to, s_axis, s_axis, v.ss), add_product(to, t_axis, t_axis, v.tt);
-    if (v.st != 0) add_product(to, s_axis, t_axis, 2 * v.st);
+    add_product(to, s_axis, t_axis, 2 * v.st);
   };
   const float variance = 1 / static_cast<float>(12 * parts * parts);
   add(out.of_light, of_light);

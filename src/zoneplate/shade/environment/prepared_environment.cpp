@@ -39,7 +39,8 @@ class Levels {
   float alpha(int level) const {
     return level == count_ - 1 ? 1.0f : std::sqrt((exp2(static_cast<float>(level) / per_octave_) - 1) / sharpness_);
   }
-  /// The first level whose lobe is so wide, some three texels of the image, that the moments of their light suffice.
+  /// The first level whose lobe, whose full width at half of its maximum is 2.6 α, is as wide as a texel of the image,
+  /// so that the moments of the texels' light suffice.
   int first_wide() const {
     int level = 0;
     while (alpha(level) * static_cast<float>(side_) < 0.8f) ++level;

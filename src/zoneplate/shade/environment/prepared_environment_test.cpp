@@ -46,22 +46,43 @@ TexelImage room(int width) {
 struct Mean {
   double r, g, b;
 };
-Mean brute_force(const Plane<float4>& image, float3 n, double alpha) {
-  constexpr int parts = 3;
+template <class LightAt>
+Mean brute_force(const Plane<float4>& image, int parts, float3 n, double alpha, const LightAt& light_at) {
   double sum[4] = {};
   const int columns = image.width() * parts, rows = image.height() * parts;
   for (int y = 0; y < rows; ++y) {
     const double v = (y + 0.5) / rows, sine = std::sin(pi * v), up = std::cos(pi * v);
     for (int x = 0; x < columns; ++x) {
       const double phi = 2 * pi * (x + 0.5) / columns;
-      const double c = -std::cos(phi) * sine * n.x + up * n.y - std::sin(phi) * sine * n.z;
+      const double c = -std::cos(phi) * sine * double{n.x} + up * double{n.y} - std::sin(phi) * sine * double{n.z};
       if (c <= 0) continue;
       const double u = (1 - c) / 2, d = u + alpha * alpha * (1 - u), weight = c / (d * d) * sine;
-      const float4 light = image(x / parts, y / parts);
-      sum[0] += weight * light.x, sum[1] += weight * light.y, sum[2] += weight * light.z, sum[3] += weight;
+      const Mean light = light_at((x + 0.5) / parts, (y + 0.5) / parts);
+      sum[0] += weight * light.r, sum[1] += weight * light.g, sum[2] += weight * light.b, sum[3] += weight;
     }
   }
   return {sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]};
+}
+Mean brute_force(const Plane<float4>& image, float3 n, double alpha) {
+  return brute_force(image, 3, n, alpha, [&](double x, double y) {
+    const float4 light = image(static_cast<int>(x), static_cast<int>(y));
+    return Mean{light.x, light.y, light.z};
+  });
+}
+/// The same where the image is bilinear between its pixels.
+Mean brute_force_of_bilinear(const Plane<float4>& image, float3 n, double alpha) {
+  return brute_force(image, 6, n, alpha, [&](double x, double y) {
+    const int left = static_cast<int>(std::floor(x - 0.5)), above = static_cast<int>(std::floor(y - 0.5));
+    const double right = x - 0.5 - left, down = y - 0.5 - above;
+    Mean out{};
+    for (int k = 0; k < 4; ++k) {
+      const double part = (k % 2 == 0 ? 1 - right : right) * (k / 2 == 0 ? 1 - down : down);
+      const float4 pixel =
+          image((left + k % 2 + image.width()) % image.width(), std::clamp(above + k / 2, 0, image.height() - 1));
+      out.r += part * double{pixel.x}, out.g += part * double{pixel.y}, out.b += part * double{pixel.z};
+    }
+    return out;
+  });
 }
 
 EnvironmentView plain_view(const PreparedEnvironment& e) { return e.view({.color = {1, 1, 1}}, {0, 1, 0}); }
@@ -181,34 +202,6 @@ TEST(LookUp, IsTheIntegralOfTheLobeAtEveryRoughness) {
     }
 }
 
-/// The mean of an image that is bilinear between its pixels over the lobe.
-Mean mean_of_image(const Plane<float4>& image, float3 n, double alpha) {
-  constexpr int parts = 6;
-  const int width = image.width(), height = image.height();
-  double sum[4] = {};
-  for (int y = 0; y < height * parts; ++y) {
-    const double row = (y + 0.5) / parts - 0.5, v = (y + 0.5) / (height * parts), sine = std::sin(pi * v);
-    const int above = static_cast<int>(std::floor(row));
-    for (int x = 0; x < width * parts; ++x) {
-      const double column = (x + 0.5) / parts - 0.5, phi = 2 * pi * (x + 0.5) / (width * parts);
-      const double c =
-          -std::cos(phi) * sine * double{n.x} + std::cos(pi * v) * double{n.y} - std::sin(phi) * sine * double{n.z};
-      if (c <= 0) continue;
-      const double u = (1 - c) / 2, d = u + alpha * alpha * (1 - u), weight = c / (d * d) * sine;
-      const int left = static_cast<int>(std::floor(column));
-      for (int k = 0; k < 4; ++k) {
-        const double part =
-            (k % 2 == 0 ? left + 1 - column : column - left) * (k / 2 == 0 ? above + 1 - row : row - above);
-        const float4& pixel = image((left + k % 2 + width) % width, std::clamp(above + k / 2, 0, height - 1));
-        sum[0] += weight * part * double{pixel.x}, sum[1] += weight * part * double{pixel.y},
-            sum[2] += weight * part * double{pixel.z};
-      }
-      sum[3] += weight;
-    }
-  }
-  return {sum[0] / sum[3], sum[1] / sum[3], sum[2] / sum[3]};
-}
-
 // The spline that the texels control is wider than the lamps of the image; lobes that are wider than texels are not.
 TEST(LookUp, IsTheIntegralOfTheImageForWideLobes) {
   constexpr int width = 128;
@@ -227,7 +220,7 @@ TEST(LookUp, IsTheIntegralOfTheImageForWideLobes) {
     for (std::uint32_t k = 0; k < 6; ++k) {
       const float3 away{unit_float(hash(k, 1)) - 0.5f, unit_float(hash(k, 2)) - 0.5f, unit_float(hash(k, 3)) - 0.5f};
       const float3 n = normalize(lamp + away * (static_cast<float>(k) * roughness * roughness));
-      const Mean expected = mean_of_image(image.as<float4>(), n, static_cast<double>(roughness) * roughness);
+      const Mean expected = brute_force_of_bilinear(image.as<float4>(), n, static_cast<double>(roughness) * roughness);
       const auto error = [&](const PreparedEnvironment& e) {
         const float3 found = value(specular_light(plain_view(e), lanes(n), F(roughness)));
         return std::max(std::abs(double{found.x} / expected.r - 1), std::abs(double{found.z} / expected.b - 1));

@@ -37,22 +37,16 @@ Point of_square(float u, float v) {
   return {std::min(radius * radius, 1.0f), is_wide ? along : across, is_wide ? across : along, 0, 0};
 }
 
-/// The turn of one receiver's grid.
-struct Turn {
-  float cosine, sine;
-  explicit Turn(std::uint32_t seed) {
-    const float angle = 6.28318531f * unit_float(hash(seed, 0, 2));
-    cosine = cos(angle), sine = sin(angle);
-  }
-  Point operator()(const Point& p) const {
-    return {p.square, p.cosine * cosine - p.sine * sine, p.sine * cosine + p.cosine * sine, 0, 0};
-  }
-};
+/// A point of the grid of one receiver.
+Point turned(const Point& p, const DiscTurn& turn) {
+  const DiscTurn::Turned to = turn(p);
+  return {p.square, to.cosine, to.sine, 0, 0};
+}
 
 /// store(i, value) of the function at point_of(i), in order.
 template <class PointOf, class Store>
 void evaluate(int count, const PointOf& point_of, const AdaptiveDisc::Values& values, const Store& store) {
-  constexpr int part = 64;
+  constexpr int part = AdaptiveDisc::most_points;
   std::array<Point, part> points;
   std::array<float, part> found;
   for (int first = 0; first < count; first += part) {
@@ -67,30 +61,34 @@ void evaluate(int count, const PointOf& point_of, const AdaptiveDisc::Values& va
 
 AdaptiveDisc::AdaptiveDisc(int count)
     : cells_(cells_of(count)),
-      width_(1 / (static_cast<float>(cells_) + 2 * rim)),
       spiral_(count - corners_of(count)),
       corner_weight_(0.7f * static_cast<float>(corners_of(count)) / static_cast<float>(std::max(count, 1))) {
-  const auto at = [&](int i) { return (static_cast<float>(i) + rim) * width_; };
-  for (int i = 0; i < corners_of(count); ++i) corners_.push_back(of_square(at(i % (cells_ + 1)), at(i / (cells_ + 1))));
+  for (int i = 0; i < corners_of(count); ++i)
+    corners_.push_back(of_square(corner(i % (cells_ + 1)), corner(i / (cells_ + 1))));
+}
+
+/// The coordinate of a row or column of corners in the square.
+float AdaptiveDisc::corner(int i) const {
+  return (static_cast<float>(i) + rim) / (static_cast<float>(cells_) + 2 * rim);
 }
 
 AdaptiveDisc::Cell AdaptiveDisc::cell(int index) const {
-  const auto low = [&](int i) { return i == 0 ? 0 : (static_cast<float>(i) + rim) * width_; };
-  const auto high = [&](int i) { return i + 1 == cells_ ? 1 : (static_cast<float>(i + 1) + rim) * width_; };
+  const auto low = [&](int i) { return i == 0 ? 0 : corner(i); };
+  const auto high = [&](int i) { return i + 1 == cells_ ? 1 : corner(i + 1); };
   const int row = index / cells_, column = index % cells_;
   return {low(column), high(column), low(row), high(row)};
 }
 
 float AdaptiveDisc::mean(std::uint32_t seed, const Values& values) const {
   if (cells_ == 0) return mean_of_spiral(seed, values);
-  const Turn turn(seed);
+  const DiscTurn turn(seed, 0);
   std::vector<float> at_corners(corners_.size());
   evaluate(
-      static_cast<int>(corners_.size()), [&](int i) { return turn(corners_[static_cast<std::size_t>(i)]); }, values,
-      [&](int i, float value) { at_corners[static_cast<std::size_t>(i)] = value; });
+      static_cast<int>(corners_.size()), [&](int i) { return turned(corners_[static_cast<std::size_t>(i)], turn); },
+      values, [&](int i, float value) { at_corners[static_cast<std::size_t>(i)] = value; });
 
   std::vector<int> uneven;
-  float of_even = 0, of_uneven = 0, area_of_uneven = 0, area = 0;
+  float of_even = 0, of_uneven = 0, area = 0;
   for (int i = 0; i < cells_ * cells_; ++i) {
     const float* const v = at_corners.data() + i / cells_ * (cells_ + 1) + i % cells_;
     const float a = v[0], b = v[1], c = v[cells_ + 1], d = v[cells_ + 2];
@@ -102,11 +100,10 @@ float AdaptiveDisc::mean(std::uint32_t seed, const Values& values) const {
     }
     uneven.push_back(i);
     of_uneven += part * (0.25f * ((a + b) + (c + d)));
-    area_of_uneven += part;
   }
   const auto found = static_cast<int>(uneven.size());
   if (found > 0 && 2 * found <= cells_ * cells_ && !has_lone_corner(at_corners))
-    return std::clamp((of_even + area_of_uneven * mean_in_cells(uneven, seed, values)) / area, 0.0f, 1.0f);
+    return std::clamp((of_even + integral_over(uneven, seed, values)) / area, 0.0f, 1.0f);
   const float of_corners = (of_even + of_uneven) / area, of_spiral = mean_of_spiral(seed, values);
   return of_spiral + corner_weight_ * (of_corners - of_spiral);
 }
@@ -124,41 +121,38 @@ bool AdaptiveDisc::has_lone_corner(const std::vector<float>& at_corners) const {
   return false;
 }
 
-/// Of the function in these cells, each with an equal number of points, or one more: a lattice with a random shift.
-float AdaptiveDisc::mean_in_cells(const std::vector<int>& cells, std::uint32_t seed, const Values& values) const {
-  constexpr std::uint32_t golden = 2654435769u;  // 2^32 divided by the golden ratio
+/// Of the function over these cells, each with an equal number of points, or one more: a lattice with a random shift.
+float AdaptiveDisc::integral_over(const std::vector<int>& cells, std::uint32_t seed, const Values& values) const {
   struct CellPoint {
     Point point;
     float weight;
   };
   std::vector<CellPoint> points;
-  const Turn turn(seed);
+  const DiscTurn turn(seed, 0);
   const auto number = static_cast<int>(cells.size());
-  float area = 0;
   for (int k = 0; k < number; ++k) {
     const int first = spiral_.count() * k / number, count = spiral_.count() * (k + 1) / number - first;
     const auto word = static_cast<std::uint32_t>(cells[static_cast<std::size_t>(k)]);
     const Cell c = cell(cells[static_cast<std::size_t>(k)]);
     const std::uint32_t x = hash(seed, word, 5), y = hash(seed, word, 6);
     const float weight = c.area() / static_cast<float>(count);
-    area += c.area();
     for (int i = 0; i < count; ++i) {
       const float across = unit_float(x) + static_cast<float>(i) / static_cast<float>(count);
-      const float down = unit_float(y + static_cast<std::uint32_t>(i) * golden);
-      points.push_back({turn(of_square(c.left + (across - std::floor(across)) * (c.right - c.left),
-                                       c.top + down * (c.bottom - c.top))),
-                        weight});
+      const float down = unit_float(y + static_cast<std::uint32_t>(i) * golden_step);
+      const Point p =
+          of_square(c.left + (across - std::floor(across)) * (c.right - c.left), c.top + down * (c.bottom - c.top));
+      points.push_back({turned(p, turn), weight});
     }
   }
   float sum = 0;
   evaluate(
       static_cast<int>(points.size()), [&](int i) { return points[static_cast<std::size_t>(i)].point; }, values,
       [&](int i, float value) { sum += points[static_cast<std::size_t>(i)].weight * value; });
-  return sum / area;
+  return sum;
 }
 
 float AdaptiveDisc::mean_of_spiral(std::uint32_t seed, const Values& values) const {
-  const TurnedSpiral spiral(spiral_, seed, 0);
+  const TurnedSpiral spiral(spiral_, seed);
   float sum = 0;
   evaluate(
       spiral_.count(), [&](int i) { return spiral(static_cast<std::uint32_t>(i)); }, values,

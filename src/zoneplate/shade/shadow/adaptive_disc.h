@@ -29,7 +29,8 @@ namespace zoneplate {
 class AdaptiveDisc {
  public:
   using Point = ShiftedDisc::Point;
-  /// Stores the function's values, in [0, 1], at `count` points, 64 at most.
+  static constexpr int most_points = 64;
+  /// Stores the function's values, in [0, 1], at `count` points, most_points at most.
   using Values = std::function<void(const Point* points, int count, float* values)>;
 
   explicit AdaptiveDisc(int count);
@@ -42,16 +43,16 @@ class AdaptiveDisc {
     float left, right, top, bottom;
     float area() const { return (right - left) * (bottom - top); }
   };
+  float corner(int i) const;
   Cell cell(int index) const;
   bool has_lone_corner(const std::vector<float>& at_corners) const;
-  float mean_in_cells(const std::vector<int>& cells, std::uint32_t seed, const Values& values) const;
+  float integral_over(const std::vector<int>& cells, std::uint32_t seed, const Values& values) const;
   float mean_of_spiral(std::uint32_t seed, const Values& values) const;
 
-  int cells_;    ///< in a row and in a column; 0: the points are a spiral
-  float width_;  ///< of a cell
+  int cells_;  ///< in a row and in a column; 0: the points are a spiral
   std::vector<Point> corners_;
-  DiscSpiral spiral_;  ///< of the points that are no corners
-  float corner_weight_;
+  DiscSpiral spiral_;    ///< of the points that are no corners
+  float corner_weight_;  ///< in a mean of the corners and the spiral
 };
 
 }  // namespace zoneplate

@@ -48,6 +48,24 @@ class DiscLattice {
   std::vector<Point> points_;
 };
 
+/// A random turn of the disc.
+struct DiscTurn {
+  float cosine, sine;
+
+  DiscTurn(std::uint32_t seed, std::uint32_t dimension) {
+    const float angle = 6.28318531f * unit_float(hash(seed, dimension, 2));
+    cosine = cos(angle), sine = sin(angle);
+  }
+  /// The cosine and the sine of a point's turn, after this one.
+  struct Turned {
+    float cosine, sine;
+  };
+  template <class Point>
+  Turned operator()(const Point& p) const {
+    return {p.cosine * cosine - p.sine * sine, p.sine * cosine + p.cosine * sine};
+  }
+};
+
 /// The lattice of one receiver: shifted by a random vector, which is a turn of the disc and a rotation of the areas of
 /// its rings.
 class ShiftedDisc {
@@ -63,21 +81,23 @@ class ShiftedDisc {
       : lattice_(lattice),
         square_(hash(seed, dimension, 1)),
         x_(hash(seed, dimension, 3)),
-        y_(hash(seed, dimension, 4)) {
-    const float turn = 6.28318531f * unit_float(hash(seed, dimension, 2));
-    cosine_ = cos(turn), sine_ = sin(turn);
-  }
+        y_(hash(seed, dimension, 4)),
+        turn_(seed, dimension) {}
   Point operator()(std::uint32_t i) const {
     const DiscLattice::Point& p = lattice_[i];
-    return {unit_float(p.square + square_), p.cosine * cosine_ - p.sine * sine_, p.sine * cosine_ + p.cosine * sine_,
-            2 * unit_float(p.x + x_) - 1, 2 * unit_float(p.y + y_) - 1};
+    const DiscTurn::Turned turned = turn_(p);
+    return {unit_float(p.square + square_), turned.cosine, turned.sine, 2 * unit_float(p.x + x_) - 1,
+            2 * unit_float(p.y + y_) - 1};
   }
 
  private:
   const DiscLattice& lattice_;
   std::uint32_t square_, x_, y_;
-  float cosine_, sine_;
+  DiscTurn turn_;
 };
+
+/// 2^32 divided by the golden ratio; its multiples, modulo 2^32, are evenly spaced.
+inline constexpr std::uint32_t golden_step = 2654435769u;
 
 /// Points of a disc on a spiral of equal areas, the golden angle apart, for any number of them. No part of the points
 /// covers the disc evenly, unlike that of a DiscLattice, but all of them do so better.
@@ -90,9 +110,8 @@ class DiscSpiral {
   };
 
   explicit DiscSpiral(int count) {
-    constexpr std::uint32_t golden = 2654435769u;  // 2^32 divided by the golden ratio
     for (std::uint32_t i = 0; i < static_cast<std::uint32_t>(count); ++i) {
-      const float turn = 6.28318531f * unit_float(i * golden);
+      const float turn = 6.28318531f * unit_float(i * golden_step);
       points_.push_back({cos(turn), sin(turn)});
     }
   }
@@ -106,23 +125,21 @@ class DiscSpiral {
 /// The spiral of one receiver: turned by a random angle, and moved outwards by a random part of its step.
 class TurnedSpiral {
  public:
-  TurnedSpiral(const DiscSpiral& spiral, std::uint32_t seed, std::uint32_t dimension)
+  TurnedSpiral(const DiscSpiral& spiral, std::uint32_t seed)
       : spiral_(spiral),
         step_(1 / static_cast<float>(spiral.count())),
-        start_(unit_float(hash(seed, dimension, 1)) * step_) {
-    const float turn = 6.28318531f * unit_float(hash(seed, dimension, 2));
-    cosine_ = cos(turn), sine_ = sin(turn);
-  }
+        start_(unit_float(hash(seed, 0, 1)) * step_),
+        turn_(seed, 0) {}
   ShiftedDisc::Point operator()(std::uint32_t i) const {
-    const DiscSpiral::Point& p = spiral_[i];
     const float square = start_ + static_cast<float>(i) * step_;
-    return {std::min(square, 1.0f), p.cosine * cosine_ - p.sine * sine_, p.sine * cosine_ + p.cosine * sine_, 0, 0};
+    const DiscTurn::Turned turned = turn_(spiral_[i]);
+    return {std::min(square, 1.0f), turned.cosine, turned.sine, 0, 0};
   }
 
  private:
   const DiscSpiral& spiral_;
   float step_, start_;
-  float cosine_, sine_;
+  DiscTurn turn_;
 };
 
 /// Directions about a unit axis.

@@ -81,12 +81,11 @@ EnvironmentRays::Hemisphere::Hemisphere(const EnvironmentRays& rays, float3 norm
 }
 
 float3 EnvironmentRays::Hemisphere::next() {
-  constexpr std::uint32_t golden = 2654435769u;  // 2^32 divided by the golden ratio
   while (ring_ + 1 < rings && before_ + sum_[ring_] <= target_) before_ += sum_[ring_++];
   // By rounding, the last of the targets may lie behind the last ring with light.
   const float sum = sum_[ring_], across = sum > 0 ? std::clamp((target_ - before_) / sum, 0.0f, 1.0f) : 0.5f;
   float along = unit_float(turn_) * sum_[ring_];
-  target_ += step_, turn_ += golden;
+  target_ += step_, turn_ += golden_step;
 
   const float* const light = light_.data() + ring_ * sectors;
   std::size_t sector = 0;

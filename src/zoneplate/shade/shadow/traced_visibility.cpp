@@ -137,7 +137,7 @@ void TracedVisibility::of_light(int k, const Receivers& receivers, float* visibl
 float TracedVisibility::of_uniform_light(const Receivers& receivers, int i, float3 origin) const {
   const DirectionsAbout directions(at(receivers.normal, i));
   const auto see = [&](const ShiftedDisc::Point* points, int count, float* visible) {
-    Ray rays[chunk];
+    Ray rays[AdaptiveDisc::most_points];
     for (int s = 0; s < count; ++s) rays[s] = make_ray(origin, directions.of_cosine(points[s]), occlusion_.distance);
     kernels_.visibility(bvh_, rays, static_cast<std::size_t>(count), opacity_, visible);
   };
