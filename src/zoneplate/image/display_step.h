@@ -19,11 +19,17 @@ struct DisplayStep {
   float light[4] = {0, 0, 0, 1};  ///< the background in linear light, premultiplied
 };
 
+/// The premultiplied colours of spans of eight pixels: the first span's r, g, b and a, each eight consecutive floats.
+struct SpanColors {
+  const float* channel[4];
+  std::size_t stride;  ///< floats from a channel of one span to that of the next
+};
+
 struct TonemapKernels : PerIsa<TonemapKernels> {
   /// n pixels of four floats: Linear in, Display out.
   void (*display_row)(const DisplayStep& step, const float* linear, float* display, std::size_t n);
-  /// Applies display_row and quantize8 to n groups of eight pixels.
-  void (*show_groups)(const DisplayStep& step, const Linear8* linear, Rgba8* shown, std::size_t n);
+  /// Applies display_row and quantize8 to n spans of eight pixels, of which span i is stored from shown[i] on.
+  void (*show_spans)(const DisplayStep& step, const SpanColors& linear, Rgba8* const* shown, std::size_t n);
   /// DisplayTransform::is_decided for a step without tone mapping over an opaque background.
   bool (*is_decided)(const DisplayStep& step, const Linear8& front, float brightest, float rounding);
 };

@@ -209,35 +209,37 @@ struct NoPairs {
   static constexpr bool exist = false;
 };
 
-/// Two groups of opaque pixels together, in vectors of twice as many lanes: false if some pixels are not opaque.
+/// Two spans of opaque pixels together, in vectors of twice as many lanes: false if some pixels are not opaque.
 template <ToneMapping mapping, class Pairs>
-[[gnu::always_inline]] inline bool show_pair(const DisplayStep& step, const Linear8* group, Rgba8* shown) {
+[[gnu::always_inline]] inline bool show_pair(const DisplayStep& step, const SpanColors& linear, std::size_t first,
+                                             Rgba8* const* shown) {
   using F = typename Pairs::Float;
-  if (!all(Pairs::load(group[0].a, group[1].a) >= F(1.0f))) return false;
-  const ColorLanes<F> color{Pairs::load(group[0].r, group[1].r), Pairs::load(group[0].g, group[1].g),
-                            Pairs::load(group[0].b, group[1].b)};
-  const ColorLanes<F> p = displayed_opaque<mapping>(step, color);
-  F::Int::store_pixels(code8(p.r), code8(p.g), code8(p.b), typename F::Int(255), &shown->r);
+  const auto load = [&](int c) {
+    const float* const channel = linear.channel[c] + first * linear.stride;
+    return Pairs::load(channel, channel + linear.stride);
+  };
+  if (!all(load(3) >= F(1.0f))) return false;
+  const ColorLanes<F> p = displayed_opaque<mapping>(step, ColorLanes<F>{load(0), load(1), load(2)});
+  Pairs::store_pixels(code8(p.r), code8(p.g), code8(p.b), typename F::Int(255), shown[first], shown[first + 1]);
   return true;
 }
 
 template <ToneMapping mapping, class F, class Pairs>
-[[gnu::always_inline]] inline void show_pixels(const DisplayStep& step, const Linear8* linear, Rgba8* shown,
+[[gnu::always_inline]] inline void show_pixels(const DisplayStep& step, const SpanColors linear, Rgba8* const* shown,
                                                std::size_t n) {
   static_assert(sizeof(Rgba8) == 4 && Linear8::size % F::lanes == 0);
   const auto codes = [](F x) { return code8(x); };
-  for (const Linear8* group = linear; group != linear + n; ++group) {
+  for (std::size_t span = 0; span < n; ++span) {
     if constexpr (Pairs::exist) {
-      if (group + 1 != linear + n && show_pair<mapping, Pairs>(step, group, shown)) {
-        ++group, shown += 2 * Linear8::size;
+      if (span + 1 < n && show_pair<mapping, Pairs>(step, linear, span, shown)) {
+        ++span;
         continue;
       }
     }
-    for (std::size_t k = 0; k < Linear8::size; k += F::lanes, shown += F::lanes) {
-      const PixelLanes<F> color{{F::load(group->r + k), F::load(group->g + k), F::load(group->b + k)},
-                                F::load(group->a + k)};
-      with_displayed<mapping>(step, color, [&](const PixelLanes<F>& p) {
-        F::Int::store_pixels(codes(p.color.r), codes(p.color.g), codes(p.color.b), codes(p.alpha), &shown->r);
+    for (std::size_t k = 0; k < Linear8::size; k += F::lanes) {
+      const auto load = [&](int c) { return F::load(linear.channel[c] + span * linear.stride + k); };
+      with_displayed<mapping>(step, PixelLanes<F>{{load(0), load(1), load(2)}, load(3)}, [&](const PixelLanes<F>& p) {
+        F::Int::store_pixels(codes(p.color.r), codes(p.color.g), codes(p.color.b), codes(p.alpha), &shown[span][k].r);
       });
     }
   }
@@ -260,7 +262,8 @@ template <class Full, class One>
 }
 
 template <class F, class Pairs>
-[[gnu::flatten]] void show_groups(const DisplayStep& step, const Linear8* linear, Rgba8* shown, std::size_t n) {
+[[gnu::flatten]] void show_spans(const DisplayStep& step, const SpanColors& linear, Rgba8* const* shown,
+                                 std::size_t n) {
   switch (step.mapping) {
     case ToneMapping::None:
       return show_pixels<ToneMapping::None, F, Pairs>(step, linear, shown, n);
@@ -299,9 +302,8 @@ template <class F>
 
 template <class Full, class One, class Pairs>
 constexpr TonemapKernels display_step() {
-  return {.display_row = &display_row<Full, One>,
-          .show_groups = &show_groups<Full, Pairs>,
-          .is_decided = &is_decided<Full>};
+  return {
+      .display_row = &display_row<Full, One>, .show_spans = &show_spans<Full, Pairs>, .is_decided = &is_decided<Full>};
 }
 
 }  // namespace stages

@@ -17,6 +17,15 @@ struct SixteenPixels {
     const hn::Half<decltype(d)> half;
     return Float(combined(d, hn::LoadU(half, high), hn::LoadU(half, low)));
   }
+  /// Int::store_pixels of eight pixels each.
+  static HWY_INLINE void store_pixels(Float::Int r, Float::Int g, Float::Int b, Float::Int a, Rgba8* low, Rgba8* high) {
+    const hn::CappedTag<std::int32_t, 16> d;
+    const hn::Half<decltype(d)> half;
+    const auto pixels =
+        hn::Or(hn::Or(r.v, hn::ShiftLeft<8>(g.v)), hn::Or(hn::ShiftLeft<16>(b.v), hn::ShiftLeft<24>(a.v)));
+    hn::StoreU(hn::LowerHalf(half, pixels), half, reinterpret_cast<std::int32_t*>(low));
+    hn::StoreU(hn::UpperHalf(half, pixels), half, reinterpret_cast<std::int32_t*>(high));
+  }
 };
 
 }  // namespace

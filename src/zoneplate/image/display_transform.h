@@ -22,6 +22,8 @@ class DisplayTransform {
 
   /// `out` has capacity for eight pixels per group.
   void present(std::span<const Linear8> groups, Rgba8* out) const;
+  /// The same for spans, of which span i is stored from out[i] on.
+  void present(const SpanColors& colors, std::span<Rgba8* const> out) const;
   /// Whether `present` gives the same codes to eight opaque or blended pixels whatever lies behind their front layers.
   /// `front` has the colour of these layers and, as alpha, the transmittance to what lies behind, of which no
   /// premultiplied channel exceeds `brightest` times its alpha. `rounding` bounds the error of the pixels that will be

@@ -105,7 +105,18 @@ DisplayTransform::DisplayTransform(const DisplayOptions& options) : step_(make_s
 }
 
 void DisplayTransform::present(std::span<const Linear8> groups, Rgba8* out) const {
-  TonemapKernels::of().show_groups(step_, groups.data(), out, groups.size());
+  constexpr std::size_t most = 64;
+  Rgba8* spans[most];
+  for (std::size_t first = 0; first < groups.size(); first += most) {
+    const std::size_t count = std::min(most, groups.size() - first);
+    for (std::size_t i = 0; i < count; ++i) spans[i] = out + (first + i) * Linear8::size;
+    const Linear8& from = groups[first];
+    present({{from.r, from.g, from.b, from.a}, sizeof(Linear8) / sizeof(float)}, {spans, count});
+  }
+}
+
+void DisplayTransform::present(const SpanColors& colors, std::span<Rgba8* const> out) const {
+  TonemapKernels::of().show_spans(step_, colors, out.data(), out.size());
 }
 
 bool DisplayTransform::is_decided(const Linear8& front, float brightest, float rounding) const {

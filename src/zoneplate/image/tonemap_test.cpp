@@ -285,9 +285,22 @@ TEST(DisplayTransform, ShowsWhatMakeDisplayDoesQuantized) {
                                    .raw = (bits & 2) != 0};
       Rgba8 shown[48];
       const Rgba8Image expected = quantize8(make_display(image, options));
+      // The same pixels as spans that are stored apart from each other.
+      alignas(64) float channel[4][48];
+      for (std::size_t i = 0; i < 48; ++i) {
+        const Linear c = image(static_cast<int>(i), 0);
+        channel[0][i] = c.r, channel[1][i] = c.g, channel[2][i] = c.b, channel[3][i] = c.a;
+      }
+      Rgba8 spans[6][11];
+      Rgba8* const place[6] = {spans[4], spans[0] + 3, spans[2], spans[5], spans[1] + 1, spans[3]};
       for (const Isa isa : supported_isas()) {
         with_isa(isa, [&] { DisplayTransform(options).present(groups, shown); });
         for (int x = 0; x < 48; ++x) EXPECT_EQ(shown[x], expected(x, 0)) << x << " " << bits << name_of(isa);
+        for (auto& span : spans) std::fill(std::begin(span), std::end(span), Rgba8{});
+        with_isa(isa, [&] {
+          DisplayTransform(options).present({{channel[0], channel[1], channel[2], channel[3]}, 8}, place);
+        });
+        for (int x = 0; x < 48; ++x) EXPECT_EQ(place[x / 8][x % 8], expected(x, 0)) << x << " " << bits << name_of(isa);
       }
     }
 }

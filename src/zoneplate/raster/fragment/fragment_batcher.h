@@ -53,7 +53,13 @@ class FragmentBatcher {
   /// Shades spans: use(numbers, shaded) is called for parts of the list, with the indices of their spans; the colours
   /// of these spans follow each other in `shaded`.
   template <class Use>
-  void shade(std::span<const FragmentSpan> rows, Use use);
+  void shade(std::span<const FragmentSpan> rows, Use use) {
+    shade(
+        rows, [](std::span<const std::uint32_t>) {}, use);
+  }
+  /// The same; begin(numbers) is called before these spans are shaded.
+  template <class Begin, class Use>
+  void shade(std::span<const FragmentSpan> rows, Begin begin, Use use);
 
   /// Shades spans in the order of the list: use(shaded, first, count) is called for consecutive parts of `count` spans
   /// from span `first` on, whose colours begin at entry 0 of `shaded`.
@@ -141,13 +147,14 @@ class FragmentBatcher {
   std::vector<FragmentOutputs> unmixed_;  ///< their colours in the order of the list, a batch's capacity each
 };
 
-template <class Use>
-void FragmentBatcher::shade(std::span<const FragmentSpan> rows, Use use) {
+template <class Begin, class Use>
+void FragmentBatcher::shade(std::span<const FragmentSpan> rows, Begin begin, Use use) {
   const auto order = order_by_material(rows);
   shaded_ += rows.size() * FragmentBatch::group;
   for (std::size_t first = 0; first < rows.size();) {
     const std::size_t count = same_material(order, first, FragmentBatch::capacity / FragmentBatch::group);
     const auto numbers = order.subspan(first, count);
+    begin(numbers);
     fill(rows, numbers);
     shader_.shade(*batch_, {}, shaded_batch_);
     use(numbers, shaded_batch_);

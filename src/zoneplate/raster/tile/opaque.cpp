@@ -5,6 +5,8 @@
 #include <bit>
 #include <span>
 
+#include "zoneplate/raster/tile/span_presenter.h"
+
 namespace zoneplate {
 namespace {
 
@@ -20,7 +22,8 @@ class OpaqueShading {
         batcher_(batcher),
         opaque_(opaque),
         colors_(colors),
-        lists_(!job.has_transparency() && job.pass.count <= FragmentList::max_samples) {}
+        lists_(!job.has_transparency() && job.pass.count <= FragmentList::max_samples),
+        presenter_(job, colors) {}
 
   void run() {
     find_spans();
@@ -37,6 +40,10 @@ class OpaqueShading {
   void add_block(int block, std::int32_t id);
   void find_spans_of(int block);
   void add_sample_spans(std::uint32_t pixel, std::int32_t id);
+  void add_span(const FragmentSpan& span) {
+    opaque_.spans[span_count_++] = span;
+    if (presenter_.applies()) presenter_.mark(span.pixel);
+  }
   void shade_spans();
   void shade_sample_spans();
   OwnerRow owner_row_at(int x, int y) const;
@@ -54,6 +61,7 @@ class OpaqueShading {
   TileColors& colors_;
   std::size_t span_count_ = 0;  ///< of OpaqueFragments::spans
   const bool lists_;            ///< pixels of mixed spans go through OpaqueFragments::list
+  SpanPresenter presenter_;     ///< of spans
 };
 
 void OpaqueShading::find_spans() {
@@ -78,7 +86,7 @@ void OpaqueShading::find_spans() {
 void OpaqueShading::add_block(int block, std::int32_t id) {
   const int first = std::max(block / 8 * 8, job_.drawn.top), last = std::min(block / 8 * 8 + 8, job_.drawn.bottom);
   FragmentSpan span = job_.span_at(static_cast<std::uint32_t>(first * tile_size + block % 8 * 8), id);
-  for (int y = first; y < last; ++y, span.y += 256, span.pixel += tile_size) opaque_.spans[span_count_++] = span;
+  for (int y = first; y < last; ++y, span.y += 256, span.pixel += tile_size) add_span(span);
 }
 
 void OpaqueShading::find_spans_of(int block) {
@@ -96,7 +104,7 @@ void OpaqueShading::find_spans_of(int block) {
     } else if (is_span && target_.is_per_sample) {
       add_sample_spans(pixel, owner);
     } else if (is_span) {
-      opaque_.spans[span_count_++] = job_.span_at(pixel, owner);
+      add_span(job_.span_at(pixel, owner));
     } else if (lists_) {
       list_span(row);
     } else {
@@ -117,7 +125,11 @@ void OpaqueShading::add_sample_spans(std::uint32_t pixel, std::int32_t id) {
 
 void OpaqueShading::shade_spans() {
   const std::span<const FragmentSpan> spans(opaque_.spans.data(), span_count_);
-  batcher_.shade(spans, [&](std::span<const std::uint32_t> numbers, const FragmentOutputs& color) {
+  const auto begin = [&](std::span<const std::uint32_t> numbers) {
+    if (presenter_.applies()) presenter_.prefetch(spans, numbers);
+  };
+  batcher_.shade(spans, begin, [&](std::span<const std::uint32_t> numbers, const FragmentOutputs& color) {
+    if (presenter_.applies()) return presenter_.present(spans, numbers, color);
     const auto resolve = [&](float weight, std::vector<Linear8>& to) {
       Linear8* out[FragmentBatch::groups];
       for (std::size_t i = 0; i < numbers.size(); ++i) out[i] = &to[spans[numbers[i]].pixel / 8];

@@ -8,13 +8,18 @@
 namespace zoneplate {
 namespace {
 
-/// Calls make(first, count, out) for whole spans of a line, and for the spans at its ends, of which a part is written.
+/// Calls make(first, count, out) for whole spans of a line, and for the spans at its ends, of which a part is written;
+/// not for the spans whose bits are set in `written`.
 template <class Pixel, class Make>
-void write_line(const TileJob& job, Plane<Pixel>& plane, int y, Make make) {
+void write_line(const TileJob& job, Plane<Pixel>& plane, int y, std::uint32_t written, Make make) {
   const int left = job.drawn.left, right = job.drawn.right;
   Pixel* const out = &plane(job.x + left - job.setup.target.x, job.y + y - job.setup.target.y);  // pixel `left`
-  const int whole = (left + 7) / 8, end = right / 8;
-  if (whole < end) make(whole, end - whole, out + (whole * 8 - left));
+  const int end = right / 8;
+  for (int first = (left + 7) / 8, last = 0; first < end; first = last) {
+    first += std::countr_one(written >> first);
+    last = std::min(first + std::countr_zero(written >> first), end);
+    if (first < last) make(first, last - first, out + (first * 8 - left));
+  }
   const auto write_part = [&](int span) {
     Pixel part[8];
     make(span, 1, part);
@@ -27,16 +32,17 @@ void write_line(const TileJob& job, Plane<Pixel>& plane, int y, Make make) {
 
 }  // namespace
 
-void write_colors(const TileJob& job, const std::vector<Linear8>& color) {
+void write_colors(const TileJob& job, const TileColors& colors) {
   const Target& target = job.setup.target;
   for (int y = job.drawn.top; y < job.drawn.bottom; ++y) {
-    const Linear8* const line = &color[static_cast<std::size_t>(y * 8)];
+    const Linear8* const line = &colors.color[static_cast<std::size_t>(y * 8)];
+    const std::uint32_t written = colors.written_spans[static_cast<std::size_t>(y)];
     if (target.color)
-      write_line<Linear>(job, *target.color, y, [&](int first, int count, Linear* out) {
+      write_line<Linear>(job, *target.color, y, written, [&](int first, int count, Linear* out) {
         for (int i = 0; i < count; ++i) job.setup.resolve.store(line[first + i], out + i * 8);
       });
     if (target.display8)
-      write_line<Rgba8>(job, *target.display8, y, [&](int first, int count, Rgba8* out) {
+      write_line<Rgba8>(job, *target.display8, y, written, [&](int first, int count, Rgba8* out) {
         target.display_transform->present({line + first, static_cast<std::size_t>(count)}, out);
       });
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -12,14 +13,16 @@ namespace zoneplate {
 
 /// Colours of a tile's spans of eight pixels: linear, premultiplied.
 struct TileColors {
-  std::vector<Linear8> color;   ///< the weighted mean of the samples
+  std::vector<Linear8> color;  ///< the weighted mean of the samples
+  /// By line of the tile: a bit for each span of eight pixels that is written already, and whose `color` is unset.
+  std::array<std::uint8_t, tile_size> written_spans = {};
   std::vector<Linear8> base;    ///< the colour of the one opaque surface that a span shows, before transparent ones
   std::vector<Linear8> sum;     ///< the weighted sum of samples, where they are added one after the other
   std::vector<float> coverage;  ///< by pixel: the number of samples that an opaque surface covers
 };
 
-/// Writes the colours to the target's planes: linear, and display-referred.
-void write_colors(const TileJob& job, const std::vector<Linear8>& color);
+/// Writes the colours to the target's planes: linear, and display-referred. Spans that are written already stay.
+void write_colors(const TileJob& job, const TileColors& colors);
 
 /// Writes the target's coverage plane.
 void write_coverage(const TileJob& job, const std::vector<float>& coverage);

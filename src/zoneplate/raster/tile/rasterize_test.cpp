@@ -200,6 +200,32 @@ TEST(Rasterize, CropHasTheWholePicturesBits) {
   }
 }
 
+TEST(Rasterize, PresentedSpansHaveTheBitsOfStoredColours) {
+  const Crowd crowd(3);
+  const Flat shader(crowd.colors);
+  const DisplayTransform transform({.exposure = 0.9f, .background = {0.1f, 0.3f, 0.2f, 1}});
+  // All draws, and the opaque ones alone, so that some tiles have no transparent surface. The weights of three samples
+  // add up to no power of two.
+  for (const std::size_t draws : {std::size_t{6}, std::size_t{1}})
+    for (const int samples : {1, 3, 4})
+      for (const std::array<int, 4>& c : {std::array<int, 4>{0, 0, 200, 200}, {13, 70, 101, 67}}) {
+        const auto draw = [&](LinearImage* color) {
+          Rgba8Image shown(c[2], c[3]);
+          Target target;
+          target.viewport = {200, 200};
+          target.x = c[0], target.y = c[1], target.width = c[2], target.height = c[3];
+          target.samples = samples == 3 ? grid_pattern(2) : standard_pattern(samples);
+          target.samples.resize(static_cast<std::size_t>(samples));
+          target.display8 = &shown, target.display_transform = &transform;
+          target.color = color;
+          rasterize(std::span(crowd.draws).first(draws), shader, {}, target);
+          return shown;
+        };
+        LinearImage color(c[2], c[3]);
+        EXPECT_EQ(draw(nullptr), draw(&color)) << draws << " draws, " << samples << " samples";
+      }
+}
+
 TEST(Rasterize, ClosedSurfaceHasAsManyFrontAsBackFacesAtEverySample) {
   // A displaced octahedral sphere; layers of alpha 1/2 count the faces: n of them leave 2^-n of what is behind.
   std::vector<float3> position;

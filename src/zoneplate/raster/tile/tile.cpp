@@ -38,7 +38,7 @@ void render_colors(TileBuffers& b) {
     b.spans.composite(b.job, b.visibility, b.batcher, others, b.opaque, b.pixels, b.colors);
     b.times.blending += b.watch.lap_ms();
   }
-  write_colors(b.job, b.colors.color);
+  write_colors(b.job, b.colors);
   b.times.output += b.watch.lap_ms();
 }
 
@@ -112,9 +112,10 @@ void render_passes(TileBuffers& b) {
   }
   if (is_shaded) {
     b.colors.color.resize(tile_pixels / 8);
+    b.colors.written_spans.fill(0);
     for (std::size_t i = 0; i < b.colors.sum.size(); ++i)
       setup.resolve.divide(b.colors.sum[i], setup.weight_sum, b.colors.color[i]);
-    write_colors(b.job, b.colors.color);
+    write_colors(b.job, b.colors);
   }
   if (setup.target.stores_data()) write_data(b.job, b.batcher, is_shaded, b.data);
   if (setup.target.coverage) write_coverage(b.job, b.colors.coverage);
