@@ -256,8 +256,8 @@ HWY_INLINE bool interpolate_at(const Corner<D> (&c)[3], const Screen& screen, co
 
 /// The constants of a run's triangle: E_k = a_k x + (b_k y + c_k), all terms exact, and the derivatives of q_k.
 struct RowTriangle {
-  double a[3] = {}, b[3] = {}, c[3] = {};
-  alignas(64) double way[3][lanes];  ///< a_k × the distance of each pixel from the vector's first
+  alignas(32) double a[4] = {}, b[4] = {}, c[4] = {};  ///< the fourth ones are unused
+  alignas(64) double way[3][FragmentBatch::group];     ///< a_k × the distance of each pixel from the group's first
   float inv_w[3] = {}, gx[3] = {}, gy[3] = {}, sum_x = 0, sum_y = 0;
   float inverse = 0;  ///< 1 / the sum of the E_k, of an affine triangle
   std::int32_t is_clockwise = 0;
@@ -272,7 +272,6 @@ struct RowTriangle {
     }
     is_affine = !needs_clipping && inv_w[0] == inv_w[1] && inv_w[1] == inv_w[2];
     if (is_affine) inv_w[0] = inv_w[1] = inv_w[2] = 1;
-    const Doubles steps = Doubles::steps() * Doubles::all(256);
     for (int k = 0; k < 3; ++k) {
       const ScreenVertex &m = *vertex[(k + 1) % 3], &n = *vertex[(k + 2) % 3];
       a[k] = static_cast<double>(m.y - n.y);
@@ -280,7 +279,8 @@ struct RowTriangle {
       c[k] = static_cast<double>(m.x) * static_cast<double>(n.y) - static_cast<double>(m.y) * static_cast<double>(n.x);
       gx[k] = static_cast<float>(m.y - n.y) * inv_w[k];
       gy[k] = static_cast<float>(n.x - m.x) * inv_w[k];
-      (Doubles::all(a[k]) * steps).store(way[k]);
+      for (int at = 0; at < FragmentBatch::group; at += lanes)
+        (Doubles::all(a[k]) * ((Doubles::steps() + Doubles::all(at)) * Doubles::all(256))).store(way[k] + at);
     }
     const double area = (c[0] + c[1]) + c[2];
     is_clockwise = area > 0 ? 1 : 0;
@@ -290,13 +290,29 @@ struct RowTriangle {
   }
 };
 
-/// Edge function k at the fragments from i on of the group that begins at `first`.
-HWY_INLINE VF edge_of_row(const RowTriangle& t, int k, Viewport viewport, const FragmentBatch& batch, int first,
-                          int i) {
-  const double py = static_cast<double>(batch.y[first] - viewport.height * 128);
-  const double px = static_cast<double>(batch.x[first] - viewport.width * 128 + (i - first) * 256);
-  return (Doubles::all(t.a[k] * px + (t.b[k] * py + t.c[k])) + Doubles::load(t.way[k])).to_floats();
-}
+/// The edge functions at the fragments of a run's groups, from `first` on.
+class EdgesOfRow {
+ public:
+  HWY_INLINE EdgesOfRow(const RowTriangle& t, Viewport viewport, const FragmentBatch& batch, int first, int last)
+      : triangle_(t), begin_(first) {
+    const Three a = Three::load(t.a), b = Three::load(t.b), c = Three::load(t.c);
+    for (int i = first; i < last; i += FragmentBatch::group) {
+      const double px = batch.x[i] - viewport.width * 128, py = batch.y[i] - viewport.height * 128;
+      (a * Three::all(px) + (b * Three::all(py) + c)).store(at_first_[(i - first) / FragmentBatch::group]);
+    }
+  }
+  /// Edge function k at the fragments from i on of the group that begins at `group`.
+  HWY_INLINE VF at(int k, int group, int i) const {
+    const double at_first = at_first_[(group - begin_) / FragmentBatch::group][k];
+    return (Doubles::all(at_first) + Doubles::load(triangle_.way[k] + (i - group))).to_floats();
+  }
+
+ private:
+  using Three = DoublesOf<hn::CappedTag<float, 4>>;
+  const RowTriangle& triangle_;
+  int begin_;
+  alignas(64) double at_first_[FragmentBatch::groups][4];  ///< the edge functions at each group's first fragment
+};
 
 /// Interpolates the groups from `first` to `last` of an affine triangle.
 HWY_INLINE void interpolate_affine_run(const RowTriangle& t, const Screen& screen, Viewport viewport,
@@ -305,10 +321,10 @@ HWY_INLINE void interpolate_affine_run(const RowTriangle& t, const Screen& scree
   const VF inverse = hn::Set(d, t.inverse), by = hn::Mul(inverse, hn::Set(DF(), screen.step));
   const auto derivative = [&](float g) HWY_ATTR { return hn::Mul(hn::Set(d, g), by); };
   const VF dx1 = derivative(t.gx[1]), dx2 = derivative(t.gx[2]), dy1 = derivative(t.gy[1]), dy2 = derivative(t.gy[2]);
+  const EdgesOfRow edges(t, viewport, batch, first, last);
   for (int group = first; group < last; group += FragmentBatch::group)
     for (int i = group; i < group + FragmentBatch::group; i += lanes) {
-      store_weights(edge_of_row(t, 1, viewport, batch, group, i), edge_of_row(t, 2, viewport, batch, group, i), inverse,
-                    batch.b[0] + i, batch.b[1] + i);
+      store_weights(edges.at(1, group, i), edges.at(2, group, i), inverse, batch.b[0] + i, batch.b[1] + i);
       if (!screen.has_slopes) continue;
       hn::Store(dx1, d, batch.dbdx[0] + i), hn::Store(dx2, d, batch.dbdx[1] + i);
       hn::Store(dy1, d, batch.dbdy[0] + i), hn::Store(dy2, d, batch.dbdy[1] + i);
@@ -362,10 +378,11 @@ HWY_INLINE void interpolate_run(const RowTriangle& t, const Screen& screen, View
   const DF d;
   const auto same = [&](float x) HWY_ATTR { return hn::Set(d, x); };
   alignas(64) float sum[FragmentBatch::padded_capacity];
+  const EdgesOfRow edges(t, viewport, batch, first, last);
   for (int group = first; group < last; group += FragmentBatch::group)
     for (int i = group; i < group + FragmentBatch::group; i += lanes) {
       VF q[3];
-      for (int k = 0; k < 3; ++k) q[k] = hn::Mul(edge_of_row(t, k, viewport, batch, group, i), same(t.inv_w[k]));
+      for (int k = 0; k < 3; ++k) q[k] = hn::Mul(edges.at(k, group, i), same(t.inv_w[k]));
       hn::Store(q[1], d, batch.b[0] + i), hn::Store(q[2], d, batch.b[1] + i);
       hn::Store(hn::Add(hn::Add(q[0], q[1]), q[2]), d, sum + i);
     }
