@@ -37,6 +37,16 @@ inline void fill_repeated(const FragmentBatch& batch, int count, float* derivati
       std::fill_n(derivative + i, FragmentBatch::group, derivative[i - 1]);
 }
 
+/// Calls step<Lanes>(i) for the vectors of the fragments [first, end), of whole groups, with vectors of two groups
+/// where they begin at every second one. The last vector may reach beyond `end`.
+template <class F, class Wide, class Step>
+[[gnu::always_inline]] inline void for_vectors(int first, int end, Step step) {
+  int i = first;
+  if constexpr (Wide::lanes > FragmentBatch::group)
+    if (i % Wide::lanes != 0 || end - i <= FragmentBatch::group) step.template operator()<F>(i), i += F::lanes;
+  for (; i < end; i += Wide::lanes) step.template operator()<Wide>(i);
+}
+
 /// One float of the vertices, for several fragments: its value at the first vertex, and the differences of the second
 /// and third from it.
 template <class F>
@@ -50,33 +60,54 @@ struct Linear {
   }
 };
 
-/// Interpolates float c of a quad at fragments [i, end).
+/// The same for one triangle.
+struct UniformLinear {
+  float first, second, third;
+
+  template <class F>
+  [[gnu::always_inline]] Linear<F> lanes() const {
+    return {F(first), F(second), F(third)};
+  }
+};
+
+/// Interpolates float c of a quad at a vector of fragments.
 template <class F>
 [[gnu::always_inline]] inline void store_float(const FragmentBatch& batch, const Linear<F>& a,
-                                               const Interpolation::Quad& quad, int c, int i, int end,
-                                               ShadingState& p) {
+                                               const Interpolation::Quad& quad, int c, int i, ShadingState& p) {
+  a.at(batch, i).store(quad.value[c].of(p) + i);
+  if (quad.dx[c].is_none()) return;
+  a.along(batch.dbdx, i).store(quad.dx[c].of(p) + i);
+  a.along(batch.dbdy, i).store(quad.dy[c].of(p) + i);
+}
+
+/// Interpolates float c of a quad at fragments [i, end) of one triangle.
+template <class F, class Wide>
+[[gnu::always_inline]] inline void store_floats(const FragmentBatch& batch, const UniformLinear& a,
+                                                const Interpolation::Quad& quad, int c, int i, int end,
+                                                ShadingState& p) {
   float* const value = quad.value[c].of(p);
   if (quad.dx[c].is_none()) {
-    for (int k = i; k < end; k += F::lanes) a.at(batch, k).store(value + k);
+    for_vectors<F, Wide>(i, end, [&]<class V>(int k) { a.lanes<V>().at(batch, k).store(value + k); });
     return;
   }
   float *const dx = quad.dx[c].of(p), *const dy = quad.dy[c].of(p);
-  for (int k = i; k < end; k += F::lanes) {
-    a.at(batch, k).store(value + k);
-    a.along(batch.dbdx, k).store(dx + k);
-    a.along(batch.dbdy, k).store(dy + k);
-  }
+  for_vectors<F, Wide>(i, end, [&]<class V>(int k) {
+    const Linear<V> line = a.lanes<V>();
+    line.at(batch, k).store(value + k);
+    line.along(batch.dbdx, k).store(dx + k);
+    line.along(batch.dbdy, k).store(dy + k);
+  });
 }
 
-/// The same for fragments of one triangle that all have the derivatives of fragment i; only the group of fragment i
-/// stores them.
-template <class F>
-[[gnu::always_inline]] inline void store_affine_float(const FragmentBatch& batch, const Linear<F>& a,
-                                                      const Interpolation::Quad& quad, int c, int i, int end,
-                                                      ShadingState& p) {
-  store_float(batch, a, quad, c, i, i + FragmentBatch::group, p);
+/// The same for fragments that all have the derivatives of fragment i; only the group of fragment i stores them.
+template <class F, class Wide>
+[[gnu::always_inline]] inline void store_affine_floats(const FragmentBatch& batch, const UniformLinear& a,
+                                                       const Interpolation::Quad& quad, int c, int i, int end,
+                                                       ShadingState& p) {
+  store_floats<F, F>(batch, a, quad, c, i, i + FragmentBatch::group, p);
   float* const value = quad.value[c].of(p);
-  for (int k = i + FragmentBatch::group; k < end; k += F::lanes) a.at(batch, k).store(value + k);
+  for_vectors<F, Wide>(i + FragmentBatch::group, end,
+                       [&]<class V>(int k) { a.lanes<V>().at(batch, k).store(value + k); });
 }
 
 /// True if the triangle of a run has the same normal at all vertices.
@@ -89,7 +120,7 @@ inline bool is_flat(const TriangleVertices& vertices, std::size_t leader) {
 }
 
 /// Interpolates a quad at fragments [i, end), all of one triangle.
-template <class F>
+template <class F, class Wide>
 [[gnu::always_inline]] inline void interpolate_run(const FragmentBatch& batch, const TriangleVertices& vertices,
                                                    const Interpolation::Quad& quad, int i, int end, ShadingState& p) {
   const std::size_t leader = batch.leader(static_cast<std::size_t>(i));
@@ -110,15 +141,14 @@ template <class F>
     const float second = v1[c] - v0[c], third = v2[c] - v0[c];
     if (second == 0 && third == 0 && quad.dx[c].is_none()) {
       float* const value = quad.value[c].of(p);
-      const F same(v0[c] + 0.0f);
-      for (int k = i; k < end; k += F::lanes) same.store(value + k);
+      for_vectors<F, Wide>(i, end, [&]<class V>(int k) { V(v0[c] + 0.0f).store(value + k); });
       continue;
     }
-    const Linear<F> line{F(v0[c]), F(second), F(third)};
+    const UniformLinear line{v0[c], second, third};
     if (has_uniform_derivatives && !quad.dx[c].is_none()) {
-      store_affine_float(batch, line, quad, c, i, end, p);
+      store_affine_floats<F, Wide>(batch, line, quad, c, i, end, p);
     } else {
-      store_float(batch, line, quad, c, i, end, p);
+      store_floats<F, Wide>(batch, line, quad, c, i, end, p);
     }
   }
 }
@@ -133,11 +163,11 @@ template <class F, class Records>
     for (int k = 0; k < 3; ++k) F::load_quads([&](int lane) { return records(k, i + lane) + quad.offset; }, v[k]);
     for (int c = 0; c < 4; ++c)
       if (!quad.value[c].is_none())
-        store_float(batch, Linear<F>{v[0][c], v[1][c] - v[0][c], v[2][c] - v[0][c]}, quad, c, i, i + F::lanes, p);
+        store_float(batch, Linear<F>{v[0][c], v[1][c] - v[0][c], v[2][c] - v[0][c]}, quad, c, i, p);
   }
 }
 
-template <class F, class Records>
+template <class F, class Wide, class Records>
 [[gnu::always_inline]] inline void interpolate_all(const FragmentBatch& batch, const TriangleVertices& vertices,
                                                    const Records& records, const Interpolation& interpolation,
                                                    ShadingState& p) {
@@ -145,7 +175,7 @@ template <class F, class Records>
     if (batch.is_flat_run[i / FragmentBatch::group]) {
       const int end = batch.run_end[i / FragmentBatch::group] * FragmentBatch::group;
       for (int n = 0; n < interpolation.quads; ++n)
-        interpolate_run<F>(batch, vertices, interpolation.quad[n], i, end, p);
+        interpolate_run<F, Wide>(batch, vertices, interpolation.quad[n], i, end, p);
       i = end;
     } else {
       interpolate_fragments<F>(batch, records, interpolation, i, p);
@@ -154,13 +184,13 @@ template <class F, class Records>
   }
 }
 
-template <class F>
+template <class F, class Wide>
 void interpolate(const FragmentBatch& batch, const TriangleVertices& vertices, const Interpolation& interpolation,
                  ShadingState& p) {
   if (vertices.first != nullptr)
-    return interpolate_all<F>(batch, vertices, RecordsByVertex{batch, vertices.first, vertices.stride}, interpolation,
-                              p);
-  interpolate_all<F>(batch, vertices, RecordsByFragment{vertices}, interpolation, p);
+    return interpolate_all<F, Wide>(batch, vertices, RecordsByVertex{batch, vertices.first, vertices.stride},
+                                    interpolation, p);
+  interpolate_all<F, Wide>(batch, vertices, RecordsByFragment{vertices}, interpolation, p);
 }
 
 template <class F>

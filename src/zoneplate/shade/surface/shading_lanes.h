@@ -17,7 +17,7 @@ constexpr SurfaceKernels all() {
       .multiply = &multiply<Wide>,
       .fill = &fill<Wide>,
       .saturate = &saturate<Wide>,
-      .interpolate = &interpolate<F>,
+      .interpolate = &interpolate<F, Wide>,
       .map_coordinates = &map_coordinates<F>,
       .transform_positions = &transform_positions<F>,
       .transform_normals = &transform_normals<F>,

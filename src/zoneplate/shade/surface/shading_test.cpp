@@ -73,7 +73,7 @@ struct Bench {
     for (int g = 0; g < FragmentBatch::groups; ++g) {
       batch.is_flat_run[g] = g % 4 != 3;
       batch.run_begin[g] = static_cast<std::uint8_t>(g % 4 == 3 ? g : g / 4 * 4);
-      batch.run_end[g] = static_cast<std::uint8_t>(g / 4 * 4 + 3);
+      batch.run_end[g] = static_cast<std::uint8_t>(std::min(g / 4 * 4 + 3, batch.padded() / FragmentBatch::group));
       batch.has_uniform_derivatives[g] = g / 4 % 2 == 1 && (g % 4 == 1 || g % 4 == 2);
       if (batch.has_uniform_derivatives[g])
         repeat_derivatives(batch.run_begin[g] * FragmentBatch::group, g * FragmentBatch::group);
