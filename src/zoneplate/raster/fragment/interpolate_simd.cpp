@@ -294,24 +294,25 @@ struct RowTriangle {
 class EdgesOfRow {
  public:
   HWY_INLINE EdgesOfRow(const RowTriangle& t, Viewport viewport, const FragmentBatch& batch, int first, int last)
-      : triangle_(t), begin_(first) {
+      : triangle_(t) {
     const Three a = Three::load(t.a), b = Three::load(t.b), c = Three::load(t.c);
     for (int i = first; i < last; i += FragmentBatch::group) {
       const double px = batch.x[i] - viewport.width * 128, py = batch.y[i] - viewport.height * 128;
-      (a * Three::all(px) + (b * Three::all(py) + c)).store(at_first_[(i - first) / FragmentBatch::group]);
+      (a * Three::all(px) + (b * Three::all(py) + c))
+          .store(at_first_[static_cast<std::size_t>(i) / FragmentBatch::group]);
     }
   }
   /// Edge function k at the fragments from i on of the group that begins at `group`.
   HWY_INLINE VF at(int k, int group, int i) const {
-    const double at_first = at_first_[(group - begin_) / FragmentBatch::group][k];
+    const double at_first = at_first_[static_cast<std::size_t>(group) / FragmentBatch::group][k];
     return (Doubles::all(at_first) + Doubles::load(triangle_.way[k] + (i - group))).to_floats();
   }
 
  private:
   using Three = DoublesOf<hn::CappedTag<float, 4>>;
   const RowTriangle& triangle_;
-  int begin_;
-  alignas(64) double at_first_[FragmentBatch::groups][4];  ///< the edge functions at each group's first fragment
+  /// By group of the batch: the edge functions at its first fragment.
+  alignas(64) double at_first_[FragmentBatch::groups][4];
 };
 
 /// Interpolates the groups from `first` to `last` of an affine triangle.
