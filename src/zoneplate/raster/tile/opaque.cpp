@@ -42,7 +42,7 @@ class OpaqueShading {
   void add_sample_spans(std::uint32_t pixel, std::int32_t id);
   void add_span(const FragmentSpan& span) {
     opaque_.spans[span_count_++] = span;
-    if (presenter_.applies()) presenter_.mark(span.pixel);
+    if (presenter_.applies()) presenter_.add(span.pixel);
   }
   void shade_spans();
   void shade_sample_spans();
@@ -126,10 +126,10 @@ void OpaqueShading::add_sample_spans(std::uint32_t pixel, std::int32_t id) {
 void OpaqueShading::shade_spans() {
   const std::span<const FragmentSpan> spans(opaque_.spans.data(), span_count_);
   const auto begin = [&](std::span<const std::uint32_t> numbers) {
-    if (presenter_.applies()) presenter_.prefetch(spans, numbers);
+    if (presenter_.applies()) presenter_.prefetch(numbers);
   };
   batcher_.shade(spans, begin, [&](std::span<const std::uint32_t> numbers, const FragmentOutputs& color) {
-    if (presenter_.applies()) return presenter_.present(spans, numbers, color);
+    if (presenter_.applies()) return presenter_.present(numbers, color);
     const auto resolve = [&](float weight, std::vector<Linear8>& to) {
       Linear8* out[FragmentBatch::groups];
       for (std::size_t i = 0; i < numbers.size(); ++i) out[i] = &to[spans[numbers[i]].pixel / 8];

@@ -24,15 +24,14 @@ SpanPresenter::SpanPresenter(const TileJob& job, TileColors& colors) : target_(j
   first_ = job.target_y(0) * stride_ + job.target_x(0);
 }
 
-void SpanPresenter::prefetch(std::span<const FragmentSpan> spans, std::span<const std::uint32_t> numbers) const {
-  for (const std::uint32_t number : numbers) __builtin_prefetch(address(spans[number].pixel), 1);
+void SpanPresenter::prefetch(std::span<const std::uint32_t> numbers) const {
+  for (const std::uint32_t number : numbers) __builtin_prefetch(spans_[number], 1);
   asm volatile("");  // GCC 12 removes functions and loops that only prefetch
 }
 
-void SpanPresenter::present(std::span<const FragmentSpan> spans, std::span<const std::uint32_t> numbers,
-                            const FragmentOutputs& color) const {
+void SpanPresenter::present(std::span<const std::uint32_t> numbers, const FragmentOutputs& color) const {
   Rgba8* out[FragmentBatch::groups];
-  for (std::size_t i = 0; i < numbers.size(); ++i) out[i] = address(spans[numbers[i]].pixel);
+  for (std::size_t i = 0; i < numbers.size(); ++i) out[i] = spans_[numbers[i]];
   target_.display_transform->present({{color.r, color.g, color.b, color.a}, FragmentBatch::group},
                                      {out, numbers.size()});
 }

@@ -21,31 +21,28 @@ class SpanPresenter {
 
   bool applies() const { return pixels_ != nullptr; }
 
-  // The functions below require applies().
+  // The functions below require applies(). Spans are numbered in the order in which they are added.
 
-  /// Adds a span, by its first pixel, to TileColors::written_spans.
-  void mark(std::uint32_t pixel) {
-    colors_.written_spans[pixel / tile_size] |= static_cast<std::uint8_t>(1u << pixel % tile_size / 8);
+  /// Adds a span, by its first pixel, also to TileColors::written_spans.
+  void add(std::uint32_t pixel) {
+    const std::uint32_t x = pixel % tile_size, y = pixel / tile_size;
+    colors_.written_spans[y] |= static_cast<std::uint8_t>(1u << x / 8);
+    spans_[count_++] = pixels_ + (first_ + static_cast<std::ptrdiff_t>(y) * stride_ + static_cast<std::ptrdiff_t>(x));
   }
-  /// Fetches the memory of the pixels of spans[numbers[i]] into the cache. To be called long before `present`: the
-  /// lines of an image lie in different pages, and waiting for them would take longer than presenting.
-  void prefetch(std::span<const FragmentSpan> spans, std::span<const std::uint32_t> numbers) const;
-  /// Writes the pixels of spans[numbers[i]], whose colours follow each other in `color`. At most FragmentBatch::groups
-  /// spans.
-  void present(std::span<const FragmentSpan> spans, std::span<const std::uint32_t> numbers,
-               const FragmentOutputs& color) const;
+  /// Fetches the memory of spans into the cache. To be called long before `present`: the lines of an image lie in
+  /// different pages, and waiting for them would take longer than presenting.
+  void prefetch(std::span<const std::uint32_t> numbers) const;
+  /// Writes the pixels of spans, whose colours follow each other in `color`. At most FragmentBatch::groups spans.
+  void present(std::span<const std::uint32_t> numbers, const FragmentOutputs& color) const;
 
  private:
-  Rgba8* address(std::uint32_t pixel) const {
-    const auto y = static_cast<std::ptrdiff_t>(pixel / tile_size), x = static_cast<std::ptrdiff_t>(pixel % tile_size);
-    return pixels_ + (first_ + y * stride_ + x);
-  }
-
   const Target& target_;
   TileColors& colors_;
   Rgba8* pixels_ = nullptr;    ///< of Target::display8
   std::ptrdiff_t first_ = 0;   ///< index of the tile's first pixel, which may lie outside the target
   std::ptrdiff_t stride_ = 0;  ///< pixels from one line to the next
+  std::size_t count_ = 0;
+  Rgba8* spans_[tile_pixels / FragmentBatch::group];  ///< the first pixels of `count_` spans
 };
 
 }  // namespace zoneplate
