@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <bit>
+#include <cstdint>
+
 #include "zoneplate/base/isa.h"
 #include "zoneplate/image/pixel.h"
 #include "zoneplate/raster/types/batch.h"
@@ -35,6 +38,9 @@ struct alignas(64) TransparentStack8 {
 
   void clear();
 };
+
+/// True if multiplication and division by a weight cancel exactly: it is a power of two.
+inline bool cancels_exactly(float weight) { return (std::bit_cast<std::uint32_t>(weight) & 0x7fffffu) == 0; }
 
 /// Sums and means of samples, for spans of eight pixels whose fragments are consecutive in `color`, from `first` on.
 ///

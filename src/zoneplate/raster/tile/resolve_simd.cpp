@@ -3,8 +3,6 @@
 
 #include <hwy/highway.h>
 
-#include <cstdint>
-
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
@@ -32,12 +30,6 @@ HWY_INLINE void each_channel(const Linear8& color, Linear8& out, Step step) {
   }
 }
 
-HWY_INLINE bool is_power_of_two(float x) {
-  std::uint32_t bits;
-  __builtin_memcpy(&bits, &x, sizeof(bits));
-  return (bits & 0x7fffffu) == 0;
-}
-
 /// A sum divided by its weight; a weight of 1 leaves it unchanged.
 struct Mean {
   V weight;
@@ -53,8 +45,7 @@ void resolve(const FragmentOutputs& color, int first, int rows, float weight, Li
       each_channel(color, first + row * FragmentBatch::group, *out[row],
                    [&](V c, float* to, std::size_t) HWY_ATTR { hn::Store(mean(c), d, to); });
   };
-  // Multiplication and division by a power of two cancel exactly.
-  if (is_power_of_two(weight)) return each_row([&](V c) HWY_ATTR { return hn::Add(zero, c); });
+  if (cancels_exactly(weight)) return each_row([&](V c) HWY_ATTR { return hn::Add(zero, c); });
   each_row([&](V c) HWY_ATTR { return hn::Div(hn::Add(zero, hn::Mul(c, w)), w); });
 }
 

@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/raster/tile/span_presenter.h"
 
-#include <cmath>
-
 namespace zoneplate {
-namespace {
-
-/// Multiplication and division by such a weight cancel exactly.
-bool is_power_of_two(float weight) {
-  int exponent;
-  return std::frexp(weight, &exponent) == 0.5f;
-}
-
-}  // namespace
 
 SpanPresenter::SpanPresenter(const TileJob& job, TileColors& colors) : target_(job.setup.target), colors_(colors) {
   colors_.written_spans.fill(0);
   const bool stores_display_alone = target_.display8 && !target_.color && !target_.sample_color;
   if (!stores_display_alone || target_.is_per_sample || job.has_transparency()) return;
-  if (!is_power_of_two(job.setup.weight_sum)) return;
+  if (!cancels_exactly(job.setup.weight_sum)) return;
   pixels_ = target_.display8->values().data();
   stride_ = target_.display8->width();
   first_ = job.target_y(0) * stride_ + job.target_x(0);

@@ -38,12 +38,15 @@ inline void fill_repeated(const FragmentBatch& batch, int count, float* derivati
 }
 
 /// Calls step<Lanes>(i) for the vectors of the fragments [first, end), of whole groups, with vectors of two groups
-/// where they begin at every second one. The last vector may reach beyond `end`.
+/// where they begin at every second one. The last vector may reach into the group after `end`, whose values are to be
+/// stored afterwards: runs are interpolated in their order.
 template <class F, class Wide, class Step>
 [[gnu::always_inline]] inline void for_vectors(int first, int end, Step step) {
   int i = first;
-  if constexpr (Wide::lanes > FragmentBatch::group)
+  if constexpr (Wide::lanes > FragmentBatch::group) {
+    static_assert(F::lanes == FragmentBatch::group);
     if (i % Wide::lanes != 0 || end - i <= FragmentBatch::group) step.template operator()<F>(i), i += F::lanes;
+  }
   for (; i < end; i += Wide::lanes) step.template operator()<Wide>(i);
 }
 
