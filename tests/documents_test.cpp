@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+// README.md and docs/ agree with the program: images are those of the commands beside them, lists are whole, tables are
+// tables, and links lead to files.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "zoneplate/antialias/methods.h"
+#include "zoneplate/base/paths_for_test.h"
+#include "zoneplate/cli/demo/demo.h"
+#include "zoneplate/cli/program_for_test.h"
+#include "zoneplate/cli/verbs.h"
+#include "zoneplate/upscale/upscaler.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+const fs::path root = zoneplate::source_root;
+
+std::vector<fs::path> documents() {
+  std::vector<fs::path> out;
+  for (const fs::path& folder : {root, root / "docs"})
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (entry.path().extension() == ".md") out.push_back(entry.path());
+  EXPECT_GT(out.size(), 20u);
+  return out;
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    lines.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
+}
+
+/// The lines of a document outside its fenced code, the others empty.
+std::vector<std::string> prose_lines(const fs::path& document) {
+  std::vector<std::string> lines = lines_of(zoneplate::text_of(document));
+  bool is_code = false;
+  for (std::string& line : lines) {
+    const bool is_fence = line.starts_with("```");
+    if (is_code || is_fence) line.clear();
+    if (is_fence) is_code = !is_code;
+  }
+  return lines;
+}
+
+/// The cells of a row of a table: a bar after a backslash does not divide.
+std::ptrdiff_t cells_of(const std::string& row) {
+  std::ptrdiff_t bars = 0;
+  for (std::size_t i = 0; i < row.size(); ++i) bars += row[i] == '|' && (i == 0 || row[i - 1] != '\\');
+  return bars - 1;
+}
+
+TEST(Documents, RowsOfTablesFollowTheirHeads) {
+  for (const fs::path& document : documents()) {
+    const std::vector<std::string> lines = prose_lines(document);
+    std::ptrdiff_t columns = 0;  // of the table that the previous line belongs to
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const bool is_row = lines[i].starts_with('|');
+      if (is_row && columns == 0) {
+        ASSERT_LT(i + 1, lines.size());
+        EXPECT_TRUE(std::regex_match(lines[i + 1], std::regex("\\|([ :]*-+[ :]*\\|)+")))
+            << document << ':' << i + 1 << ": no table begins with this row: " << lines[i];
+      }
+      if (is_row && columns != 0) {
+        EXPECT_EQ(cells_of(lines[i]), columns) << document << ":" << i + 1;
+      }
+      columns = is_row ? cells_of(lines[i]) : 0;
+    }
+  }
+}
+
+TEST(Documents, LinksLeadToFiles) {
+  const std::regex link("\\]\\(([^)#: ]+)(#[^)]*)?\\)");
+  int links = 0;
+  for (const fs::path& document : documents())
+    for (const std::string& line : prose_lines(document))
+      for (std::sregex_iterator at(line.begin(), line.end(), link), end; at != end; ++at, ++links)
+        EXPECT_TRUE(fs::exists(document.parent_path() / (*at)[1].str())) << document << ": " << (*at)[1];
+  EXPECT_GT(links, 50);
+}
+
+TEST(Documents, TheReadmeNamesEveryVerbLessonMethodAndUpscaler) {
+  const std::string readme = zoneplate::text_of(root / "README.md");
+  const auto expect_named = [&](std::string_view name) {
+    EXPECT_NE(readme.find('`' + std::string(name) + '`'), std::string::npos) << name;
+  };
+  for (const zoneplate::cli::Verb& verb : zoneplate::cli::all_verbs())
+    EXPECT_NE(readme.find("zoneplate " + std::string(verb.name)), std::string::npos) << verb.name;
+  for (const zoneplate::cli::Demo& lesson : zoneplate::cli::demos()) expect_named(lesson.name);
+  for (const zoneplate::Method& method : zoneplate::antialias::methods()) expect_named(method.name);
+  for (const zoneplate::Upscaler& upscaler : zoneplate::upscale::upscalers()) expect_named(upscaler.name);
+  EXPECT_EQ(readme.find("Not supported yet"), std::string::npos);
+}
+
+using DocumentImages = zoneplate::ProgramTest;
+
+/// The arguments of the document's first command that writes an image of this name, here into the current folder.
+std::string command_of(const fs::path& document, const std::string& name) {
+  const std::regex command("\\./zoneplate (.* -o )(docs/)?" + name + "( .*)?");
+  std::smatch match;
+  for (const std::string& line : lines_of(zoneplate::text_of(document)))
+    if (std::regex_match(line, match, command)) return match[1].str() + name + match[3].str();
+  return {};
+}
+
+TEST_F(DocumentImages, AreThoseOfTheCommandsBesideThem) {
+  const std::regex image("!\\[[^\\]]*\\]\\(([^)]*\\.png)\\)");
+  int images = 0;
+  for (const fs::path& document : documents()) {
+    const std::string text = zoneplate::text_of(document);
+    for (std::sregex_iterator at(text.begin(), text.end(), image), end; at != end; ++at, ++images) {
+      const fs::path file = document.parent_path() / (*at)[1].str();
+      const std::string command = command_of(document, file.filename().string());
+      ASSERT_FALSE(command.empty()) << document << " has no command that makes " << file.filename();
+      const zoneplate::ProgramAnswer answer = run(command);
+      ASSERT_EQ(answer.code, 0) << command << '\n' << answer.out;
+      EXPECT_TRUE(zoneplate::text_of(place / file.filename()) == zoneplate::text_of(file))
+          << document << ": " << file.filename() << " is not what the command makes: " << command;
+    }
+  }
+  EXPECT_GE(images, 5);
+}
+
+}  // namespace
