@@ -23,6 +23,8 @@ add_executable(zoneplate_playground web/playground/session.cpp web/playground/lo
                web/playground/figures.cpp web/playground/truetype.cpp ${readers} ${figures})
 compile_folders_together(zoneplate_playground)
 target_link_libraries(zoneplate_playground PRIVATE zoneplate)
+# What takes time is in the library; a page that is smaller is there sooner.
+target_compile_options(zoneplate_playground PRIVATE -Oz)
 # Sizes have 32 bits here; session.cpp limits the memory of a model to less. A library, so that its options come last.
 add_library(zoneplate_playground_flags INTERFACE)
 target_compile_options(zoneplate_playground_flags INTERFACE -include ${CMAKE_CURRENT_SOURCE_DIR}/cmake/wasm_readers.h
