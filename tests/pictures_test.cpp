@@ -59,7 +59,7 @@ constexpr Golden goldens[] = {
     {"teapot", "msaa:n=4", 0x8d290cf7ed232fb6u},
     {"teapot", "ssaa:n=3", 0xa61c4c3b43337313u},
     {"checkerboard", "msaa:n=8", 0xdfd8d2e528edbe9du},
-    {"checkerboard", "ssaa:pattern=halton,samples=24", 0x64eae5f80bdf9b89u},
+    {"checkerboard", "ssaa:pattern=halton,samples=24", 0x6d37e74e1b328214u},
     {"triangles", "msaa:grid=4", 0x3eb3916ef6c22d66u},
     {"cyclic", "msaa:n=2", 0x92f5bb4b933c32cu},
     {"sphere:triangles=5000", "msaa:n=16", 0x7ae16a666539cf8du},

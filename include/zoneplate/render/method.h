@@ -105,8 +105,7 @@ struct FrameContext {
   int index = 0;         ///< in its sequence, in the order of rendering
   bool is_first = true;  ///< the first frame of its sequence: the method drops all history
   /// The sub-pixel jitter for methods that distribute their samples over frames; others ignore it. It cycles through
-  /// the first 8 elements of the Halton sequence of bases 2 and 3, rounded to 1/256 pixel.
-  /// Source    Karis, High Quality Temporal Supersampling, SIGGRAPH 2014 course.
+  /// the "halton" pattern of 8 positions, whose mean is the pixel's centre.
   SamplePosition jitter;
   /// The data planes of the previous frame if its request had `keeps_planes`; otherwise, and for the first frame, null.
   /// They are valid until the method has resolved and post-processed this frame.

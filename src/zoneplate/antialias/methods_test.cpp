@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
 
@@ -29,6 +33,28 @@ TEST(Method, TextsMakeRequests) {
   EXPECT_EQ(request("ssaa:n=3").samples, grid_pattern(3));
   EXPECT_EQ(request("ssaa:n=3").rate, Rate::Sample);
   EXPECT_EQ(request("ssaa:pattern=halton,samples=64").samples, named_pattern("halton", 64));
+}
+
+// The mean of the samples of a period is where the image lies; engines' presets keep the jitter that they publish.
+TEST(Method, OwnJittersDoNotMoveTheImage) {
+  const auto distance = [](const std::string& text, int period) {
+    const auto method = make_resolver(antialias::methods(), text);
+    double x = 0, y = 0;
+    for (int i = 0; i < period; ++i) {
+      const SamplePosition s = method->request({.index = i}).samples[0];
+      x += s.x - 128, y += s.y - 128;
+    }
+    return std::max(std::abs(x), std::abs(y)) / (256 * period);
+  };
+  for (const char* text : {"taa", "taa:jitter=r2", "taa:preset=salvi", "oracle-taa", "history-guided"})
+    for (const int period : {1, 2, 3, 5, 8, 16, 32, 100, 1024}) {
+      const std::string length = (std::string(text).find(':') == std::string::npos ? ":length=" : ",length=");
+      EXPECT_LE(distance(text + length + std::to_string(period), period), 1.0 / 512) << text << ' ' << period;
+    }
+  EXPECT_LE(distance("taa:preset=karis,jitter=halton", 8), 1.0 / 512);
+  const auto method = make_resolver(antialias::methods(), "taa:preset=karis");
+  for (int i = 0; i < 16; ++i)
+    EXPECT_EQ(method->request({.index = i}).samples[0], halton_sequence(8)[static_cast<std::size_t>(i % 8)]);
 }
 
 TEST(Method, ReferencesDrawForThemselves) {

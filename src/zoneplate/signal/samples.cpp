@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "zoneplate/base/error.h"
 
@@ -21,6 +22,21 @@ SamplePosition at(double x, double y) {
 /// A position in sixteenths of a pixel from the pixel's centre, the unit of the standard patterns.
 SamplePosition sixteenths(int x, int y) {
   return {static_cast<std::uint8_t>(128 + 16 * x), static_cast<std::uint8_t>(128 + 16 * y)};
+}
+
+/// Positions moved by the distance of their mean from the pixel's centre, and rounded to 1/256.
+///
+/// The few that would leave the pixel stay at its border; the mean is at the centre within 1/512 all the same.
+SamplePattern centred(const std::vector<std::pair<double, double>>& points) {
+  double sum_x = 0, sum_y = 0;
+  for (const auto& [x, y] : points) sum_x += x, sum_y += y;
+  const auto count = static_cast<double>(points.size());
+  const auto cell = [](double from_mean) {
+    return static_cast<std::uint8_t>(std::clamp(static_cast<int>(std::ceil(from_mean * 256 + 127.5)), 0, 255));
+  };
+  SamplePattern out;
+  for (const auto& [x, y] : points) out.push_back({cell(x - sum_x / count), cell(y - sum_y / count)});
+  return out;
 }
 
 double radical_inverse(unsigned base, unsigned i) {
@@ -41,6 +57,15 @@ double sobol_y(unsigned i) {
     direction ^= direction >> 1;
   }
   return bits * 0x1p-32;
+}
+
+/// (½, ½) and multiples of 1 / p and 1 / p² for the plastic number p = 1.3247...: the real root of p³ = p + 1.
+///
+/// Source    Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018.
+std::pair<double, double> r2(unsigned i) {
+  constexpr std::uint32_t step_x = 3242174889u, step_y = 2447445414u,
+                          half = 0x80000000u;  // 2^32 / p, 2^32 / p², 2^32 / 2
+  return {(half + i * step_x) * 0x1p-32, (half + i * step_y) * 0x1p-32};
 }
 
 SamplePattern rotated_grid(int n) {
@@ -107,19 +132,28 @@ SamplePattern named_pattern(const std::string& name, int samples) {
   if (name == "grid") return grid_pattern(root);
   if (name == "rotated") return rotated_grid(root);
   if (name == "nrooks") return rooks(samples);
-  SamplePattern out;
   // Each point of Sobol's sequence is at the corner of its cell, the first at that of the pixel; all are moved to the
   // middles.
   const double half_cell = 0.5 / std::bit_ceil(static_cast<unsigned>(samples));
+  std::vector<std::pair<double, double>> points;
   for (unsigned i = 0; i < static_cast<unsigned>(samples); ++i) {
     if (name == "halton")
-      out.push_back(at(radical_inverse(2, i + 1), radical_inverse(3, i + 1)));
+      points.emplace_back(radical_inverse(2, i + 1), radical_inverse(3, i + 1));
+    else if (name == "r2")
+      points.push_back(r2(i));
     else if (name == "sobol")
-      out.push_back(at(radical_inverse(2, i) + half_cell, sobol_y(i) + half_cell));
+      points.emplace_back(radical_inverse(2, i) + half_cell, sobol_y(i) + half_cell);
     else
       throw Error(ErrorKind::Usage,
-                  "unknown sample pattern " + name + "; there are grid, rotated, halton, sobol, nrooks");
+                  "unknown sample pattern " + name + "; there are grid, rotated, halton, r2, sobol, nrooks");
   }
+  return centred(points);
+}
+
+SamplePattern halton_sequence(int samples) {
+  SamplePattern out;
+  for (unsigned i = 1; i <= static_cast<unsigned>(samples); ++i)
+    out.push_back(at(radical_inverse(2, i), radical_inverse(3, i)));
   return out;
 }
 

@@ -7,14 +7,13 @@ namespace zoneplate::antialias {
 
 /// Sequences of sample positions over frames.
 enum class JitterSequence {
-  Halton,  ///< bases 2 and 3, from element 1
-  R2,      ///< multiples of the plastic number's powers, from (½, ½)
-  None,    ///< the pixel's centre
+  Halton,           ///< bases 2 and 3; the mean of the period is the pixel's centre
+  R2,               ///< multiples of the plastic number's powers; the mean of the period is the pixel's centre
+  None,             ///< the pixel's centre
+  UncentredHalton,  ///< bases 2 and 3, from element 1, as engines publish them: the image moves by what the mean lacks
 };
 
-/// The first `length` positions of a sequence.
-///
-/// Source    R2: Roberts, The Unreasonable Effectiveness of Quasirandom Sequences, 2018.
+/// The positions of a period of `length` frames.
 SamplePattern jitter_pattern(JitterSequence sequence, int length);
 
 }  // namespace zoneplate::antialias

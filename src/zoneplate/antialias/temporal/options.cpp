@@ -23,6 +23,7 @@ TemporalOptions karis() {
                     .blend = Parts::Blend::Motion,
                     .least_weight = 0.04f,
                     .weighting = Parts::Weighting::Luma},
+          .sequence = JitterSequence::UncentredHalton,
           .length = 8,
           .current = CurrentFilter::Gauss};
 }
@@ -37,6 +38,7 @@ TemporalOptions inside() {
                     .rejection = Parts::Rejection::None,
                     .blend = Parts::Blend::Contrast,
                     .least_weight = 0.03f},
+          .sequence = JitterSequence::UncentredHalton,
           .current = CurrentFilter::Unjitter};
 }
 
@@ -56,6 +58,7 @@ TemporalOptions three() {
                     .blend = Parts::Blend::Velocity,
                     .least_weight = 0.05f,
                     .weighting = Parts::Weighting::Compressed},
+          .sequence = JitterSequence::UncentredHalton,
           .length = 32};
 }
 
@@ -69,6 +72,7 @@ TemporalOptions playcanvas() {
                     .blend = Parts::Blend::Fixed,
                     .least_weight = 0.05f,
                     .keeps_current_alpha = true},
+          .sequence = JitterSequence::UncentredHalton,
           .follows_camera = true};
 }
 
@@ -81,6 +85,7 @@ TemporalOptions bevy() {
                     .blend = Parts::Blend::Confidence,
                     .least_weight = 0.015f,
                     .is_compressed = true},
+          .sequence = JitterSequence::UncentredHalton,
           .length = 8};
 }
 
@@ -93,7 +98,7 @@ TemporalOptions best() {
 
 constexpr std::string_view presets[] = {"best", "karis", "inside", "salvi", "three", "playcanvas", "bevy"};
 constexpr TemporalOptions (*makers[])() = {best, karis, inside, salvi, three, playcanvas, bevy};
-constexpr std::string_view sequences[] = {"halton", "r2", "none"};
+constexpr std::string_view sequences[] = {"halton", "r2", "none", "halton-uncentred"};
 constexpr std::string_view dilations[] = {"none", "square", "cross"};
 constexpr std::string_view motions[] = {"surface", "camera"};
 constexpr std::string_view filters[] = {"bilinear", "catmull5", "catmull9"};
@@ -110,7 +115,10 @@ constexpr std::string_view currents[] = {"point", "unjitter", "gauss"};
 
 constexpr Param params[] = {
     {.name = "preset", .meaning = "the parts of this source; other parameters change single parts", .names = presets},
-    {.name = "jitter", .meaning = "sequence of sample positions over frames", .names = sequences},
+    {.name = "jitter",
+     .meaning =
+         "sequence of sample positions over frames; halton and r2 are moved so that the mean is the pixel's centre",
+     .names = sequences},
     {.name = "length",
      .meaning = "number of positions before the sequence repeats",
      .value = 16,

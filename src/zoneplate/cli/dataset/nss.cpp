@@ -26,7 +26,7 @@ namespace {
 namespace fs = std::filesystem;
 
 SamplePosition sample_of(int frame, int positions) {
-  return named_pattern("halton", positions)[static_cast<std::size_t>(frame % positions)];
+  return halton_sequence(positions)[static_cast<std::size_t>(frame % positions)];
 }
 float offset_of(std::uint8_t position) { return static_cast<float>(position) / 256 - 0.5f; }
 

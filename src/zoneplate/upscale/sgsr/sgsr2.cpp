@@ -20,7 +20,7 @@
 #include <utility>
 
 #include "zoneplate/antialias/temporal/camera_motion.h"
-#include "zoneplate/antialias/temporal/jitter.h"
+#include "zoneplate/signal/samples.h"
 #include "zoneplate/upscale/jittered_frame.h"
 #include "zoneplate/upscale/sgsr/sgsr2_core.h"
 #include "zoneplate/upscale/upscaler.h"
@@ -56,7 +56,7 @@ class Sgsr2Method : public Resolver {
   Request request(const FrameContext& context) override {
     context_ = context;
     // Elements of Halton's sequence around 0 are the jitters; samples lie at the centres minus them.
-    static const SamplePattern halton = antialias::jitter_pattern(antialias::JitterSequence::Halton, Sgsr2::phases);
+    static const SamplePattern halton = halton_sequence(Sgsr2::phases);
     const SamplePosition place = halton[static_cast<std::size_t>(context.index % Sgsr2::phases)];
     const auto mirrored = [](std::uint8_t v) { return static_cast<std::uint8_t>(std::min(256 - v, 255)); };
     sample_ = sample_of(context, {mirrored(place.x), mirrored(place.y)});

@@ -18,7 +18,7 @@
 #include <optional>
 #include <utility>
 
-#include "zoneplate/antialias/temporal/jitter.h"
+#include "zoneplate/signal/samples.h"
 #include "zoneplate/upscale/jittered_frame.h"
 #include "zoneplate/upscale/taau/taau_core.h"
 #include "zoneplate/upscale/upscaler.h"
@@ -28,8 +28,7 @@ namespace {
 
 class TaauMethod : public Resolver {
  public:
-  explicit TaauMethod(double scale)
-      : scale_(scale), jitter_(antialias::jitter_pattern(antialias::JitterSequence::Halton, phases(scale))) {}
+  explicit TaauMethod(double scale) : scale_(scale), jitter_(halton_sequence(phases(scale))) {}
 
   Request request(const FrameContext& context) override {
     context_ = context;

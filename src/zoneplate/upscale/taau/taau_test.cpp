@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 
-#include "zoneplate/antialias/temporal/jitter.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/render/lighting.h"
@@ -22,7 +21,7 @@ using Light = std::function<float(float x, float y)>;  // of positions in frame 
 
 /// A frame of a plane that moves by `motion` frame pixels a frame.
 TaauInput frame_of(const Light& light, int index, float2 motion = {0, 0}) {
-  static const SamplePattern halton = antialias::jitter_pattern(antialias::JitterSequence::Halton, 32);
+  static const SamplePattern halton = halton_sequence(32);
   const SamplePosition at = halton[static_cast<std::size_t>(index) % halton.size()];
   TaauInput frame{.color = LinearImage(width, height),
                   .nearness = Plane<float>(width, height, 0.5f),
