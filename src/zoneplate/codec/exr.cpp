@@ -17,6 +17,8 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/codec/exr_chroma.h"
+#include "zoneplate/image/half.h"
 #include "zoneplate/os/library.h"
 #include "zoneplate/os/limited_child.h"
 
@@ -88,6 +90,16 @@ std::optional<Windows> find_windows(std::span<const std::uint8_t> bytes) {
   return out;
 }
 
+/// The file's chromaticities, or those of Rec.709, which are what a file without them has.
+Chromaticities find_chromaticities(std::span<const std::uint8_t> bytes) {
+  Chromaticities out;
+  for_attributes(bytes, [&](std::string_view name, std::string_view type, std::span<const std::uint8_t> value) {
+    if (name == "chromaticities" && type == "chromaticities" && value.size() == sizeof out)
+      std::memcpy(&out, value.data(), sizeof out);
+  });
+  return out;
+}
+
 /// The functions of libOpenEXRCore that this file calls. The library is loaded at run time; the program is not linked
 /// to it.
 struct ExrLibrary {
@@ -152,8 +164,8 @@ class Channel {
     if (!values_) throw std::bad_alloc();
   }
   explicit operator bool() const { return values_ != nullptr; }
-  float& operator()(std::size_t x, std::size_t y) { return values_.get()[y * width_ + x]; }
   float operator()(std::size_t x, std::size_t y) const { return values_.get()[y * width_ + x]; }
+  float* row(std::size_t y) { return values_.get() + y * width_; }
 
  private:
   struct Free {
@@ -165,6 +177,31 @@ class Channel {
 
 /// The names of the channels that are decoded, at most four; none: the colour.
 using ChannelNames = std::span<const std::string>;
+
+/// The number of multiples of `step` from `first` on, among `count` integers.
+std::int64_t multiples(std::int64_t first, std::int64_t count, std::int64_t step) {
+  const auto below = [&](std::int64_t end) { return (end >= 0 ? end + step - 1 : end) / step; };  // of 0 to end
+  return below(first + count) - below(first);
+}
+
+/// Copies values of a type, which have any alignment, to every `step`th of `out`.
+template <class T, class Value>
+void copy_values(const std::uint8_t* from, std::int64_t count, const Value& value, std::int64_t step, float* out) {
+  for (std::int64_t i = 0; i < count; ++i) {
+    T stored;
+    std::memcpy(&stored, from + i * std::int64_t{sizeof stored}, sizeof stored);
+    out[i * step] = value(stored);
+  }
+}
+
+void copy_values(const std::uint8_t* from, std::int64_t count, std::uint16_t type, std::int64_t step, float* out) {
+  if (type == EXR_PIXEL_HALF) return copy_values<std::uint16_t>(from, count, half_value, step, out);
+  if (type == EXR_PIXEL_FLOAT)
+    return copy_values<float>(
+        from, count, [](float v) { return v; }, step, out);
+  copy_values<std::uint32_t>(
+      from, count, [](std::uint32_t v) { return static_cast<float>(v); }, step, out);
+}
 
 /// An open file, decoded into the channels of its data window. It exists in the child process only.
 class ExrReader {
@@ -179,6 +216,9 @@ class ExrReader {
     set_up.size_fn = size_of_bytes;
     set_up.zip_level = -1;
     set_up.dwa_quality = -1;
+    // Memory that the library does not write is zero: truncated parts of a file never show other memory.
+    set_up.alloc_fn = [](std::size_t size) { return std::calloc(1, size); };
+    set_up.free_fn = [](void* memory) { std::free(memory); };
     library_.check(library_.start_read(&context_, "memory", &set_up));
     find_channels();
   }
@@ -195,6 +235,16 @@ class ExrReader {
       read_tiles();
     else
       throw Refusal{"is deep, which is not read"};
+    if (kind_ == Kind::Chroma) {
+      const std::optional<float3> weights = luminance_weights(find_chromaticities(bytes_));
+      if (!weights) throw Refusal{"has chromaticities that are those of no colours"};
+      make_colors({.width = static_cast<int>(window_.width()),
+                   .height = static_cast<int>(window_.height()),
+                   .luminance = channels_[1].row(0),
+                   .red = {channels_[0].row(0), sampling_[0]},
+                   .blue = {channels_[2].row(0), sampling_[2]}},
+                  *weights);
+    }
   }
 
   /// Copies a row of the data window, starting at column `first`.
@@ -207,26 +257,28 @@ class ExrReader {
     for (std::size_t i = 0; i < out.size(); ++i) {
       const std::size_t x = static_cast<std::size_t>(first) + i;
       out[i].r = value(0, x);
-      out[i].g = is_grey_ ? out[i].r : value(1, x);
-      out[i].b = is_grey_ ? out[i].r : value(2, x);
+      out[i].g = kind_ == Kind::Grey ? out[i].r : value(1, x);
+      out[i].b = kind_ == Kind::Grey ? out[i].r : value(2, x);
       out[i].a = value(3, x);
     }
   }
 
  private:
+  enum class Kind { Named, Colors, Grey, Chroma };
+
   /// The slot of `channels_` that holds a channel; nothing if the channel is ignored.
   std::optional<std::size_t> slot_of(std::string_view channel) const {
-    if (!names_.empty()) {
+    if (kind_ == Kind::Named) {
       const auto found = std::ranges::find(names_, channel);
       if (found == names_.end()) return std::nullopt;
       return static_cast<std::size_t>(found - names_.begin());
     }
-    if (is_grey_)
-      return channel == "Y"   ? std::optional<std::size_t>{0}
-             : channel == "A" ? std::optional<std::size_t>{3}
-                              : std::nullopt;
-    const std::size_t at = std::string_view("RGBA").find(channel);
-    return channel.size() == 1 && at < 4 ? std::optional<std::size_t>{at} : std::nullopt;
+    constexpr std::array<std::string_view, 4> colors = {"R", "G", "B", "A"}, grey = {"Y", "", "", "A"},
+                                              chroma = {"RY", "Y", "BY", "A"};
+    const auto& slots = kind_ == Kind::Colors ? colors : kind_ == Kind::Grey ? grey : chroma;
+    const auto found = std::ranges::find(slots, channel);
+    if (found == slots.end() || channel.empty()) return std::nullopt;
+    return static_cast<std::size_t>(found - slots.begin());
   }
 
   void find_channels() {
@@ -237,21 +289,37 @@ class ExrReader {
         if (list->entries[i].name.str == name) return &list->entries[i];
       return nullptr;
     };
-    is_grey_ = names_.empty() && !find("R") && !find("G") && !find("B");
-    if (is_grey_ && !find("Y")) throw Refusal{"has no channel R, G, B or Y"};
-    const auto prepare = [&](std::string_view name) {
-      const exr_attr_chlist_entry_t* const c = find(name);
-      if (!c || !slot_of(name)) return;
-      if (c->x_sampling != 1 || c->y_sampling != 1)
-        throw Refusal{"has fewer samples in channel " + std::string(name) + " than pixels, which is not read"};
-      channels_[*slot_of(name)] = Channel(window_);
-    };
-    for (const std::string& name : names_) {
+    if (!names_.empty())
+      kind_ = Kind::Named;
+    else if (find("R") || find("G") || find("B"))
+      kind_ = Kind::Colors;
+    else if (!find("Y"))
+      throw Refusal{"has no channel R, G, B or Y"};
+    else
+      kind_ = find("RY") || find("BY") ? Kind::Chroma : Kind::Grey;
+    for (const std::string& name : names_)
       if (!find(name)) throw Refusal{"has no channel " + name};
-      prepare(name);
-    }
-    if (names_.empty())
-      for (const std::string_view name : {"R", "G", "B", "A", "Y"}) prepare(name);
+    for (int i = 0; i < list->num_channels; ++i) prepare(list->entries[i]);
+    // Chroma that the file lacks is zero.
+    if (kind_ == Kind::Chroma)
+      for (const std::size_t slot : {0u, 2u})
+        if (!channels_[slot]) channels_[slot] = Channel(window_), sampling_[slot] = {1, 1};
+  }
+
+  /// Makes the slot of a channel, if it has one.
+  void prepare(const exr_attr_chlist_entry_t& channel) {
+    const std::string_view name = channel.name.str;
+    const std::optional<std::size_t> slot = slot_of(name);
+    if (!slot) return;
+    const bool is_chroma = kind_ == Kind::Chroma && (*slot == 0 || *slot == 2);
+    const int2 sampling{channel.x_sampling, channel.y_sampling};
+    if (const int most = is_chroma ? 2 : 1; sampling.x > most || sampling.y > most)
+      throw Refusal{"has fewer samples in channel " + std::string(name) + " than " +
+                    (is_chroma ? "in every second column and row" : "pixels") + ", which is not read"};
+    if (window_.left % sampling.x != 0 || window_.width() % sampling.x != 0 || window_.top % sampling.y != 0 ||
+        window_.height() % sampling.y != 0)
+      throw Refusal{"is corrupt: the data window divides the samples of channel " + std::string(name)};
+    channels_[*slot] = Channel(window_), sampling_[*slot] = sampling;
   }
 
   /// Decodes a chunk whose first pixel is (x, y) of the data window.
@@ -264,24 +332,60 @@ class ExrReader {
     library_.check(library_.begin_decoding(context_, 0, &chunk, &pipeline));
     const std::unique_ptr<exr_decode_pipeline_t, std::function<void(exr_decode_pipeline_t*)>> end(
         &pipeline, [this](exr_decode_pipeline_t* p) { library_.end_decoding(context_, p); });
-    // The library's fast paths write all channels of a pixel, and crash where one has no destination.
-    std::vector<float> unused;
-    // Channel by channel, because the library's fast paths for interleaved pixels swap channels in some versions.
-    for (int i = 0; i < pipeline.channel_count; ++i) {
-      exr_coding_channel_info_t& channel = pipeline.channels[i];
-      const std::optional<std::size_t> slot = slot_of(channel.channel_name);
-      const bool is_used = slot && channels_[*slot];
-      if (!is_used) unused.resize(static_cast<std::size_t>(window_.width()) * static_cast<std::size_t>(chunk.height));
-      float* const out =
-          is_used ? &channels_[*slot](static_cast<std::size_t>(x), static_cast<std::size_t>(y)) : unused.data();
-      channel.decode_to_ptr = reinterpret_cast<std::uint8_t*>(out);
-      channel.user_pixel_stride = sizeof(float);
-      channel.user_line_stride = static_cast<std::int32_t>(window_.width()) * std::int32_t{sizeof(float)};
-      channel.user_data_type = EXR_PIXEL_FLOAT;
-      channel.user_bytes_per_element = sizeof(float);
-    }
+    check_counts(pipeline, x, y);
+    // The library decompresses. Its copies to channels are not used: they take the first channel's width for that of
+    // all, swap channels or crash where one has no destination, depending on the version.
     library_.check(library_.choose_routines(context_, 0, &pipeline));
+    // A chunk that compression would not make smaller is stored as it is, which B44 in some versions does not know.
+    if (chunk.packed_size == chunk.unpacked_size)
+      pipeline.decompress_fn = nullptr;
+    else if (chunk.compression == EXR_COMPRESSION_NONE)
+      throw Refusal{"is corrupt: a part has another size than its channels"};
+    struct Place {
+      ExrReader& reader;
+      std::int64_t x, y;
+    } place{*this, x, y};
+    pipeline.decoding_user_data = &place;
+    pipeline.unpack_and_convert_fn = [](exr_decode_pipeline_t* p) -> exr_result_t {
+      const auto& to = *static_cast<const Place*>(p->decoding_user_data);
+      to.reader.copy_chunk(*p, to.x, to.y);
+      return EXR_ERR_SUCCESS;
+    };
     library_.check(library_.decode(context_, 0, &pipeline));
+  }
+
+  std::int64_t columns(const exr_coding_channel_info_t& channel, std::int64_t x, std::int64_t width) const {
+    return multiples(window_.left + x, width, channel.x_samples);
+  }
+
+  /// Some versions of the library count the samples of a chunk in another way than the format, and decompress other
+  /// channels to wrong places.
+  void check_counts(const exr_decode_pipeline_t& pipeline, std::int64_t x, std::int64_t y) const {
+    std::int64_t size = 0;
+    for (int i = 0; i < pipeline.channel_count; ++i) {
+      const exr_coding_channel_info_t& c = pipeline.channels[i];
+      const std::int64_t rows = multiples(window_.top + y, pipeline.chunk.height, c.y_samples);
+      if (c.width != columns(c, x, pipeline.chunk.width) || c.height != rows)
+        throw Refusal{"has fewer samples in channel " + std::string(c.channel_name) +
+                      " than pixels, and is packed in a way that is not read then"};
+      size += std::int64_t{c.width} * rows * c.bytes_per_element;
+    }
+    if (static_cast<std::uint64_t>(size) != pipeline.chunk.unpacked_size)
+      throw Refusal{"is corrupt: a part has another size than its channels"};
+  }
+
+  /// Copies the channels of a decompressed chunk: row by row, those that have samples in it one after the other.
+  void copy_chunk(const exr_decode_pipeline_t& pipeline, std::int64_t x, std::int64_t y) {
+    const std::span channels(pipeline.channels, static_cast<std::size_t>(pipeline.channel_count));
+    const auto* from = static_cast<const std::uint8_t*>(pipeline.unpacked_buffer);
+    for (std::int64_t row = y; row < y + pipeline.chunk.height; ++row)
+      for (const exr_coding_channel_info_t& c : channels) {
+        if ((window_.top + row) % c.y_samples != 0) continue;
+        const std::int64_t count = columns(c, x, pipeline.chunk.width);
+        if (const std::optional<std::size_t> slot = slot_of(c.channel_name))
+          copy_values(from, count, c.data_type, c.x_samples, channels_[*slot].row(static_cast<std::size_t>(row)) + x);
+        from += count * c.bytes_per_element;
+      }
   }
 
   void read_scanlines() {
@@ -312,8 +416,11 @@ class ExrReader {
   Window window_;
   ChannelNames names_;
   exr_context_t context_ = nullptr;
-  bool is_grey_ = false;
-  std::array<Channel, 4> channels_;  ///< red or grey, green, blue, alpha, or as `names_`; those not in the file: empty
+  Kind kind_ = Kind::Colors;
+  /// Red or grey, green, blue, alpha, or as `names_`; those not in the file: empty. Chroma in place of red and blue,
+  /// luminance in place of green.
+  std::array<Channel, 4> channels_;
+  std::array<int2, 4> sampling_;
 };
 
 /// Calls `send(row)` for each row of the display window; pixels outside the data window are transparent black.

@@ -20,16 +20,17 @@ bool is_exr(std::span<const std::uint8_t> bytes);
 /// Width and height of the display window of an OpenEXR image.
 std::optional<int2> find_exr_size(std::span<const std::uint8_t> bytes);
 
-/// Decodes the colour of an OpenEXR image: the channels R, G, B and A, or Y as grey, of its first part; scanlines or
-/// the finest tiles, any compression but DWA.
+/// Decodes the colour of an OpenEXR image: the channels R, G, B and A, or Y as grey, or Y, RY and BY as luminance and
+/// chroma (codec/exr_chroma.h), of its first part; scanlines or the finest tiles, any compression but DWA. Channels
+/// beside these may have any sampling.
 ///
 /// The library is loaded by the first call, and runs in a child process with limits; inside a LimitedChild, which has
 /// limits already, it runs in that process.
 /// Shape     the display window; black and transparent where the data window does not reach.
 /// Units     as stored, premultiplied; NaN becomes 0, infinity 65504. Without A, alpha is 1.
-/// Errors    ErrorKind::Input with `name` in front: not an OpenEXR image, deep, without these channels or with fewer
-///           samples in one, truncated, corrupt, more than `max_pixels` pixels. ErrorKind::Failed where libOpenEXRCore
-///           is not installed.
+/// Errors    ErrorKind::Input with `name` in front: not an OpenEXR image, deep, without these channels, with fewer
+///           samples in one than pixels (chroma: than in every second column and row), truncated, corrupt, more than
+///           `max_pixels` pixels. ErrorKind::Failed where libOpenEXRCore is not installed.
 LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& name,
                        std::uint64_t max_pixels = std::uint64_t{1} << 28);
 
