@@ -80,7 +80,7 @@ Scene import(const AssimpLibrary& library, const std::string& path, std::string_
   if (!read) throw Error(ErrorKind::Input, budget.file() + ": " + one_line(library.error()));
   Scene scene;
   ModelFolder textures(folder, budget, scene);
-  convert_assimp_scene(*read, textures);
+  convert_assimp_scene(*read, extension, textures);
   if (scene.instances.empty()) throw Error(ErrorKind::Input, budget.file() + ": holds nothing to draw");
   if (const auto flaw = find_invalid(scene)) throw Error(ErrorKind::Input, budget.file() + ": " + *flaw);
   return scene;

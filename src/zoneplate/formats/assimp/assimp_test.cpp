@@ -14,7 +14,9 @@
 #include "zoneplate/formats/gltf/maker_for_test.h"
 #include "zoneplate/formats/import/damage_for_test.h"
 #include "zoneplate/formats/import/mesh_samples_for_test.h"
+#include "zoneplate/formats/import/model_folder.h"
 #include "zoneplate/formats/load.h"
+#include "zoneplate/image/transfer.h"
 
 namespace zoneplate {
 namespace {
@@ -192,6 +194,43 @@ TEST(Assimp, MarksTheMaterialOfAFileThatDefinesNone) {
   cut("<library_images>", "</library_materials>");
   cut("<bind_material>", "</bind_material>");
   EXPECT_TRUE(load(bytes_of(text.c_str()), "dae").materials.at(0).is_default);
+}
+
+TEST(Assimp, ModelsOfColladaWithoutHighlightsHaveNone) {
+  if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
+  const auto material_of = [](const std::string& model) {
+    std::string text = dae;
+    const std::size_t begin = text.find("<lambert>"), end = text.find("</lambert>") + 10;
+    return load(bytes_of(text.replace(begin, end - begin, model).c_str()), "dae").materials.at(0);
+  };
+  const Material lambert = material_of("<lambert><diffuse><color>.8 .2 .2 1</color></diffuse></lambert>");
+  EXPECT_EQ(lambert.specular, (float3{0, 0, 0}));
+  EXPECT_EQ(lambert.base_color.x, decode_srgb(0.8f));
+  const Material constant = material_of("<constant><emission><color>.2 .8 .2 1</color></emission></constant>");
+  EXPECT_EQ(constant.model, ShadingModel::Unlit);
+  EXPECT_EQ(constant.base_color.y, decode_srgb(0.8f));
+  EXPECT_EQ(constant.emissive, (float3{0, 0, 0}));
+}
+
+TEST(Assimp, DefaultMaterialsAreThatOfEveryFormat) {
+  if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
+  const Scene s = load(bytes_of(off), "off");
+  EXPECT_TRUE(s.materials.at(0).is_default);
+  EXPECT_EQ(s.materials.at(0).base_color, plain_material("").base_color);
+}
+
+// Without colours, the importer of AMF gives all vertices (0, 0, 0, 0). Printers have +Z up.
+TEST(Assimp, AmfIsUprightAndNotBlack) {
+  if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
+  const Scene s =
+      load(bytes_of("<?xml version=\"1.0\"?><amf unit=\"millimeter\"><object id=\"0\"><mesh><vertices>"
+                    "<vertex><coordinates><x>0</x><y>0</y><z>0</z></coordinates></vertex>"
+                    "<vertex><coordinates><x>1</x><y>0</y><z>0</z></coordinates></vertex>"
+                    "<vertex><coordinates><x>0</x><y>1</y><z>0</z></coordinates></vertex></vertices>"
+                    "<volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume></mesh></object></amf>"),
+           "amf");
+  EXPECT_EQ(s.up, (float3{0, 0, 1}));
+  EXPECT_TRUE(s.meshes.at(0).color.empty());
 }
 
 TEST(Assimp, ATextureOfFbxReplacesTheDiffuseColour) {

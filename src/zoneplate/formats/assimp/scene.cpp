@@ -8,12 +8,14 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/formats/import/image_file.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/scene/geometry/smooth_normals.h"
 #include "zoneplate/scene/geometry/triangulate.h"
+#include "zoneplate/scene/geometry/winding.h"
 #include "zoneplate/scene/sanitize.h"
 #include "zoneplate/scene/serial_ranges.h"
 
@@ -62,6 +64,25 @@ std::string find_image(const aiMaterial& m, std::initializer_list<aiTextureType>
   return "";
 }
 
+std::optional<int> find_whole(const aiMaterial& m, std::string_view key) {
+  const aiMaterialProperty* p = find_property(m, key);
+  if (p == nullptr || p->mType != aiPTI_Integer || p->mDataLength < sizeof(std::int32_t)) return std::nullopt;
+  std::int32_t value = 0;
+  std::memcpy(&value, p->mData, sizeof value);
+  return value;
+}
+
+/// Applies the shading models of COLLADA's common profile: <constant> is its emission alone, and <lambert>, which
+/// assimp names Gouraud, has no highlights.
+void set_collada_model(const aiMaterial& m, MtlMaterial& out) {
+  const std::optional<int> model = find_whole(m, "$mat.shadingm");
+  if (model == int{aiShadingMode_Gouraud}) out.illumination = 1;
+  if (model != int{aiShadingMode_NoShading}) return;
+  out.illumination = 0;
+  out.diffuse = std::exchange(out.emissive, std::nullopt);
+  out.diffuse_map = std::exchange(out.emissive_map, {});
+}
+
 /// Converts a material to the parameters of MTL, the only ones that are imported from these formats.
 MtlMaterial mtl_of(const aiMaterial& m) {
   MtlMaterial out;
@@ -86,27 +107,14 @@ MtlMaterial mtl_of(const aiMaterial& m) {
   return out;
 }
 
-/// Reverses the triangles of a mesh if most of them face away from its normals.
-void turn_to_normals(Mesh& mesh) {
-  std::int64_t against = 0;
-  for (std::size_t k = 0; k + 3 <= mesh.index.size(); k += 3) {
-    const std::uint32_t* i = &mesh.index[k];
-    const float3 a = mesh.position[i[0]];
-    const float3 facing = cross(mesh.position[i[1]] - a, mesh.position[i[2]] - a);
-    const float along = dot(facing, mesh.normal[i[0]] + mesh.normal[i[1]] + mesh.normal[i[2]]);
-    against += along < 0 ? 1 : along > 0 ? -1 : 0;
-  }
-  if (against <= 0) return;
-  for (std::size_t k = 0; k + 3 <= mesh.index.size(); k += 3) std::swap(mesh.index[k + 1], mesh.index[k + 2]);
-}
-
 /// The state of a conversion. A mesh of assimp may mix primitives, and becomes up to three meshes.
 class Conversion {
  public:
-  Conversion(const aiScene& from, ModelFolder& folder)
-      : from_(from), folder_(folder), scene_(folder.scene()), budget_(folder.budget()) {}
+  Conversion(const aiScene& from, std::string_view extension, ModelFolder& folder)
+      : from_(from), extension_(extension), folder_(folder), scene_(folder.scene()), budget_(folder.budget()) {}
 
   void run() {
+    scene_.up = up();
     for (unsigned i = 0; i < from_.mNumTextures; ++i) embed(*from_.mTextures[i], i);
     for (unsigned i = 0; i < from_.mNumMaterials; ++i) add_material(*from_.mMaterials[i]);
     if (scene_.materials.empty()) scene_.materials.push_back(plain_material("default"));
@@ -120,12 +128,29 @@ class Conversion {
   }
 
  private:
-  // Where a file has no materials, its importer adds one of this name, or that of OFF one without a name.
+  // Where a file has no materials, its importer adds one of these names, in a grey of its own.
   void add_material(const aiMaterial& from) {
-    scene_.materials.push_back(make_material(mtl_of(from), "", folder_));
-    Material& material = scene_.materials.back();
-    material.is_default =
-        material.name == AI_DEFAULT_MATERIAL_NAME || (material.name.empty() && budget_.file().ends_with(".off"));
+    MtlMaterial mtl = mtl_of(from);
+    const bool is_default = mtl.name == AI_DEFAULT_MATERIAL_NAME || (mtl.name.empty() && is_format(".off")) ||
+                            (mtl.name == "%%%DEFAULT" && is_format(".3ds"));
+    if (is_default && mtl.diffuse_map.file.empty()) {
+      scene_.materials.push_back(plain_material(mtl.name));
+      return;
+    }
+    if (is_format(".dae")) set_collada_model(from, mtl);
+    scene_.materials.push_back(make_material(mtl, "", folder_));
+    scene_.materials.back().is_default = is_default;
+  }
+  bool is_format(std::string_view extension) const { return extension_ == extension; }
+
+  /// The axis that points up: +Z in the worlds of printers and of Blender, FBX states it; assimp turns other formats.
+  float3 up() const {
+    if (is_format(".3mf") || is_format(".amf") || is_format(".blend")) return {0, 0, 1};
+    std::int32_t axis = 1, sign = 1;
+    if (!is_format(".fbx") || from_.mMetaData == nullptr || !from_.mMetaData->Get("UpAxis", axis)) return scene_.up;
+    from_.mMetaData->Get("UpAxisSign", sign);
+    const float one = sign < 0 ? -1.0f : 1.0f;
+    return axis == 0 ? float3{one, 0, 0} : axis == 2 ? float3{0, 0, one} : float3{0, one, 0};
   }
 
   /// Adds an image that is embedded in the file; materials refer to it by its index or its name.
@@ -170,6 +195,9 @@ class Conversion {
       std::transform(m.mColors[0], m.mColors[0] + n, out.color.begin(), [](const aiColor4D& c) {
         return float4{linear(c.r), linear(c.g), linear(c.b), c.a};
       });
+      // The importer of AMF gives vertices without colours such ones.
+      if (std::all_of(out.color.begin(), out.color.end(), [](const float4& c) { return c == float4{0, 0, 0, 0}; }))
+        out.color.clear();
     }
     return out;
   }
@@ -251,6 +279,7 @@ class Conversion {
   }
 
   const aiScene& from_;
+  std::string_view extension_;
   ModelFolder& folder_;
   Scene& scene_;
   ImportBudget& budget_;
@@ -262,7 +291,9 @@ class Conversion {
 
 }  // namespace
 
-void convert_assimp_scene(const aiScene& from, ModelFolder& folder) { Conversion(from, folder).run(); }
+void convert_assimp_scene(const aiScene& from, std::string_view extension, ModelFolder& folder) {
+  Conversion(from, extension, folder).run();
+}
 
 }  // namespace zoneplate
 #endif

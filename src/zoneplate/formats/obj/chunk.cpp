@@ -185,12 +185,12 @@ class PartReader {
                                               "parm",  "trim",   "hole", "scrv", "sp",   "end",  "con",   "ctech",
                                               "stech", "bzp",    "bsp",  "res",  "cdc",  "cdp"};
     const bool is_free_form = std::find(std::begin(free_form), std::end(free_form), word) != std::end(free_form);
-    note(is_free_form ? ObjNote::FreeForm : ObjNote::Unknown, word);
+    note(is_free_form ? ObjNote::FreeForm : ObjNote::Unknown, word.substr(0, 40));
   }
 
   void note(ObjNote kind, std::string_view word) {
     ObjTally& tally = chunk_.notes[static_cast<std::size_t>(kind)];
-    if (tally.count++ == 0) tally.line = line_, tally.word = word.substr(0, 40);
+    if (tally.count++ == 0) tally.line = line_, tally.word = word;
   }
 
   /// Errors are reported in the second pass only, in which line numbers are known.
@@ -247,62 +247,68 @@ class PartReader {
     vertices_.has_odd_normal = vertices_.has_odd_normal || !is_fine;
   }
 
-  struct Index {
-    std::int64_t given = 0;
-    std::int32_t found = -1;  ///< -1 if it is out of range
-  };
-
-  /// Reads the next index of a corner's text: positive ones count from 1, negative ones back from the last element so
-  /// far.
-  Index read_index(const char*& at, const char* end, std::uint64_t ObjCounts::*kind, const char* what) {
+  /// Reads the next index of a corner's text, which is not empty: positive ones count from 1, negative ones back from
+  /// the last element so far. Returns the zero-based index; -1 if there is no such element; nothing if the text is no
+  /// number.
+  std::optional<std::int32_t> read_index(const char*& at, const char* end, std::uint64_t ObjCounts::*kind) {
     std::int64_t value = 0;
     const char* const begin = at != end && *at == '+' ? at + 1 : at;
     const auto [stop, trouble] = std::from_chars(begin, end, value);
-    if (trouble == std::errc::invalid_argument)
-      fail(fmt::format("{}: '{}' is not an index", what, std::string_view(at, static_cast<std::size_t>(end - at))));
+    if (trouble == std::errc::invalid_argument) return std::nullopt;
     at = stop;
     if (trouble != std::errc{}) value = std::numeric_limits<std::int64_t>::max();
     if (!known_ && (value <= 0 || value > static_cast<std::int64_t>(most_obj_items))) throw NeedsMore{};
     const std::uint64_t so_far = known_ ? known_->before.*kind + counts().*kind : 0;
     const std::uint64_t all = known_ ? known_->all.*kind : most_obj_items;
     const std::int64_t index = value < 0 ? static_cast<std::int64_t>(so_far) + value : value - 1;
-    const bool is_there = index >= 0 && index < static_cast<std::int64_t>(all);
-    if (is_there) part_.named.*kind = std::max(part_.named.*kind, static_cast<std::uint64_t>(index) + 1);
-    return {value, is_there ? static_cast<std::int32_t>(index) : -1};
+    if (index < 0 || index >= static_cast<std::int64_t>(all)) return -1;
+    part_.named.*kind = std::max(part_.named.*kind, static_cast<std::uint64_t>(index) + 1);
+    return static_cast<std::int32_t>(index);
   }
 
-  std::int32_t read_optional_index(const char*& at, const char* end, std::uint64_t ObjCounts::*kind, const char* what,
-                                   ObjNote missing) {
-    const std::int32_t found = read_index(at, end, kind, what).found;
-    if (found < 0) note(missing, what);
-    return found;
+  /// Reads an index that may be that of a missing element: its corner goes without. False if it is no number.
+  bool read_optional_index(const char*& at, const char* end, std::uint64_t ObjCounts::*kind, const char* what,
+                           ObjNote missing, std::int32_t& out) {
+    const std::optional<std::int32_t> found = read_index(at, end, kind);
+    if (found && *found < 0) note(missing, what);
+    out = found.value_or(-1);
+    return found.has_value();
   }
 
-  ObjCorner read_corner(std::string_view word, const char* what) {
+  /// Nothing if the word is not v, v/vt, v//vn or v/vt/vn with a v that exists.
+  std::optional<ObjCorner> read_corner(std::string_view word) {
     const char* at = word.data();
     const char* const end = at + word.size();
     ObjCorner corner;
-    const Index position = read_index(at, end, &ObjCounts::positions, what);
-    if (position.found < 0)
-      fail(fmt::format("{} index {} out of range ({} vertices)", what, position.given,
-                       known_ ? known_->all.positions : 0));
-    corner.position = position.found;
+    const std::optional<std::int32_t> position = read_index(at, end, &ObjCounts::positions);
+    if (!position || *position < 0) return std::nullopt;
+    corner.position = *position;
     if (at != end && *at == '/') {
       ++at;
-      if (at != end && *at != '/')
-        corner.uv = read_optional_index(at, end, &ObjCounts::uvs, "texture coordinate", ObjNote::NoSuchUv);
-      if (at != end && *at == '/' && ++at != end)
-        corner.normal = read_optional_index(at, end, &ObjCounts::normals, "normal", ObjNote::NoSuchNormal);
+      if (at != end && *at != '/' &&
+          !read_optional_index(at, end, &ObjCounts::uvs, "texture coordinate", ObjNote::NoSuchUv, corner.uv))
+        return std::nullopt;
+      if (at != end && *at == '/' && ++at != end &&
+          !read_optional_index(at, end, &ObjCounts::normals, "normal", ObjNote::NoSuchNormal, corner.normal))
+        return std::nullopt;
     }
-    if (at != end) fail(fmt::format("{}: '{}' is not v, v/vt, v//vn or v/vt/vn", what, word.substr(0, 40)));
-    return corner;
+    return at == end ? std::optional(corner) : std::nullopt;
   }
 
   void read_element(ObjKind kind, std::size_t least, LineWords& words) {
     const char* what = kind == ObjKind::Face ? "face" : kind == ObjKind::Line ? "line" : "point";
     const std::size_t first = chunk_.corners.size();
-    for (std::string_view word = words.next(); !word.empty(); word = words.next())
-      chunk_.corners.push_back(read_corner(word, what));
+    for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
+      const std::optional<ObjCorner> corner = read_corner(word);
+      if (corner) {
+        chunk_.corners.push_back(*corner);
+        continue;
+      }
+      if (!known_) throw NeedsMore{};  // the line's number and the number of vertices are part of the warning
+      chunk_.corners.shorten(first);
+      return note(ObjNote::BadCorner, fmt::format("{} with the corner '{}' ({} vertices)", what, word.substr(0, 40),
+                                                  known_->all.positions));
+    }
     const std::size_t n = chunk_.corners.size() - first;
     if (n < least) {
       chunk_.corners.shorten(first);

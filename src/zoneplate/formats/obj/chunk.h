@@ -22,7 +22,7 @@ struct ObjState {
 };
 
 /// A kind of ignored content; ObjTally holds its count and its first occurrence.
-enum class ObjNote { FewCorners, FreeForm, Unknown, UvNotFinite, NoSuchUv, NoSuchNormal };
+enum class ObjNote { FewCorners, BadCorner, FreeForm, Unknown, UvNotFinite, NoSuchUv, NoSuchNormal };
 struct ObjTally {
   std::uint64_t count = 0, line = 0;
   std::string word;
@@ -33,7 +33,7 @@ struct ObjChunk {
   ObjCorners corners;
   ObjElements elements;
   std::vector<ObjState> states;
-  std::array<ObjTally, 6> notes;  ///< by ObjNote
+  std::array<ObjTally, 7> notes;  ///< by ObjNote
 
   std::uint64_t bytes() const {
     std::uint64_t texts = 0;
@@ -88,7 +88,8 @@ bool read_obj_part(std::string_view text, char separator, ObjPart& part);
 
 /// Reads a part again whose contents depend on the parts before it and on the totals.
 ///
-/// Errors    ObjLineError: a word that is not a number, too few numbers, the index of a missing vertex.
+/// Errors    ObjLineError: a word that is not a number, too few numbers. An element with a corner that is no index, or
+///           that of a missing vertex, is dropped with ObjNote::BadCorner.
 void read_obj_part(std::string_view text, char separator, const ObjCounts& before, const ObjCounts& all, ObjPart& part);
 
 }  // namespace zoneplate

@@ -15,6 +15,7 @@
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/scene/geometry/triangulate.h"
+#include "zoneplate/scene/geometry/winding.h"
 
 namespace zoneplate {
 namespace {
@@ -230,6 +231,7 @@ ObjMeshes make_meshes(const ObjFile& file, const ObjLayout& layout, const std::v
     });
     made[i].not_finite = builder.not_finite, made[i].too_concave = builder.too_concave;
     made[i].mesh = builder.take();
+    turn_to_normals(made[i].mesh);
   });
   budget.check_time();
   budget.take(all_bytes);

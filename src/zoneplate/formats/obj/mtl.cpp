@@ -39,30 +39,62 @@ std::vector<float> take_numbers(LineWords& words, std::size_t most) {
   return numbers;
 }
 
-MtlTexture read_texture(LineWords words) {
-  MtlTexture texture;
+bool takes_numbers(std::string_view option) {
+  return option == "-o" || option == "-s" || option == "-t" || option == "-mm";
+}
+bool takes_word(std::string_view option) {
+  constexpr std::array all = {"-blendu", "-blendv", "-boost",   "-cc",   "-clamp",
+                              "-texres", "-bm",     "-imfchan", "-type", "-colorspace"};
+  return std::find(all.begin(), all.end(), option) != all.end();
+}
+
+/// Reads the options at the front of the words.
+void read_options(LineWords& words, MtlTexture& texture) {
   for (;;) {
     LineWords ahead = words;
     const std::string option = lower(ahead.next());
-    const bool takes_numbers = option == "-o" || option == "-s" || option == "-t" || option == "-mm";
-    const bool takes_word = option == "-blendu" || option == "-blendv" || option == "-boost" || option == "-cc" ||
-                            option == "-clamp" || option == "-texres" || option == "-bm" || option == "-imfchan" ||
-                            option == "-type" || option == "-colorspace";
-    if (!takes_numbers && !takes_word) break;
-    if (takes_numbers) {
+    if (takes_numbers(option)) {
       const std::vector<float> v = take_numbers(ahead, option == "-mm" ? 2 : 3);
       const float first = option == "-s" ? 1 : 0;
       const float2 pair{v.size() > 0 ? v[0] : first, v.size() > 1 ? v[1] : first};
       if (option == "-o") texture.offset = pair;
       if (option == "-s") texture.scale = pair;
-    } else {
+    } else if (takes_word(option)) {
       const std::string_view word = ahead.next();
       if (option == "-clamp") texture.clamp = word == "on";
       if (option == "-bm") texture.strength = find_value(word).value_or(1);
+    } else {
+      return;
     }
     words = ahead;
   }
+}
+
+/// The length of the file name at the front of a text: up to an option or a comment that follows the name's extension.
+/// Names contain spaces, and '#' or '-' after one, so that these end a name only there.
+std::size_t name_length(std::string_view text) {
+  constexpr std::size_t longest_extension = 5;  // .jpeg
+  for (std::size_t space = text.find(' '); space != text.npos; space = text.find(' ', space + 1)) {
+    const std::size_t dot = text.substr(0, space).rfind('.');
+    if (dot == text.npos || space - dot > longest_extension || space - dot < 2) continue;
+    const std::size_t next = text.find_first_not_of(' ', space);
+    if (next == text.npos) continue;
+    const std::string word = lower(text.substr(next, text.find(' ', next) - next));
+    if (word.front() == '#' || takes_numbers(word) || takes_word(word)) return space;
+  }
+  return text.size();
+}
+
+/// The options may precede the file name, as the format has it, or follow it.
+MtlTexture read_texture(LineWords words) {
+  MtlTexture texture;
+  read_options(words, texture);
   texture.file = words.rest();
+  const std::string behind = texture.file.substr(name_length(texture.file));
+  texture.file.resize(texture.file.size() - behind.size());
+  const std::string last = behind + " .";  // so that the last number is an option's, not a file's name
+  LineWords options(last);
+  read_options(options, texture);
   return texture;
 }
 
@@ -91,8 +123,10 @@ class MtlReader {
   }
 
  private:
-  /// Keeps the current material, if it is used.
+  /// Keeps the current material, if it is used. A map of Ka is nearly always the same as that of Kd; alone it is lost.
   void close() {
+    if (open_ && has_ambient_map_ && open_->diffuse_map.file.empty()) open_->unsupported.push_back("map_ka");
+    has_ambient_map_ = false;
     if (open_ && is_used_(open_->name)) materials_.push_back(std::move(*open_));
     open_.reset();
   }
@@ -171,7 +205,7 @@ class MtlReader {
       return;
     }
     const bool is_map = key.substr(0, 4) == "map_" || key == "decal" || key == "refl";
-    // A map of Ka is nearly always the same as that of Kd, and it would affect ambient light only.
+    has_ambient_map_ = has_ambient_map_ || key == "map_ka";
     if (is_map && key != "map_ka" && key != "map_aat") {
       constexpr std::size_t most_keys = 16;  // more than the format has
       const bool is_new = std::find(m.unsupported.begin(), m.unsupported.end(), key) == m.unsupported.end();
@@ -187,6 +221,7 @@ class MtlReader {
   std::vector<std::string>& warnings_;
   const std::function<bool(const std::string&)>& is_used_;
   std::optional<MtlMaterial> open_;  ///< the material that is being read
+  bool has_ambient_map_ = false;     ///< it has a map of Ka
   std::vector<MtlMaterial> materials_;
   std::uint64_t line_ = 0;
   int warned_ = 0;

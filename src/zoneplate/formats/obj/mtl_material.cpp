@@ -52,6 +52,16 @@ float3 factor(const std::optional<float3>& color, bool has_image, float3 otherwi
   return {1, 1, 1};
 }
 
+/// The alpha of a material. One that would hide all of its surfaces is opaque, with a warning: programs that mean
+/// opaque write Tr 1 (3ds Max, MeshLab) or d 0.
+float opacity_of(const MtlMaterial& mtl, ModelFolder& folder) {
+  const float opacity = std::clamp(mtl.opacity.value_or(1 - mtl.transparency.value_or(0)), 0.0f, 1.0f);
+  if (opacity > 0) return opacity;
+  folder.warn(fmt::format("{}: material {}: {} would hide its surfaces, taken as opaque", folder.budget().file(),
+                          mtl.name, mtl.opacity ? "d 0" : "Tr 1"));
+  return 1;
+}
+
 /// Adds the opacity map as alpha to a copy of the base colour image.
 void add_opacity(const MtlMaterial& mtl, const std::string& within, ModelFolder& folder, Material& material) {
   if (mtl.opacity_map.file.empty()) return;
@@ -154,14 +164,15 @@ Material make_material(const MtlMaterial& mtl, const std::string& within, ModelF
   add_bumps(mtl, within, folder, m);
 
   const float3 base = factor(mtl.diffuse, m.base_color_texture.image >= 0, {0.8f, 0.8f, 0.8f}, mtl, "Kd", folder);
-  const float opacity = mtl.opacity.value_or(1 - mtl.transparency.value_or(0));
-  m.base_color = {base.x, base.y, base.z, std::clamp(opacity, 0.0f, 1.0f)};
+  m.base_color = {base.x, base.y, base.z, opacity_of(mtl, folder)};
   if (m.base_color.w < 1) m.alpha_mode = AlphaMode::Blend;
   m.emissive = factor(mtl.emissive, m.emissive_texture.image >= 0, {0, 0, 0}, mtl, "Ke", folder);
   m.ambient = mtl.ambient ? linear(*mtl.ambient) : base;
 
+  // Programs without highlights write illum 2 and Ks 1 with an exponent of 0 (MeshLab), or with none.
   const int illumination = mtl.illumination.value_or(2);
-  if (illumination > 1) {
+  const bool has_exponent = mtl.exponent.value_or(0) > 0 || !mtl.exponent_map.file.empty();
+  if (illumination > 1 && has_exponent) {
     m.specular_texture = load_texture(mtl.specular_map, within, folder);
     m.specular = factor(mtl.specular, m.specular_texture.image >= 0, {0, 0, 0}, mtl, "Ks", folder);
     m.exponent_texture = load_texture(mtl.exponent_map, within, folder);

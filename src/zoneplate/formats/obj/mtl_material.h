@@ -18,6 +18,7 @@ namespace zoneplate {
 /// map_bump, or else disp, is a normal map where its texels are unit vectors, as several programs write it; otherwise
 /// Material::height_texture, whose red channel counts, with the multiplier -bm as height_scale: load_obj converts it to
 /// units of the model, such that the value 1 lies -bm × 1 % of the texture's width above the value 0.
+/// Ks without an Ns above 0 has no highlight. Tr 1 or d 0, which would hide all surfaces, is opaque, with a warning.
 /// d below 1, or a map_d that is not opaque, makes the material blended; map_d becomes the alpha of the base colour
 /// image. All surfaces are double-sided, as OBJ has no other kind.
 Material make_material(const MtlMaterial& mtl, const std::string& within, ModelFolder& folder);

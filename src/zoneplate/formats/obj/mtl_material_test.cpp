@@ -54,6 +54,26 @@ class MtlScene : public testing::Test {
   fs::path folder_;
 };
 
+// 3ds Max and MeshLab write Tr 1 of opaque materials.
+TEST_F(MtlScene, AMaterialThatWouldHideItsSurfacesIsOpaque) {
+  for (const std::string text : {"Tr 1.0\n", "d 0\n", "d 0\nTr 0.5\n"}) {
+    const Scene scene = load("newmtl m\nKd .8 .2 .2\n" + text);
+    EXPECT_EQ(scene.materials.at(0).base_color.w, 1) << text;
+    EXPECT_EQ(scene.materials.at(0).alpha_mode, AlphaMode::Opaque) << text;
+    EXPECT_EQ(warnings_of(scene), std::string("m.obj: material m: ") + (text[0] == 'T' ? "Tr 1" : "d 0") +
+                                      " would hide its surfaces, taken as opaque\n");
+  }
+  EXPECT_EQ(load("newmtl m\nTr 0.75\n").materials.at(0).base_color.w, 0.25f);
+  EXPECT_EQ(load("newmtl m\nd 1\nTr 1\n").materials.at(0).base_color.w, 1);
+}
+
+// MeshLab writes illum 2, Ks 1 and Ns 0 of every material.
+TEST_F(MtlScene, WithoutAnExponentThereIsNoHighlight) {
+  EXPECT_EQ(load("newmtl m\nKs 1 1 1\nNs 0\nillum 2\n").materials.at(0).specular, (float3{0, 0, 0}));
+  EXPECT_EQ(load("newmtl m\nKs 1 1 1\nillum 2\n").materials.at(0).specular, (float3{0, 0, 0}));
+  EXPECT_EQ(load("newmtl m\nKs 1 1 1\nNs 0.5\nillum 2\n").materials.at(0).specular, (float3{1, 1, 1}));
+}
+
 TEST_F(MtlScene, ColoursAreCodes) {
   const Material m = load("newmtl m\nKd 0.5 1 0\nKa 0.5 0.25 1\nKs 0.2 0.2 0.2\nKe 20 0 0.5\nNs 50\n").materials.at(0);
   EXPECT_EQ(m.model, ShadingModel::BlinnPhong);

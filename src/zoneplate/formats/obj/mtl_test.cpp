@@ -60,6 +60,28 @@ TEST(ParseMtl, ReadsTheOptionsOfMaps) {
   EXPECT_EQ(parse("newmtl a\nmap_Kd -s 2 3 4\n").materials[0].diffuse_map.file, "4");
 }
 
+TEST(ParseMtl, ReadsOptionsAndCommentsBehindTheNameOfAMap) {
+  const auto map_of = [](const std::string& line) {
+    return parse("newmtl a\nmap_Kd " + line + "\n").materials.at(0).diffuse_map;
+  };
+  EXPECT_EQ(map_of("q.png -bm 1").file, "q.png");
+  const MtlTexture both = map_of("-o 0.5 my wood.png -s 2 3 -clamp on");
+  EXPECT_EQ(both.file, "my wood.png");
+  EXPECT_EQ(both.offset, (float2{0.5f, 0}));
+  EXPECT_EQ(both.scale, (float2{2, 3}));
+  EXPECT_TRUE(both.clamp);
+  EXPECT_EQ(map_of("q.jpeg # of oak").file, "q.jpeg");
+  EXPECT_EQ(map_of("wood #2.png").file, "wood #2.png");
+  EXPECT_EQ(map_of("oak -s 2.png").file, "oak -s 2.png");
+  EXPECT_EQ(map_of("a.b - c.png").file, "a.b - c.png");
+}
+
+TEST(ParseMtl, NamesAMapOfKaWithoutOneOfKd) {
+  EXPECT_EQ(parse("newmtl a\nmap_Ka a.png\n").materials[0].unsupported, (std::vector<std::string>{"map_ka"}));
+  EXPECT_TRUE(parse("newmtl a\nmap_Ka a.png\nmap_Kd a.png\nnewmtl b\n").materials[0].unsupported.empty());
+  EXPECT_TRUE(parse("newmtl a\nmap_Ka a.png\nnewmtl b\n").materials[1].unsupported.empty());
+}
+
 TEST(ParseMtl, ReadsTheKeysOfLayers) {
   const Parsed p =
       parse("newmtl a\nPs 0.1\nPc 0.2\nPcr 0.3\naniso 0.4\nanisor 0.5\nNi 1.33\nmap_Ks s.png\nmap_Ns n.png\n");

@@ -117,6 +117,7 @@ class Libraries {
 
 void report_notes(const ObjFile& file, const std::string& name, std::vector<std::string>& warnings) {
   constexpr const char* texts[] = {"has too few corners and is dropped",
+                                   "is dropped",
                                    "is free-form geometry, which is not drawn",
                                    "is unknown and ignored",
                                    "is not finite and set to 0",
@@ -213,6 +214,8 @@ Scene load_obj(const std::string& path, const LoadLimits& limits) {
   const bool is_stream = path == "-";
   const std::string name = is_stream ? "standard input" : path;
   const FileBytes bytes(path, limits.memory);
+  if (const std::string_view mark = text_of(bytes).substr(0, 2); mark == "\xff\xfe" || mark == "\xfe\xff")
+    throw Error(ErrorKind::Input, name + ": is text in UTF-16, expected UTF-8 or ASCII");
   ImportBudget budget(name, limits);
   Scene scene;
   ObjFile file =

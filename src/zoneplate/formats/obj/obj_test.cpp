@@ -252,11 +252,12 @@ TEST_F(ObjModel, DropsWhatIsNotFinite) {
 }
 
 TEST_F(ObjModel, SaysWhatIsWrongAndWhere) {
-  EXPECT_EQ(refusal(square + "f 1 2 99\n"), "model.obj: line 5: face index 99 out of range (4 vertices)");
-  EXPECT_EQ(refusal(square + "\n\nf 1 2 0\n"), "model.obj: line 7: face index 0 out of range (4 vertices)");
-  EXPECT_EQ(refusal(square + "f 1 2 \\\n3\nf -5 1 2\n"), "model.obj: line 7: face index -5 out of range (4 vertices)");
-  EXPECT_EQ(refusal(square + "l 1 x\n"), "model.obj: line 5: line: 'x' is not an index");
-  EXPECT_EQ(refusal(square + "f 1/2/3/4 2 3\n"), "model.obj: line 5: face: '1/2/3/4' is not v, v/vt, v//vn or v/vt/vn");
+  const std::string nothing = " (4 vertices) is dropped; nothing is left that can be drawn";
+  EXPECT_EQ(refusal(square + "f 1 2 99\n"), "model.obj: line 5: face with the corner '99'" + nothing);
+  EXPECT_EQ(refusal(square + "\n\nf 1 2 0\n"), "model.obj: line 7: face with the corner '0'" + nothing);
+  EXPECT_EQ(refusal(square + "f -5 \\\n1 2\n"), "model.obj: line 5: face with the corner '-5'" + nothing);
+  EXPECT_EQ(refusal(square + "l 1 x\n"), "model.obj: line 5: line with the corner 'x'" + nothing);
+  EXPECT_EQ(refusal(square + "f 1/2/3/4 2 3\n"), "model.obj: line 5: face with the corner '1/2/3/4'" + nothing);
   EXPECT_EQ(refusal("v 1 2\n"), "model.obj: line 1: vertex has 2 numbers, expected 3");
   EXPECT_EQ(refusal("v 1 2 3,5\n"), "model.obj: line 1: vertex: '3,5' is not a number");
   EXPECT_EQ(refusal(""), "model.obj: holds no faces, lines or points");
@@ -264,13 +265,41 @@ TEST_F(ObjModel, SaysWhatIsWrongAndWhere) {
       refusal(square + "f 1\nf 1 2\n"),
       "model.obj: line 5: face has too few corners and is dropped (and 1 more); nothing is left that can be drawn");
   EXPECT_EQ(refusal("hello\n"), "model.obj: line 1: hello is unknown and ignored; nothing is left that can be drawn");
-  EXPECT_EQ(refusal("f 99999999999999999999 1 1\n").substr(0, 35), "model.obj: line 1: face index 92233");
+  EXPECT_EQ(refusal("f 99999999999999999999 1 1\n").substr(0, 60),
+            "model.obj: line 1: face with the corner '9999999999999999999");
   try {
     load_obj((folder_ / "missing.obj").string());
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::Input);
   }
+}
+
+// A file whose faces are cut into parts reads them twice: the counts of vertices that follow are known only then.
+TEST_F(ObjModel, OneBadFaceDoesNotCostTheModel) {
+  const Scene scene =
+      load(square + "f 0 1 2\nf 1 2 3\nf 1 2 99\nf 1 x 3\nf 1x 2 3\nf 1// 2 /\nf -9 1 2\nf -4 -2 -1\n");
+  ASSERT_EQ(scene.meshes.size(), 1u);
+  EXPECT_EQ(scene.meshes[0].index, (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
+  EXPECT_EQ(warnings_of(scene), "model.obj: line 5: face with the corner '0' (4 vertices) is dropped (and 5 more)\n");
+}
+
+TEST_F(ObjModel, NormalsDecideWhichSideIsOutside) {
+  const std::string normal = "vn 0 0 1\n";
+  const Scene counter = load(square + normal + "f 1//1 2//1 3//1 4//1\n");
+  const Scene clockwise = load(square + normal + "f 4//1 3//1 2//1 1//1\n");
+  for (const Scene* scene : {&counter, &clockwise}) {
+    const Mesh& m = scene->meshes.at(0);
+    for (std::size_t i = 0; i < m.index.size(); i += 3) {
+      const float3 a = m.position[m.index[i]], b = m.position[m.index[i + 1]], c = m.position[m.index[i + 2]];
+      EXPECT_GT(cross(b - a, c - a).z, 0);
+    }
+  }
+}
+
+TEST_F(ObjModel, NamesTextInUtf16) {
+  EXPECT_EQ(refusal(std::string("\xff\xfev\0", 4)), "model.obj: is text in UTF-16, expected UTF-8 or ASCII");
+  EXPECT_EQ(refusal(std::string("\xfe\xff\0v", 4)), "model.obj: is text in UTF-16, expected UTF-8 or ASCII");
 }
 
 TEST_F(ObjModel, WarnsOfWhatItPassesOver) {

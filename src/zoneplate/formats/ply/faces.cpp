@@ -35,22 +35,6 @@ std::size_t need_indices(const PlyElement& element, const ImportBudget& budget) 
   throw Error(ErrorKind::Input, fmt::format("{}: element {}: has no list vertex_indices", budget.file(), element.name));
 }
 
-/// A row with the index of a vertex that does not exist.
-struct BadIndex {
-  std::size_t row = 0;
-  double value = 0;
-};
-
-/// Throws the error of the first block that has one.
-void report(const std::vector<std::optional<BadIndex>>& found, const PlyRows& rows, const Mesh& vertices,
-            const ImportBudget& budget) {
-  budget.check_time();
-  for (const std::optional<BadIndex>& bad : found)
-    if (bad)
-      throw Error(ErrorKind::Input, fmt::format("{}: {} {}: uses vertex {}, there are {}", budget.file(),
-                                                rows.element->name, bad->row, bad->value, vertices.position.size()));
-}
-
 std::size_t blocks(std::size_t count) { return (count + PlyRows::block - 1) / PlyRows::block; }
 
 /// A face of more corners than this is dropped: it is not a real polygon, and triangulating it would take too long.
@@ -58,28 +42,46 @@ constexpr std::uint32_t most_corners = 1 << 20;
 /// Triangulating a face of more corners than this may take long: the time limit is checked before it.
 constexpr std::uint32_t many_corners = 64;
 
+/// The properties of faces besides their vertices.
+struct Extras {
+  std::optional<std::size_t> texcoord, texture;     ///< coordinates of the corners; the number of the texture
+  std::optional<std::array<std::size_t, 3>> color;  ///< red, green and blue, unless vertices have colours
+  std::array<double, 3> one{};                      ///< the value of each that represents 1
+  std::size_t textures = 0;                         ///< the number of the file's textures
+};
+
+Extras find_extras(const PlyRows& rows, const Mesh& vertices, std::size_t textures) {
+  Extras out{.texcoord = find(*rows.element, "texcoord", true), .textures = textures};
+  if (textures > 1) out.texture = find(*rows.element, "texnumber", false);
+  const auto red = find(*rows.element, "red", false), green = find(*rows.element, "green", false),
+             blue = find(*rows.element, "blue", false);
+  if (!vertices.color.empty() || !red || !green || !blue) return out;
+  out.color = {*red, *green, *blue};
+  float greatest = 0;
+  std::vector<float> values(PlyRows::block);
+  for (std::size_t begin = 0; begin < rows.count(); begin += PlyRows::block) {
+    const std::size_t end = std::min(rows.count(), begin + PlyRows::block);
+    for (const std::size_t p : *out.color) {
+      read_ply_column(rows, begin, end, p, values.data(), 1);
+      for (std::size_t i = 0; i < end - begin; ++i) greatest = std::max(greatest, values[i]);
+    }
+  }
+  for (std::size_t i = 0; i < 3; ++i)
+    out.one[i] = one_of(rows.element->properties[(*out.color)[i]].stated, double{greatest});
+  return out;
+}
+
 /// Reads the faces of one block.
 class BlockReader {
  public:
-  BlockReader(const PlyRows& rows, const Mesh& vertices, std::size_t indices, const ImportBudget& budget)
-      : rows_(rows),
-        vertices_(vertices),
-        indices_(indices),
-        budget_(budget),
-        texcoord_(find(*rows.element, "texcoord", true)) {
-    if (!vertices.color.empty()) return;
-    const auto red = find(*rows.element, "red", false), green = find(*rows.element, "green", false),
-               blue = find(*rows.element, "blue", false);
-    if (red && green && blue) color_ = {*red, *green, *blue};
-  }
+  BlockReader(const PlyRows& rows, const Mesh& vertices, std::size_t indices, const Extras& extras,
+              const ImportBudget& budget)
+      : rows_(rows), vertices_(vertices), indices_(indices), budget_(budget), extras_(extras) {}
 
   PlyFaces out;
-  std::optional<BadIndex> bad;
 
   void read(std::size_t begin, std::size_t end) {
-    for_ply_rows(rows_, begin, end, [&](std::size_t i, std::span<const PlyPlace> places) {
-      if (!bad) read_face(i, places);
-    });
+    for_ply_rows(rows_, begin, end, [&](std::size_t i, std::span<const PlyPlace> places) { read_face(i, places); });
   }
 
  private:
@@ -102,17 +104,15 @@ class BlockReader {
     corners_.clear();
     for (std::size_t k = 0; k < list.count; ++k) {
       const double v = value(indices_, list, k);
-      if (!(v >= 0 && v < static_cast<double>(vertices_.position.size()))) {
-        bad = {row, v};
-        return;
-      }
+      if (!(v >= 0 && v < static_cast<double>(vertices_.position.size()))) return out.strays.add({1, row, v});
       corners_.push_back(static_cast<std::uint32_t>(v));
     }
     cut();
     for (const auto& t : triangles_)
       for (const std::uint32_t k : t) out.index.push_back(corners_[k]);
-    if (texcoord_) add_uvs(places[*texcoord_]);
-    if (color_) add_color(places);
+    if (extras_.texcoord) add_uvs(places[*extras_.texcoord]);
+    if (extras_.color) add_color(places);
+    if (extras_.texture) add_texture(places);
   }
 
   void cut() {
@@ -131,8 +131,8 @@ class BlockReader {
       for (const std::uint32_t k : t) {
         float2 uv{0, 1};
         if (2 * k + 1 < list.count)
-          uv = {static_cast<float>(value(*texcoord_, list, 2 * k)),
-                1 - static_cast<float>(value(*texcoord_, list, 2 * k + 1))};
+          uv = {static_cast<float>(value(*extras_.texcoord, list, 2 * k)),
+                1 - static_cast<float>(value(*extras_.texcoord, list, 2 * k + 1))};
         out.corner_uv.push_back(uv);
       }
   }
@@ -140,18 +140,24 @@ class BlockReader {
   void add_color(std::span<const PlyPlace> places) {
     std::array<float, 3> c{};
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::size_t p = (*color_)[i];
-      c[i] = decode_srgb(static_cast<float>(value(p, places[p], 0) / one_of(rows_.element->properties[p].stated)));
+      const std::size_t p = (*extras_.color)[i];
+      c[i] = decode_srgb(static_cast<float>(value(p, places[p], 0) / extras_.one[i]));
     }
     out.corner_color.insert(out.corner_color.end(), 3 * triangles_.size(), {c[0], c[1], c[2], 1});
+  }
+
+  /// A face without a valid number has the first texture.
+  void add_texture(std::span<const PlyPlace> places) {
+    const double number = value(*extras_.texture, places[*extras_.texture], 0);
+    const bool is_there = number >= 0 && number < static_cast<double>(extras_.textures);
+    out.texture.insert(out.texture.end(), triangles_.size(), is_there ? static_cast<std::uint16_t>(number) : 0);
   }
 
   const PlyRows& rows_;
   const Mesh& vertices_;
   std::size_t indices_;
   const ImportBudget& budget_;
-  std::optional<std::size_t> texcoord_;
-  std::optional<std::array<std::size_t, 3>> color_;
+  const Extras& extras_;
   std::vector<std::uint32_t> corners_;
   std::vector<float3> polygon_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
@@ -208,7 +214,7 @@ std::vector<std::uint32_t> read_plain_triangles(const PlyRows& rows, std::size_t
   return index;
 }
 
-PlyFaces read_ply_faces(const PlyRows& rows, const Mesh& vertices, ImportBudget& budget) {
+PlyFaces read_ply_faces(const PlyRows& rows, const Mesh& vertices, std::size_t textures, ImportBudget& budget) {
   const std::size_t indices = need_indices(*rows.element, budget);
   PlyFaces out;
   if (rows.count() == 0) return out;
@@ -216,28 +222,32 @@ PlyFaces read_ply_faces(const PlyRows& rows, const Mesh& vertices, ImportBudget&
   std::atomic<std::uint64_t> made = 0;
   const std::uint64_t most = budget.memory_left();
   std::vector<PlyFaces> parts(blocks(rows.count()));
-  std::vector<std::optional<BadIndex>> found(parts.size());
+  const Extras extras = find_extras(rows, vertices, textures);
   parallel_ranges(rows.count(), PlyRows::block, [&](std::size_t begin, std::size_t end) {
     if (!budget.has_time() || made > most) return;
-    BlockReader reader(rows, vertices, indices, budget);
+    BlockReader reader(rows, vertices, indices, extras, budget);
     reader.read(begin, end);
     made += reader.out.index.size() * sizeof(std::uint32_t) + reader.out.corner_uv.size() * sizeof(float2) +
-            reader.out.corner_color.size() * sizeof(float4);
+            reader.out.corner_color.size() * sizeof(float4) + reader.out.texture.size() * sizeof(std::uint16_t);
     parts[begin / PlyRows::block] = std::move(reader.out);
-    found[begin / PlyRows::block] = reader.bad;
   });
-  report(found, rows, vertices, budget);
+  budget.check_time();
   budget.take(made);
   budget.give_back(made);
-  for (const PlyFaces& part : parts) out.too_short += part.too_short, out.too_concave += part.too_concave;
+  for (const PlyFaces& part : parts) {
+    out.too_short += part.too_short, out.too_concave += part.too_concave;
+    out.strays.add(part.strays);
+  }
   out.index = joined(parts, &PlyFaces::index, budget);
   out.corner_uv = joined(parts, &PlyFaces::corner_uv, budget);
   out.corner_color = joined(parts, &PlyFaces::corner_color, budget);
+  out.texture = joined(parts, &PlyFaces::texture, budget);
   if (out.index.size() >= 0xffffffffu) throw Error(ErrorKind::Input, budget.file() + ": more than 2^32 corners");
   return out;
 }
 
-std::vector<std::uint32_t> read_ply_strips(const PlyRows& rows, const Mesh& vertices, ImportBudget& budget) {
+std::vector<std::uint32_t> read_ply_strips(const PlyRows& rows, const Mesh& vertices, ImportBudget& budget,
+                                           PlyStrays& strays) {
   const std::size_t indices = need_indices(*rows.element, budget);
   const PlyType type = rows.element->properties[indices].type;
   std::vector<std::uint32_t> out, strip;
@@ -249,12 +259,12 @@ std::vector<std::uint32_t> read_ply_strips(const PlyRows& rows, const Mesh& vert
                    strip.clear();
                    for (std::size_t k = 0; k < p[indices].count; ++k) {
                      const double v = read_ply_value(p[indices].at + k * size_of(type), type, rows.order);
-                     if (v < 0) {
+                     const bool is_there = v >= 0 && v < static_cast<double>(vertices.position.size());
+                     if (!is_there && !(v < 0)) strays.add({1, row, v});
+                     if (!is_there) {
                        strip.clear();
                        continue;
                      }
-                     if (!(v < static_cast<double>(vertices.position.size())))
-                       report({BadIndex{row, v}}, rows, vertices, budget);
                      strip.push_back(static_cast<std::uint32_t>(v));
                      const std::size_t n = strip.size();
                      if (n < 3) continue;
@@ -267,24 +277,24 @@ std::vector<std::uint32_t> read_ply_strips(const PlyRows& rows, const Mesh& vert
   return out;
 }
 
-std::vector<std::uint32_t> read_ply_edges(const PlyRows& rows, const Mesh& vertices, ImportBudget& budget) {
+std::vector<std::uint32_t> read_ply_edges(const PlyRows& rows, const Mesh& vertices, ImportBudget& budget,
+                                          PlyStrays& strays) {
   const auto a = find(*rows.element, "vertex1", false), b = find(*rows.element, "vertex2", false);
   if (!a || !b) return {};
   budget.take(rows.count() * 2 * sizeof(std::uint32_t));
-  std::vector<std::uint32_t> out(2 * rows.count());
-  std::vector<std::optional<BadIndex>> found(blocks(rows.count()));
-  parallel_ranges(rows.count(), PlyRows::block, [&](std::size_t begin, std::size_t end) {
-    for_ply_rows(rows, begin, end, [&](std::size_t i, std::span<const PlyPlace> places) {
-      for (std::size_t k = 0; k < 2; ++k) {
-        const std::size_t p = k == 0 ? *a : *b;
-        const double v = read_ply_value(places[p].at, rows.element->properties[p].type, rows.order);
-        const bool is_there = v >= 0 && v < static_cast<double>(vertices.position.size());
-        if (!is_there && !found[begin / PlyRows::block]) found[begin / PlyRows::block] = {i, v};
-        if (is_there) out[2 * i + k] = static_cast<std::uint32_t>(v);
-      }
-    });
-  });
-  report(found, rows, vertices, budget);
+  std::vector<std::uint32_t> out;
+  out.reserve(2 * rows.count());
+  for (std::size_t begin = 0; begin < rows.count(); begin += PlyRows::block) {
+    budget.check_time();
+    for_ply_rows(rows, begin, std::min(rows.count(), begin + PlyRows::block),
+                 [&](std::size_t row, std::span<const PlyPlace> places) {
+                   const double ends[] = {read_ply_value(places[*a].at, rows.element->properties[*a].type, rows.order),
+                                          read_ply_value(places[*b].at, rows.element->properties[*b].type, rows.order)};
+                   for (const double v : ends)
+                     if (!(v >= 0 && v < static_cast<double>(vertices.position.size()))) return strays.add({1, row, v});
+                   for (const double v : ends) out.push_back(static_cast<std::uint32_t>(v));
+                 });
+  }
   return out;
 }
 

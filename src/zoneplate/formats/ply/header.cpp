@@ -49,7 +49,7 @@ class HeaderReader {
       else if (words_[0] == "property")
         read_property();
       else
-        fail(fmt::format("'{}' is not a word of a PLY header", words_[0].substr(0, 40)));
+        ignore_line();
     }
     fail("the header has no end_header");
   }
@@ -77,10 +77,18 @@ class HeaderReader {
     return true;
   }
 
+  void ignore_line() {
+    constexpr std::size_t most_named = 20;
+    if (header_.warnings.size() < most_named)
+      header_.warnings.push_back(fmt::format("{}: line {}: '{}' is not a word of a PLY header, the line is ignored",
+                                             file_, line_number_, words_[0].substr(0, 40)));
+  }
+
   void read_comment() {
-    if (words_.size() < 3 || words_[1] != "TextureFile" || !header_.texture.empty()) return;
+    if (words_.size() < 3 || words_[1] != "TextureFile") return;
+    if (header_.textures.size() == most_properties) fail("too many textures");
     const std::size_t begin = static_cast<std::size_t>(words_[2].data() - line_.data());
-    header_.texture = line_.substr(begin, line_.find_last_not_of(" \t") + 1 - begin);
+    header_.textures.emplace_back(line_.substr(begin, line_.find_last_not_of(" \t") + 1 - begin));
   }
 
   void read_format() {
@@ -140,9 +148,12 @@ std::size_t size_of(PlyType type) {
   return sizes[static_cast<std::size_t>(type)];
 }
 
-double one_of(PlyType type) {
-  constexpr double ones[] = {127, 255, 32767, 65535, 2147483647, 4294967295, 1, 1};
-  return ones[static_cast<std::size_t>(type)];
+double one_of(PlyType type, double greatest) {
+  constexpr double ones[] = {127, 255, 32767, 65535, 2147483647, 4294967295, 1, 1}, of_bytes = 255;
+  const double one = ones[static_cast<std::size_t>(type)];
+  constexpr double most_light = 2;  // floats above it are no colours of [0, 1]
+  const bool are_bytes = one < of_bytes ? greatest > std::max(one, most_light) : greatest <= of_bytes;
+  return are_bytes ? of_bytes : one;
 }
 
 PlyHeader parse_ply_header(std::span<const std::uint8_t> bytes, const std::string& file) {

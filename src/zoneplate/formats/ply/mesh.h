@@ -8,17 +8,31 @@ namespace zoneplate {
 
 /// Reads the vertices of a PLY file as a mesh without indices: positions and the other attributes that are present.
 ///
-/// Colours are sRGB codes: integers over their whole range, floats in [0, 1]. The origin of texture coordinates in the
-/// file is at the bottom left.
+/// Colours are sRGB codes: integers over their whole range, floats in [0, 1], or either in [0, 255] (one_of). The
+/// origin of texture coordinates in the file is at the bottom left.
 /// Errors    ErrorKind::Input: no x, y or z, or more vertices than 32-bit indices can address.
 Mesh read_ply_vertices(const PlyRows& rows, ImportBudget& budget);
+
+/// Faces, strips or edges with the index of a vertex that does not exist: they are dropped.
+struct PlyStrays {
+  std::uint64_t count = 0;
+  std::size_t row = 0;  ///< of the first one
+  double index = 0;     ///< of that row's missing vertex
+
+  void add(const PlyStrays& later) {
+    if (count == 0) row = later.row, index = later.index;
+    count += later.count;
+  }
+};
 
 /// The triangles of a PLY file's faces.
 struct PlyFaces {
   std::vector<std::uint32_t> index;
-  std::vector<float2> corner_uv;     ///< one per index, if faces have their own texture coordinates
-  std::vector<float4> corner_color;  ///< one per index, if faces have colours
+  std::vector<float2> corner_uv;       ///< one per index, if faces have their own texture coordinates
+  std::vector<float4> corner_color;    ///< one per index, if faces have colours
+  std::vector<std::uint16_t> texture;  ///< one per triangle, an index in PlyHeader::textures, if faces have one
   std::uint64_t too_short = 0, too_concave = 0;
+  PlyStrays strays;
 };
 
 /// Whether all faces are triangles of 32-bit indices in native byte order without other attributes, as in most files.
@@ -29,15 +43,15 @@ bool are_plain_triangles(const PlyRows& faces);
 /// Cost      12 bytes per face, which the caller charges to the budget.
 std::vector<std::uint32_t> read_plain_triangles(const PlyRows& faces, std::size_t vertices);
 
-/// Reads faces of any kind and triangulates them.
-///
-/// Errors    ErrorKind::Input naming the first face with the index of a vertex that does not exist.
-PlyFaces read_ply_faces(const PlyRows& rows, const Mesh& vertices, ImportBudget& budget);
+/// Reads faces of any kind and triangulates them. `textures` is the number of the file's textures.
+PlyFaces read_ply_faces(const PlyRows& rows, const Mesh& vertices, std::size_t textures, ImportBudget& budget);
 
-/// Reads the triangles of strips: a negative index ends a strip.
-std::vector<std::uint32_t> read_ply_strips(const PlyRows& rows, const Mesh& vertices, ImportBudget& budget);
+/// Reads the triangles of strips: a negative index ends a strip, and so does that of a missing vertex.
+std::vector<std::uint32_t> read_ply_strips(const PlyRows& rows, const Mesh& vertices, ImportBudget& budget,
+                                           PlyStrays& strays);
 
 /// Reads the lines of edges, two indices each.
-std::vector<std::uint32_t> read_ply_edges(const PlyRows& rows, const Mesh& vertices, ImportBudget& budget);
+std::vector<std::uint32_t> read_ply_edges(const PlyRows& rows, const Mesh& vertices, ImportBudget& budget,
+                                          PlyStrays& strays);
 
 }  // namespace zoneplate

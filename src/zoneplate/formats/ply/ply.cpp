@@ -16,6 +16,7 @@
 #include "zoneplate/os/file.h"
 #include "zoneplate/scene/geometry/flat_normals.h"
 #include "zoneplate/scene/geometry/smooth_normals.h"
+#include "zoneplate/scene/geometry/winding.h"
 #include "zoneplate/scene/sanitize.h"
 #include "zoneplate/scene/serial_ranges.h"
 
@@ -101,13 +102,14 @@ void read_arrays(const Found& found, Mesh& mesh, PlyFaces& faces, ImportBudget& 
   budget.check_time();
 }
 
-/// Sets the mesh's primitives and topology; attributes per corner remain in `faces`.
-void choose_primitives(const Found& found, Mesh& mesh, PlyFaces& faces, ImportBudget& budget) {
-  if (found.faces && faces.index.empty()) faces = read_ply_faces(*found.faces, mesh, budget);
-  if (faces.index.empty() && found.strips) faces.index = read_ply_strips(*found.strips, mesh, budget);
+/// Sets the mesh's primitives and topology; attributes per corner and the textures of triangles remain in `faces`.
+void choose_primitives(const Found& found, std::size_t textures, Mesh& mesh, PlyFaces& faces, ImportBudget& budget) {
+  if (found.faces && faces.index.empty()) faces = read_ply_faces(*found.faces, mesh, textures, budget);
+  if (faces.index.empty() && found.strips) faces.index = read_ply_strips(*found.strips, mesh, budget, faces.strays);
   mesh.index = std::move(faces.index);
-  if (!mesh.index.empty() || faces.too_short > 0) return;
-  if (found.edges) mesh.index = read_ply_edges(*found.edges, mesh, budget);
+  if (!mesh.index.empty() || faces.too_short > 0 || faces.strays.count > 0) return;
+  if (found.edges) mesh.index = read_ply_edges(*found.edges, mesh, budget, faces.strays);
+  if (faces.strays.count > 0 && mesh.index.empty()) return;
   mesh.topology = mesh.index.empty() ? Topology::Points : Topology::Lines;
   if (mesh.topology == Topology::Lines) return;
   budget.take(mesh.position.size() * sizeof(std::uint32_t));
@@ -123,12 +125,11 @@ bool is_uniform_grey(const std::vector<float4>& colors) {
          std::all_of(colors.begin(), colors.end(), [&](float4 c) { return c == first; });
 }
 
-void add_material(const PlyHeader& header, const std::string& folder, Mesh& mesh, Scene& scene, ImportBudget& budget) {
-  scene.materials.push_back(plain_material("default"));
-  Material& material = scene.materials.back();
-  if (!header.texture.empty() && !mesh.uv0.empty()) {
-    ModelFolder files(folder, budget, scene);
-    material.base_color_texture.image = files.image("", header.texture);
+/// A material with the image of a texture, or of none, for a mesh that gets it.
+Material material_of(const std::string& texture, ModelFolder& files, Mesh& mesh) {
+  Material material = plain_material("default");
+  if (!texture.empty() && !mesh.uv0.empty()) {
+    material.base_color_texture.image = files.image("", texture);
     material.is_default = false;
     // A texture is not darkened by such a grey.
     if (material.base_color_texture.image >= 0 && is_uniform_grey(mesh.color)) mesh.color.clear();
@@ -136,10 +137,56 @@ void add_material(const PlyHeader& header, const std::string& folder, Mesh& mesh
   if (!mesh.color.empty() || material.base_color_texture.image >= 0) material.base_color = {1, 1, 1, 1};
   const bool is_clear = std::any_of(mesh.color.begin(), mesh.color.end(), [](float4 c) { return c.w < 1; });
   if (is_clear) material.alpha_mode = AlphaMode::Blend;
+  return material;
+}
+
+/// Makes colours opaque that would all be transparent: their programs do not use alpha.
+void show_transparent(Mesh& mesh, Scene& scene, const std::string& file) {
+  if (mesh.color.empty() || std::any_of(mesh.color.begin(), mesh.color.end(), [](float4 c) { return c.w > 0; })) return;
+  scene.warnings.push_back(file + ": the alpha of all vertices is 0, taken as 1");
+  for (float4& c : mesh.color) c.w = 1;
+}
+
+/// The part of a mesh whose triangles have a texture. Each corner has its own vertex.
+Mesh part_of(const Mesh& mesh, const std::vector<std::uint16_t>& textures, std::size_t texture) {
+  Mesh part;
+  part.name = mesh.name;
+  for (std::size_t t = 0; t < textures.size(); ++t)
+    if (textures[t] == texture) part.index.insert(part.index.end(), &mesh.index[3 * t], &mesh.index[3 * t] + 3);
+  part.position = spread(mesh.position, part.index);
+  part.normal = spread(mesh.normal, part.index);
+  part.uv0 = spread(mesh.uv0, part.index);
+  part.color = spread(mesh.color, part.index);
+  std::iota(part.index.begin(), part.index.end(), 0u);
+  return part;
+}
+
+/// Adds the mesh, or a mesh for each texture if triangles have several (`textures`, a number per triangle).
+void add_meshes(Mesh mesh, const std::vector<std::uint16_t>& textures, const PlyHeader& header,
+                const std::string& folder, Scene& scene, ImportBudget& budget) {
+  scene.objects.push_back(mesh.name);
+  ModelFolder files(folder, budget, scene);
+  const auto add = [&](Mesh part, const std::string& texture) {
+    part.material = static_cast<int>(scene.materials.size());
+    scene.materials.push_back(material_of(texture, files, part));
+    scene.instances.push_back({static_cast<int>(scene.meshes.size()), 0, {}});
+    scene.meshes.push_back(std::move(part));
+  };
+  if (textures.empty()) return add(std::move(mesh), header.textures.empty() ? "" : header.textures.front());
+  budget.take(mesh.index.size() * (2 * sizeof(float3) + sizeof(float2) + sizeof(float4) + sizeof(std::uint32_t)));
+  for (std::size_t i = 0; i < header.textures.size(); ++i)
+    if (Mesh part = part_of(mesh, textures, i); !part.index.empty()) add(std::move(part), header.textures[i]);
 }
 
 void warn(Scene& scene, const ImportBudget& budget, std::uint64_t count, const char* text) {
   if (count > 0) scene.warnings.push_back(fmt::format("{}: {} {}", budget.file(), count, text));
+}
+
+void warn_of_strays(Scene& scene, const ImportBudget& budget, const PlyStrays& strays, std::size_t vertices) {
+  if (strays.count == 0) return;
+  const std::string more = strays.count > 1 ? fmt::format(" (and {} more)", strays.count - 1) : "";
+  scene.warnings.push_back(fmt::format("{}: face {} uses vertex {}, there are {}: it is dropped{}", budget.file(),
+                                       strays.row, strays.index, vertices, more));
 }
 
 }  // namespace
@@ -150,23 +197,27 @@ Scene load_ply(const std::string& path, const LoadLimits& limits) {
   ImportBudget budget(is_stream ? "standard input" : path, limits);
   PlyHeader header = parse_ply_header(file.bytes(), budget.file());
   std::span<const std::uint8_t> body = file.bytes().subspan(header.size);
-  std::vector<std::uint8_t> numbers;
+  std::vector<double> numbers;
   if (header.order == PlyOrder::Ascii) {
     const auto* const text = reinterpret_cast<const char*>(file.bytes().data());
     const auto lines = static_cast<std::size_t>(std::count(text, text + header.size, '\n'));
     numbers = parse_ply_text({text + header.size, body.size()}, lines, header, budget);
-    body = numbers;
+    body = {reinterpret_cast<const std::uint8_t*>(numbers.data()), numbers.size() * sizeof(double)};
   }
 
   Scene scene;
+  scene.warnings = header.warnings;
   const Found found = find_elements(header, body, budget);
   Mesh mesh;
   PlyFaces faces;
   read_arrays(found, mesh, faces, budget);
-  choose_primitives(found, mesh, faces, budget);
+  const std::size_t vertices = mesh.position.size();
+  choose_primitives(found, header.textures.size(), mesh, faces, budget);
+  warn_of_strays(scene, budget, faces.strays, vertices);
   warn(scene, budget, faces.too_short, "faces have fewer than 3 corners and are dropped");
   warn(scene, budget, faces.too_concave, "faces have too many corners to be cut rightly");
   const std::size_t primitives = mesh.primitives();
+  const bool has_normals = !mesh.normal.empty();
   if (!faces.corner_uv.empty() || !faces.corner_color.empty()) {
     if (mesh.normal.empty()) drop_not_finite(mesh), complete_normals(mesh, budget);
     if (mesh.primitives() == primitives) set_corners(mesh, faces, budget);
@@ -176,14 +227,14 @@ Scene load_ply(const std::string& path, const LoadLimits& limits) {
   if (mesh.index.empty())
     throw Error(ErrorKind::Input, scene.warnings.empty() ? budget.file() + ": holds no vertices"
                                                          : scene.warnings.front() + "; nothing is left to draw");
+  if (mesh.primitives() != primitives) faces.texture.clear();
   complete_normals(mesh, budget);
+  if (has_normals) turn_to_normals(mesh);
+  show_transparent(mesh, scene, budget.file());
 
   const std::filesystem::path place(path);
   mesh.name = is_stream ? "object" : place.stem().string();
-  add_material(header, is_stream ? "." : place.parent_path().string(), mesh, scene, budget);
-  scene.objects.push_back(mesh.name);
-  scene.instances.push_back({0, 0, {}});
-  scene.meshes.push_back(std::move(mesh));
+  add_meshes(std::move(mesh), faces.texture, header, is_stream ? "." : place.parent_path().string(), scene, budget);
   return scene;
 }
 

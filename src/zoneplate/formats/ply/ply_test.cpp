@@ -184,6 +184,93 @@ TEST(Ply, UniformGreyDoesNotDarkenATexture) {
   EXPECT_EQ(colors_of("", "192 192 192"), 3u);
 }
 
+TEST(Ply, ColoursOfWideTypesMayBeThoseOfBytes) {
+  const auto color_of = [](const std::string& type, const std::string& first) {
+    const std::string red = "property " + type + " red\n", green = "property " + type + " green\n",
+                      blue = "property " + type + " blue\n";
+    return load(ascii + "element vertex 3\n" + xyz + red + green + blue +
+                "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 " + first +
+                "\n1 0 0 0 0 0\n0 1 0 0 0 0\n3 0 1 2\n")
+        .meshes.at(0)
+        .color.at(0);
+  };
+  for (const char* type : {"char", "uchar", "short", "ushort", "int", "uint", "float", "double"})
+    EXPECT_EQ(color_of(type, "255 0 128"), (float4{1, 0, decode_srgb8(128), 1})) << type;
+  EXPECT_EQ(color_of("ushort", "65535 0 0"), (float4{1, 0, 0, 1}));
+  EXPECT_EQ(color_of("float", "1 0 0.5"), (float4{1, 0, decode_srgb(0.5f), 1}));
+}
+
+TEST(Ply, AlphaThatIsZeroEverywhereIsNotMeant) {
+  const auto load_with = [](const char* alpha) {
+    return load(ascii + "element vertex 3\n" + xyz +
+                "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n"
+                "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                "0 0 0 9 9 9 0\n1 0 0 9 9 9 0\n0 1 0 9 9 9 " +
+                alpha + "\n3 0 1 2\n");
+  };
+  const Scene all = load_with("0"), some = load_with("1");
+  EXPECT_EQ(all.meshes[0].color[0].w, 1);
+  EXPECT_EQ(all.materials[0].alpha_mode, AlphaMode::Opaque);
+  ASSERT_EQ(all.warnings.size(), 1u);
+  EXPECT_TRUE(all.warnings[0].ends_with("the alpha of all vertices is 0, taken as 1"));
+  EXPECT_EQ(some.meshes[0].color[0].w, 0);
+}
+
+TEST(Ply, FacesMayHaveSeveralTextures) {
+  const TestFolder folder;
+  for (const char* name : {"a.png", "b.png", "c.png"}) folder.write(name, encode_png(Rgba8Image(2, 2, {1, 2, 3, 255})));
+  const std::string text =
+      ascii + "comment TextureFile a.png\ncomment TextureFile b.png\ncomment TextureFile c.png\nelement vertex 4\n" +
+      xyz +
+      "element face 3\nproperty list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+      "property int texnumber\nend_header\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
+      "3 0 1 2 6 0 0 1 0 1 1 2\n3 0 2 3 6 0 0 1 1 0 1 0\n3 0 1 3 6 0 0 1 0 0 1 9\n";
+  const Scene s = load_ply(folder.write("model.ply", text));
+  ASSERT_EQ(s.meshes.size(), 2u);
+  EXPECT_EQ(s.meshes[0].primitives(), 2u);  // a number that no texture has is that of the first
+  EXPECT_EQ(s.meshes[1].primitives(), 1u);
+  EXPECT_EQ(s.meshes[1].uv0[1], (float2{1, 1}));
+  const auto image_of = [&](std::size_t mesh) {
+    const Material& m = s.materials[static_cast<std::size_t>(s.meshes[mesh].material)];
+    return s.images.at(static_cast<std::size_t>(m.base_color_texture.image)).name;
+  };
+  EXPECT_EQ(image_of(0), "a.png");
+  EXPECT_EQ(image_of(1), "c.png");
+  EXPECT_EQ(s.objects.size(), 1u);
+}
+
+TEST(Ply, OneFlawDoesNotCostTheModel) {
+  const std::string faces = "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
+  const auto warning_of = [](const std::string& text, std::size_t triangles) {
+    const Scene s = load(text);
+    EXPECT_EQ(s.meshes.at(0).primitives(), triangles);
+    EXPECT_EQ(s.warnings.size(), 1u);
+    return s.warnings.empty() ? "" : s.warnings[0].substr(s.warnings[0].find(": ") + 2);
+  };
+  EXPECT_EQ(
+      warning_of(ascii + "Made by hand\nelement vertex 3\n" + xyz + faces + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\n",
+                 2),
+      "line 3: 'Made' is not a word of a PLY header, the line is ignored");
+  EXPECT_EQ(warning_of(ascii + "element vertex 3\n" + xyz + faces + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n3 0 1 2\n", 1),
+            "face 0 uses vertex 3, there are 3: it is dropped");
+  EXPECT_EQ(
+      warning_of(
+          ascii + "element vertex 3\n" + xyz + faces + "0 0 0 7 7 7\n1 0 0 7 7 7\n0 1 0 7 7 7\n3 0 1 2\n3 0 1 2\n", 2),
+      "rows have more values than the header states, the rest is ignored");
+  EXPECT_EQ(
+      warning_of(
+          ascii + "element vertex 3\n" + xyz + faces + "0 0 0\n1 0 0\n\n0 1 0\n3 0 1 2 0.5 0.5\n3 0 1 2 0.5 0.5\n", 2),
+      "rows have more values than the header states, the rest is ignored");
+}
+
+TEST(Ply, NormalsDecideWhichSideIsOutside) {
+  const Scene s = load(ascii + "element vertex 3\n" + xyz +
+                       "property float nx\nproperty float ny\nproperty float nz\nelement face 1\n"
+                       "property list uchar int vertex_indices\nend_header\n"
+                       "0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 2 1\n");
+  EXPECT_EQ(s.meshes[0].index, (std::vector<std::uint32_t>{0, 1, 2}));
+}
+
 TEST(Ply, WhatIsNotFiniteIsDropped) {
   const Scene s = load(ascii + "element vertex 4\n" + xyz +
                        "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
@@ -206,8 +293,8 @@ TEST(Ply, Refusals) {
             "element vertex: the file ends in row 0 of 1");
   EXPECT_EQ(refusal(ascii + "element vertex 1\n" + xyz + "end_header\n1 two 3\n"), "line 8: 'two' is not a number");
   EXPECT_EQ(refusal(ascii + "element vertex 1\n" + xyz +
-                    "element face 2\nproperty list uchar int vertex_indices\nend_header\n1 2 3\n3 0 0 0\n3 0 0 1\n"),
-            "face 1: uses vertex 1, there are 1");
+                    "element face 2\nproperty list uchar int vertex_indices\nend_header\n1 2 3\n3 0 0 1\n3 0 0 1\n"),
+            "face 0 uses vertex 1, there are 1: it is dropped (and 1 more); nothing is left to draw");
 }
 
 /// The normal of each corner of a mesh, in the order of its indices.

@@ -144,6 +144,89 @@ std::vector<double> parse_numbers(std::string_view part) {
   }
 }
 
+/// Iterates over the lines of a body that hold a word.
+class BodyLines {
+ public:
+  explicit BodyLines(std::string_view body) : rest_(body) {}
+
+  /// The next line; nothing after the last.
+  std::optional<std::string_view> next() {
+    while (!rest_.empty()) {
+      const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
+      const std::string_view line = rest_.substr(0, end);
+      rest_.remove_prefix(std::min(end + 1, rest_.size()));
+      if (!std::all_of(line.begin(), line.end(), is_space)) return line;
+    }
+    return std::nullopt;
+  }
+
+ private:
+  std::string_view rest_;
+};
+
+/// How many of the numbers from the front on belong to a row of an element; nothing if there are fewer.
+std::optional<std::size_t> numbers_of_row(const PlyElement& element, std::span<const double> numbers) {
+  std::size_t n = 0;
+  for (const PlyProperty& p : element.properties) {
+    if (n >= numbers.size()) return std::nullopt;
+    const double items = p.is_list ? numbers[n] : 1;
+    if (p.is_list) ++n;
+    if (!(items >= 0) || items > static_cast<double>(numbers.size() - n)) return std::nullopt;
+    n += static_cast<std::size_t>(items);
+  }
+  return n;
+}
+
+/// Whether the rows of all elements take exactly these numbers.
+bool fills_rows(const PlyHeader& header, std::span<const double> numbers, ImportBudget& budget) {
+  for (const PlyElement& element : header.elements)
+    for (std::uint64_t row = 0; row < element.count && !element.properties.empty(); ++row) {
+      if (row % PlyRows::block == 0) budget.check_time();
+      const std::optional<std::size_t> own = numbers_of_row(element, numbers);
+      if (!own) return false;
+      numbers = numbers.subspan(*own);
+    }
+  return numbers.empty();
+}
+
+/// Whether rows have more values than the header states (as VCGLIB writes some), so that only lines separate them:
+/// each row has a line of its own, and that of an element's first row has more numbers than it needs.
+bool needs_lines(std::string_view body, const PlyHeader& header, ImportBudget& budget) {
+  BodyLines lines(body);
+  bool has_more = false;
+  for (const PlyElement& element : header.elements)
+    for (std::uint64_t row = 0; row < element.count; ++row) {
+      if (row % PlyRows::block == 0) budget.check_time();
+      const std::optional<std::string_view> line = lines.next();
+      if (!line) return false;
+      if (row > 0) continue;
+      const std::vector<double> numbers = parse_numbers(*line);
+      const std::optional<std::size_t> own = numbers_of_row(element, numbers);
+      if (!own) return false;
+      has_more = has_more || *own < numbers.size();
+    }
+  return has_more;
+}
+
+/// The numbers of each row's line that belong to its element.
+std::vector<double> parse_lines(std::string_view body, const PlyHeader& header, ImportBudget& budget) {
+  std::vector<double> out;
+  BodyLines lines(body);
+  for (const PlyElement& element : header.elements)
+    for (std::uint64_t row = 0; row < element.count; ++row) {
+      if (row % PlyRows::block == 0) budget.check_time();
+      const std::optional<std::string_view> line = lines.next();
+      if (!line) return out;  // find_ply_rows reports what is missing
+      const std::vector<double> numbers = parse_numbers(*line);
+      const std::optional<std::size_t> own = numbers_of_row(element, numbers);
+      if (!own)
+        throw Error(ErrorKind::Input,
+                    fmt::format("{}: element {}: row {} has too few values", budget.file(), element.name, row));
+      out.insert(out.end(), numbers.begin(), numbers.begin() + static_cast<std::ptrdiff_t>(*own));
+    }
+  return out;
+}
+
 std::vector<std::string_view> cut_at_spaces(std::string_view text) {
   constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
   std::vector<std::string_view> parts;
@@ -259,8 +342,8 @@ void read_ply_column(const PlyRows& rows, std::size_t begin, std::size_t end, st
   }
 }
 
-std::vector<std::uint8_t> parse_ply_text(std::string_view body, std::size_t lines_before, PlyHeader& header,
-                                         ImportBudget& budget) {
+std::vector<double> parse_ply_text(std::string_view body, std::size_t lines_before, PlyHeader& header,
+                                   ImportBudget& budget) {
   const std::vector<std::string_view> parts = cut_at_spaces(body);
   std::vector<std::vector<double>> numbers(parts.size());
   std::vector<std::optional<WordError>> errors(parts.size());
@@ -284,16 +367,20 @@ std::vector<std::uint8_t> parse_ply_text(std::string_view body, std::size_t line
     }
 
   std::vector<std::size_t> first(parts.size() + 1);
-  for (std::size_t i = 0; i < parts.size(); ++i) first[i + 1] = first[i] + numbers[i].size() * sizeof(double);
-  budget.take(first.back());
-  std::vector<std::uint8_t> out(first.back());
+  for (std::size_t i = 0; i < parts.size(); ++i) first[i + 1] = first[i] + numbers[i].size();
+  budget.take(first.back() * sizeof(double));
+  std::vector<double> all(first.back());
   parallel_for(parts.size(), [&](std::size_t i) {
-    if (!numbers[i].empty()) std::memcpy(&out[first[i]], numbers[i].data(), numbers[i].size() * sizeof(double));
+    std::copy(numbers[i].begin(), numbers[i].end(), all.begin() + static_cast<std::ptrdiff_t>(first[i]));
     numbers[i] = {};
   });
+  if (!fills_rows(header, all, budget) && needs_lines(body, header, budget)) {
+    all = parse_lines(body, header, budget);
+    header.warnings.push_back(budget.file() + ": rows have more values than the header states, the rest is ignored");
+  }
   for (PlyElement& element : header.elements)
     for (PlyProperty& p : element.properties) p.type = p.count_type = PlyType::Double;
-  return out;
+  return all;
 }
 
 }  // namespace zoneplate

@@ -76,10 +76,11 @@ const std::uint8_t* floats_in_a_row(const PlyRows& rows, std::span<const std::si
 void read_ply_column(const PlyRows& rows, std::size_t begin, std::size_t end, std::size_t property, float* out,
                      std::size_t stride);
 
-/// Parses the body of an ASCII file into doubles in native byte order, and changes the types of the elements to double.
+/// Parses the body of an ASCII file into doubles, and changes the types of the elements to double. Values of a row's
+/// line that the header does not state are ignored, with a warning in the header.
 ///
 /// Errors    ErrorKind::Input naming the line of a word that is not a number.
-std::vector<std::uint8_t> parse_ply_text(std::string_view body, std::size_t lines_before, PlyHeader& header,
-                                         ImportBudget& budget);
+std::vector<double> parse_ply_text(std::string_view body, std::size_t lines_before, PlyHeader& header,
+                                   ImportBudget& budget);
 
 }  // namespace zoneplate

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <numeric>
 #include <optional>
 #include <string_view>
 
@@ -54,11 +55,28 @@ void read_columns(const PlyRows& rows, const std::array<std::size_t, n>& propert
   });
 }
 
+/// The greatest value of each component.
+float4 greatest_of(const std::vector<float4>& colors) {
+  std::vector<float4> parts((colors.size() + PlyRows::block - 1) / PlyRows::block);
+  const auto larger = [](float4 a, float4 b) {
+    return float4{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z), std::max(a.w, b.w)};
+  };
+  parallel_ranges(colors.size(), PlyRows::block, [&](std::size_t begin, std::size_t end) {
+    float4 most{};
+    for (std::size_t i = begin; i < end; ++i) most = larger(most, colors[i]);
+    parts[begin / PlyRows::block] = most;
+  });
+  return std::accumulate(parts.begin(), parts.end(), float4{}, larger);
+}
+
 /// Converts the colour properties of the file to linear colours.
 void decode_colors(const PlyElement& element, const std::array<std::size_t, 4>& properties, bool has_alpha,
                    std::vector<float4>& colors) {
+  const float4 most = greatest_of(colors);
+  const float of_colors = std::max({most.x, most.y, most.z}), greatest[] = {of_colors, of_colors, of_colors, most.w};
   std::array<float, 4> one{};
-  for (std::size_t c = 0; c < 4; ++c) one[c] = static_cast<float>(one_of(element.properties[properties[c]].stated));
+  for (std::size_t c = 0; c < 4; ++c)
+    one[c] = static_cast<float>(one_of(element.properties[properties[c]].stated, double{greatest[c]}));
   std::array<float, 256> bytes{};
   for (std::size_t i = 0; i < 256; ++i) bytes[i] = decode_srgb8(static_cast<std::uint8_t>(i));
   const bool are_bytes = one[0] == 255 && one[1] == 255 && one[2] == 255;

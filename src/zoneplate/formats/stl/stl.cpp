@@ -39,13 +39,10 @@ std::uint32_t read_u16(const std::uint8_t* at) { return at[0] | std::uint32_t{at
 /// begin with "solid" too.
 bool is_text(Bytes bytes) {
   if (bytes.size() >= header_bytes && bytes.size() == header_bytes + facet_bytes * read_u32(&bytes[80])) return false;
-  std::size_t at = 0;
-  while (at < bytes.size() && bytes[at] <= ' ') ++at;
-  static constexpr std::string_view solid = "solid";
-  for (const char c : solid)
-    if (at == bytes.size() || (bytes[at++] | 0x20) != c) return false;
-  return std::find(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(bytes.size(), 512)),
-                   0) == bytes.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(bytes.size(), 512));
+  constexpr std::size_t looked_at = 512;
+  const Bytes front = bytes.first(std::min(bytes.size(), looked_at));
+  return std::find(front.begin(), front.end(), 0) == front.end() &&
+         find_stl_solid({reinterpret_cast<const char*>(front.data()), front.size()}) != std::string_view::npos;
 }
 
 /// Decodes the colours of facets: 5 bits per channel, and one bit that marks the colour as valid.
@@ -137,15 +134,22 @@ void read_binary(Bytes bytes, const std::string& name, Scene& scene, ImportBudge
     throw Error(ErrorKind::Input, fmt::format("{}: neither ASCII STL nor binary STL: {} bytes, expected {} at least",
                                               budget.file(), bytes.size(), header_bytes));
   const std::uint64_t said = read_u32(&bytes[80]), held = (bytes.size() - header_bytes) / facet_bytes;
-  if (said > held)
+  const bool is_whole = bytes.size() == header_bytes + held * facet_bytes;
+  // Where the file is whole facets, its size is more credible than a count that programs left at 0 or at -1.
+  const bool is_wrong = said != held && is_whole && held > 0 && (said > held || said == 0);
+  const std::uint64_t count = is_wrong ? held : said;
+  if (count > held)
     throw Error(ErrorKind::Input,
                 fmt::format("{}: not an STL file, or cut off: its header states {} triangles, the file has {}",
                             budget.file(), said, held));
-  if (bytes.size() > header_bytes + said * facet_bytes)
+  if (is_wrong)
+    scene.warnings.push_back(
+        fmt::format("{}: its header states {} triangles, the file has {}, which are drawn", budget.file(), said, held));
+  else if (bytes.size() > header_bytes + said * facet_bytes)
     scene.warnings.push_back(fmt::format("{}: {} bytes after the last triangle are ignored", budget.file(),
                                          bytes.size() - header_bytes - said * facet_bytes));
-  if (said > 0xffffffffu / 3) throw Error(ErrorKind::Input, budget.file() + ": more than 2^32 corners");
-  add_mesh(scene, read_facets(bytes, said, budget), name, budget);
+  if (count > 0xffffffffu / 3) throw Error(ErrorKind::Input, budget.file() + ": more than 2^32 corners");
+  add_mesh(scene, read_facets(bytes, count, budget), name, budget);
 }
 
 /// Converts the loops [begin, end) to triangles.

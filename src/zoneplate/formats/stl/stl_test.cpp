@@ -111,6 +111,33 @@ TEST(Stl, LongAsciiFilesAreTheSameForAnyNumberOfThreads) {
   }
 }
 
+TEST(Stl, MarksCommentsAndSingleLinesAreText) {
+  const std::string facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet ";
+  for (const std::string front : {"\xef\xbb\xbf", "; made by hand\n", "# x\r\n// y\r\n\n", ""}) {
+    const Scene s = load(front + "solid a b " + facet + facet + "endsolid a b\n# the end");
+    ASSERT_EQ(s.meshes.size(), 1u) << front;
+    EXPECT_EQ(s.objects[0], "a b");
+    EXPECT_EQ(s.meshes[0].primitives(), 2u);
+    EXPECT_TRUE(s.warnings.empty());
+  }
+  EXPECT_EQ(refusal("; x\nsolid a\nfacet normal 0 0 z"), "line 3: 'z' is not a number");
+}
+
+TEST(Stl, TheSizeOfTheFileDecidesHowManyFacetsThereAre) {
+  for (const std::uint32_t count : {0u, 1000u, 0xffffffffu}) {
+    Bytes bytes = binary({{corner}, {corner}});
+    std::memcpy(&bytes[80], &count, 4);
+    const Scene s = load(bytes);
+    EXPECT_EQ(s.meshes.at(0).primitives(), 2u);
+    ASSERT_EQ(s.warnings.size(), 1u);
+    EXPECT_TRUE(s.warnings[0].ends_with("its header states " + std::to_string(count) +
+                                        " triangles, the file has 2, which are drawn"));
+    bytes.pop_back();
+    if (count == 0) continue;
+    EXPECT_NE(refusal(std::string(bytes.begin(), bytes.end())).find("or cut off"), std::string::npos) << count;
+  }
+}
+
 TEST(Stl, WhatIsNotFiniteIsDropped) {
   Facet bad{corner};
   bad.corners[4] = NAN;

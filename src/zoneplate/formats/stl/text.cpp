@@ -27,6 +27,8 @@ bool is_word(std::string_view text, std::string_view word) {
          });
 }
 
+bool begins_comment(std::string_view text) { return text[0] == ';' || text[0] == '#' || text.substr(0, 2) == "//"; }
+
 /// Whether the word that begins at `at` is "facet".
 bool is_facet(std::string_view text, std::size_t at) {
   return is_word(text.substr(at, 5), "facet") && at + 5 < text.size() && is_space(text[at + 5]);
@@ -94,6 +96,26 @@ class PartReader {
     return {begin, static_cast<std::size_t>(last - begin)};
   }
 
+  /// The rest of the line, or the words before "facet normal" where a program writes all in one line.
+  std::string_view name_of_solid() {
+    const char* const begin = at_;
+    const std::string_view line = rest_of_line();
+    const char* const line_end = at_;
+    at_ = begin;
+    for (std::string_view word = next(); !word.empty() && word.data() < line_end; word = next()) {
+      const char* const behind = at_;
+      if (is_word(word, "facet") && is_word(next(), "normal")) {
+        at_ = word.data();
+        std::string_view name = line.substr(0, static_cast<std::size_t>(word.data() - line.data()));
+        while (!name.empty() && is_space(name.back())) name.remove_suffix(1);
+        return name;
+      }
+      at_ = behind;
+    }
+    at_ = line_end;
+    return line;
+  }
+
   float number() {
     const std::string_view word = next();
     const std::optional<float> value = find_number(word);
@@ -120,11 +142,13 @@ class PartReader {
       triple();
     } else if (is_word(word, "solid")) {
       end_loop();
-      add_solid(out_, {out_.loops.size(), std::string(rest_of_line().substr(0, 200))});
+      add_solid(out_, {out_.loops.size(), std::string(name_of_solid().substr(0, 200))});
     } else if (is_word(word, "endsolid")) {
       rest_of_line();
     } else if (is_word(word, "endloop") || is_word(word, "endfacet") || is_word(word, "facet")) {
       end_loop();
+    } else if (begins_comment(word)) {
+      rest_of_line();
     } else if (!is_word(word, "outer") && !is_word(word, "loop")) {
       throw TextError{word.data(), fmt::format("'{}' is not a word of STL", word.substr(0, 40))};
     }
@@ -156,7 +180,19 @@ StlText join(std::vector<StlText>& parts, ImportBudget& budget) {
 
 }  // namespace
 
+std::size_t find_stl_solid(std::string_view text) {
+  std::size_t at = text.substr(0, 3) == "\xef\xbb\xbf" ? 3 : 0;
+  while (true) {
+    while (at < text.size() && is_space(text[at])) ++at;
+    if (at == text.size() || !begins_comment(text.substr(at))) break;
+    at = std::min(text.find_first_of("\r\n", at), text.size());
+  }
+  return is_word(text.substr(at, 5), "solid") ? at : std::string_view::npos;
+}
+
 StlText parse_stl_text(std::string_view text, ImportBudget& budget) {
+  const char* const begin = text.data();
+  if (const std::size_t solid = find_stl_solid(text); solid != text.npos) text.remove_prefix(solid);
   const std::vector<std::string_view> cuts = cut(text);
   std::vector<StlText> parts(cuts.size());
   std::vector<std::optional<TextError>> errors(cuts.size());
@@ -180,7 +216,7 @@ StlText parse_stl_text(std::string_view text, ImportBudget& budget) {
   budget.take(solids * solid_bytes);
   for (const std::optional<TextError>& error : errors) {
     if (!error) continue;
-    const auto line = 1 + std::count(text.data(), error->at, '\n');
+    const auto line = 1 + std::count(begin, error->at, '\n');
     throw Error(ErrorKind::Input, fmt::format("{}: line {}: {}", budget.file(), line, error->cause));
   }
   return join(parts, budget);

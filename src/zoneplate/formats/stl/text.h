@@ -22,7 +22,12 @@ struct StlText {
   std::vector<Solid> solids;
 };
 
-/// Parses an ASCII STL file, in parallel. Words are separated by any white space and are case-insensitive.
+/// The offset of the word "solid" at the front of a text, behind a byte order mark, white space and lines of comments
+/// (which begin with ';', '#' or "//"); npos if another word is there.
+std::size_t find_stl_solid(std::string_view text);
+
+/// Parses an ASCII STL file, in parallel. Words are separated by any white space and are case-insensitive; comments are
+/// as for find_stl_solid. The name of a solid ends with its line, or before "facet normal".
 ///
 /// Errors    ErrorKind::Input naming file, line and cause: an unknown word, a word that is not a number.
 StlText parse_stl_text(std::string_view text, ImportBudget& budget);

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "zoneplate/scene/mesh.h"
+
+namespace zoneplate {
+
+/// Reverses the triangles of a mesh if most of them face away from its vertex normals: a file's normals say which side
+/// is outside, also where a program wrote its corners clockwise. A mesh without normals, or of points or lines, stays.
+///
+/// Exact     the same bits for any number of threads.
+void turn_to_normals(Mesh& mesh);
+
+}  // namespace zoneplate
