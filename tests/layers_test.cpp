@@ -78,6 +78,42 @@ std::vector<std::string> includes_of(const fs::path& file) {
   return out;
 }
 
+/// The end of the comment, literal or preprocessor line that begins at a character of C++; `at` if none begins there.
+std::size_t end_of_noise(const std::string& text, std::size_t at) {
+  const auto after = [&](std::string_view end, std::size_t from) {
+    const std::size_t found = text.find(end, from);
+    return found == std::string::npos ? text.size() : found + end.size();
+  };
+  const char before = at > 0 ? text[at - 1] : '\n';
+  if (text.compare(at, 2, "//") == 0) return std::min(text.find('\n', at), text.size());
+  if (text.compare(at, 2, "/*") == 0) return after("*/", at + 2);
+  if (text[at] == '#' && before == '\n') {
+    std::size_t end = at;
+    do end = after("\n", end);
+    while (end >= 2 && end < text.size() && text[end - 2] == '\\');
+    return end;
+  }
+  if (text[at] == '"' && before == 'R') return after(")" + text.substr(at + 1, text.find('(', at) - at - 1) + "\"", at);
+  const bool is_digit_separator = text[at] == '\'' && std::isxdigit(static_cast<unsigned char>(before));
+  if ((text[at] != '"' && text[at] != '\'') || is_digit_separator) return at;
+  std::size_t end = at + 1;
+  while (end < text.size() && text[end] != text[at]) end += text[end] == '\\' ? 2 : 1;
+  return std::min(end + 1, text.size());
+}
+
+/// Removes comments, literals and preprocessor lines.
+std::string code_of(const fs::path& file) {
+  std::ifstream stream(path_of(file));
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  std::string code;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = end_of_noise(text, at);
+    code += end == at ? text[at++] : ' ';
+    at = std::max(at, end);
+  }
+  return code;
+}
+
 // A test may also include the rooms above its own within the same layer, since readers are tested by their files.
 TEST(Layers, NoIncludePointsUp) {
   const std::vector<std::string> order = rooms();
@@ -125,6 +161,20 @@ TEST(Layers, OnlyTheFormatHeaderOfFmtIsIncluded) {
       EXPECT_TRUE(!line.starts_with("#include <fmt/") || line == "#include <fmt/format.h>") << file << ": " << line;
 }
 
+// A static program contains an unwinder of its own. An exception that passes through std::call_once meets the frame of
+// the C library's pthread_once, whose personality routine is that of the shared libgcc_s: the program is aborted. A
+// static variable of a function, or MadeOnce (base/made_once.h), makes a value once without such a frame.
+TEST(Layers, NoExceptionCanPassThroughCallOnce) {
+  int files = 0;
+  for (const fs::path& file : source_files()) {
+    const std::string code = code_of(file);
+    for (const char* name : {"call_once", "once_flag", "pthread_once"})
+      EXPECT_EQ(code.find(name), std::string::npos) << file << ": " << name << " aborts the program if it throws";
+    ++files;
+  }
+  EXPECT_GT(files, 700);
+}
+
 TEST(Layers, NoFolderIsCrowded) {
   std::map<fs::path, std::size_t> files;
   for (const auto& entry : fs::recursive_directory_iterator(source))
@@ -132,42 +182,6 @@ TEST(Layers, NoFolderIsCrowded) {
   for (const auto& [folder, count] : files)
     EXPECT_LE(count, max_files_per_folder) << folder << ": divide this folder into rooms";
   for (const std::string& room : rooms()) EXPECT_TRUE(files.contains(source / room)) << room << " is listed and empty";
-}
-
-/// The end of the comment, literal or preprocessor line that begins at a character of C++; `at` if none begins there.
-std::size_t end_of_noise(const std::string& text, std::size_t at) {
-  const auto after = [&](std::string_view end, std::size_t from) {
-    const std::size_t found = text.find(end, from);
-    return found == std::string::npos ? text.size() : found + end.size();
-  };
-  const char before = at > 0 ? text[at - 1] : '\n';
-  if (text.compare(at, 2, "//") == 0) return std::min(text.find('\n', at), text.size());
-  if (text.compare(at, 2, "/*") == 0) return after("*/", at + 2);
-  if (text[at] == '#' && before == '\n') {
-    std::size_t end = at;
-    do end = after("\n", end);
-    while (end >= 2 && end < text.size() && text[end - 2] == '\\');
-    return end;
-  }
-  if (text[at] == '"' && before == 'R') return after(")" + text.substr(at + 1, text.find('(', at) - at - 1) + "\"", at);
-  const bool is_digit_separator = text[at] == '\'' && std::isxdigit(static_cast<unsigned char>(before));
-  if ((text[at] != '"' && text[at] != '\'') || is_digit_separator) return at;
-  std::size_t end = at + 1;
-  while (end < text.size() && text[end] != text[at]) end += text[end] == '\\' ? 2 : 1;
-  return std::min(end + 1, text.size());
-}
-
-/// Removes comments, literals and preprocessor lines.
-std::string code_of(const fs::path& file) {
-  std::ifstream stream(path_of(file));
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  std::string code;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = end_of_noise(text, at);
-    code += end == at ? text[at++] : ' ';
-    at = std::max(at, end);
-  }
-  return code;
 }
 
 /// The qualified names of the classes, structures and enumerations that a file defines outside functions and unnamed

@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "zoneplate/base/callback_error.h"
 #include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
 
@@ -22,10 +23,11 @@ namespace {
 
 static_assert(sizeof(Rgba8) == 4, "rows are handed to libjpeg as they lie");
 
-/// libjpeg's error manager, with the longjmp target and the error message.
+/// libjpeg's error manager, with the longjmp target and the error message, or the exception of a callback.
 struct Report {
   jpeg_error_mgr manager{};
   std::jmp_buf place;
+  CallbackError error;
   std::array<char, JMSG_LENGTH_MAX> message{};
 };
 
@@ -51,20 +53,15 @@ int most_scans(const jpeg_decompress_struct& jpeg) {
 
 /// libjpeg's progress monitor, called between rows of blocks while scans are read and pixels are decoded.
 ///
-/// It does not throw, because exceptions cannot unwind libjpeg's frames: it jumps, and the caller checks the deadline
-/// again.
+/// It does not throw, because exceptions must not unwind libjpeg's frames: it jumps, and `check` throws.
 void check_progress(j_common_ptr jpeg) {
   const auto* const decoder = reinterpret_cast<j_decompress_ptr>(jpeg);
-  const bool has_time = [] {
-    try {
-      check_deadline();
-      return true;
-    } catch (const Error&) {
-      return false;
-    }
-  }();
-  if (has_time && decoder->input_scan_number <= most_scans(*decoder)) return;
   auto* report = reinterpret_cast<Report*>(jpeg->err);
+  const bool has_time = report->error.guarded(false, [] {
+    check_deadline();
+    return true;
+  });
+  if (has_time && decoder->input_scan_number <= most_scans(*decoder)) return;
   std::snprintf(report->message.data(), report->message.size(), "more than %d scans of %u x %u pixels",
                 most_scans(*decoder), decoder->image_width, decoder->image_height);
   std::longjmp(report->place, 1);
@@ -127,9 +124,9 @@ class Reader {
     });
   }
 
-  void check(bool is_well) const {
+  void check(bool is_well) {
     if (is_well) return;
-    check_deadline();
+    report_.error.rethrow();
     throw Error(ErrorKind::Input, name_ + ": JPEG: " + report_.message.data());
   }
 

@@ -7,7 +7,6 @@
 #include <array>
 #include <atomic>
 #include <cerrno>
-#include <mutex>
 
 #include "zoneplate/base/error.h"
 
@@ -51,13 +50,12 @@ void replace_lost(int, siginfo_t* info, void*) {
 }  // namespace
 
 void survive_truncated_mappings() {
-  static std::once_flag once;
-  std::call_once(once, [] {
+  [[maybe_unused]] static const bool is_installed = [] {
     struct sigaction action {};
     action.sa_sigaction = replace_lost;
     action.sa_flags = SA_SIGINFO;
-    ::sigaction(SIGBUS, &action, &before);
-  });
+    return ::sigaction(SIGBUS, &action, &before) == 0;
+  }();
 }
 
 MappedFileWatch::MappedFileWatch() : before_(losses) {}

@@ -76,6 +76,7 @@ Scene import(const AssimpLibrary& library, const std::string& path, std::string_
   constexpr unsigned steps = aiProcess_GenUVCoords | aiProcess_JoinIdenticalVertices;
   const std::unique_ptr<const aiScene, decltype(library.release)> read(
       library.import(files.model_name().c_str(), steps, files.io()), library.release);
+  files.rethrow();
   if (!read && std::string_view(library.error()).find("bad_alloc") != std::string_view::npos) throw std::bad_alloc();
   if (!read) throw Error(ErrorKind::Input, budget.file() + ": " + one_line(library.error()));
   Scene scene;

@@ -61,7 +61,8 @@ AssimpFiles::AssimpFiles(const std::string& path, const std::string& folder, std
 
 aiFile* AssimpFiles::open(aiFileIO* io, const char* name, const char* mode) {
   if (std::strpbrk(mode, "wa+") != nullptr) return nullptr;
-  return reinterpret_cast<AssimpFiles*>(io->UserData)->open(std::string(name));
+  auto* const files = reinterpret_cast<AssimpFiles*>(io->UserData);
+  return files->error_.guarded<aiFile*>(nullptr, [&] { return files->open(std::string(name)); });
 }
 
 aiFile* AssimpFiles::open(const std::string& name) {

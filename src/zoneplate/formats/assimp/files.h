@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "zoneplate/base/callback_error.h"
 #include "zoneplate/formats/import/import_budget.h"
 #include "zoneplate/os/file.h"
 
@@ -22,6 +23,8 @@ class AssimpFiles {
   /// The name that assimp gets for the model. Its extension selects the format.
   const std::string& model_name() const { return model_name_; }
   aiFileIO* io() { return &io_; }
+  /// Throws the exception that a callback kept; called after assimp has returned.
+  void rethrow() { error_.rethrow(); }
 
  private:
   static aiFile* open(aiFileIO* io, const char* name, const char* mode);
@@ -34,6 +37,7 @@ class AssimpFiles {
   FileBytes model_;
   std::vector<FileBytes> others_;
   aiFileIO io_{};
+  CallbackError error_;
 };
 
 }  // namespace zoneplate

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 
+#include "zoneplate/base/callback_error.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/utf8.h"
 
@@ -17,11 +18,20 @@ namespace {
 struct GlyphPen {
   sdf::Pen pen;
   double unit;
+  CallbackError error{};
 
   sdf::Point point(const FT_Vector* v) const {
     return {static_cast<double>(v->x) * unit, -static_cast<double>(v->y) * unit};
   }
-  static GlyphPen& of(void* user) { return *static_cast<GlyphPen*>(user); }
+  /// Calls draw(pen) in a callback of FreeType, which ends at the first result that is not 0.
+  template <class Draw>
+  static int draw(void* user, const Draw& draw) noexcept {
+    auto& pen = *static_cast<GlyphPen*>(user);
+    return pen.error.guarded(1, [&] {
+      draw(pen);
+      return 0;
+    });
+  }
 };
 
 }  // namespace
@@ -63,26 +73,19 @@ sdf::Outline Font::outline(char32_t code) const {
   GlyphPen pen{sdf::Pen(out), 1 / em()};
   FT_Outline_Funcs functions{};
   functions.move_to = [](const FT_Vector* to, void* user) {
-    GlyphPen& p = GlyphPen::of(user);
-    p.pen.move_to(p.point(to));
-    return 0;
+    return GlyphPen::draw(user, [&](GlyphPen& p) { p.pen.move_to(p.point(to)); });
   };
   functions.line_to = [](const FT_Vector* to, void* user) {
-    GlyphPen& p = GlyphPen::of(user);
-    p.pen.line_to(p.point(to));
-    return 0;
+    return GlyphPen::draw(user, [&](GlyphPen& p) { p.pen.line_to(p.point(to)); });
   };
   functions.conic_to = [](const FT_Vector* control, const FT_Vector* to, void* user) {
-    GlyphPen& p = GlyphPen::of(user);
-    p.pen.quadratic_to(p.point(control), p.point(to));
-    return 0;
+    return GlyphPen::draw(user, [&](GlyphPen& p) { p.pen.quadratic_to(p.point(control), p.point(to)); });
   };
   functions.cubic_to = [](const FT_Vector* a, const FT_Vector* b, const FT_Vector* to, void* user) {
-    GlyphPen& p = GlyphPen::of(user);
-    p.pen.cubic_to(p.point(a), p.point(b), p.point(to));
-    return 0;
+    return GlyphPen::draw(user, [&](GlyphPen& p) { p.pen.cubic_to(p.point(a), p.point(b), p.point(to)); });
   };
   FT_Outline_Decompose(&face_->glyph->outline, &functions, &pen);
+  pen.error.rethrow();
   pen.pen.close();
   return out;
 }

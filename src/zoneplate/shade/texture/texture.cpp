@@ -5,11 +5,11 @@
 #include <array>
 #include <atomic>
 #include <cassert>
-#include <mutex>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "zoneplate/base/made_once.h"
 #include "zoneplate/base/out_of_memory.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/half.h"
@@ -111,11 +111,9 @@ struct Texture::Levels {
   GrowingMemory memory;
   TextureView view;
 
-  // Made at first use.
-  std::once_flag has_ripmap, has_sums, has_normal_spread;
-  RipmapTable ripmap;
-  SumsTable sums;
-  NormalSpread normal_spread;
+  MadeOnce<RipmapTable> ripmap;
+  MadeOnce<SumsTable> sums;
+  MadeOnce<NormalSpread> normal_spread;
 };
 
 template <class Code, class Pixel, class Decode>
@@ -233,22 +231,18 @@ Texture& Texture::operator=(Texture&& other) noexcept = default;
 const TextureView& Texture::view() const { return levels_->view; }
 
 const RipmapView& Texture::ripmap() const {
-  std::call_once(levels_->has_ripmap,
-                 [&] { growing("ripmap levels", [&] { levels_->ripmap = make_ripmap(levels_->view); }); });
-  return levels_->ripmap.view;
+  const auto make = [&] { return growing("ripmap levels", [&] { return make_ripmap(levels_->view); }); };
+  return levels_->ripmap.value(make).view;
 }
 
 const SumsView& Texture::sums() const {
-  std::call_once(levels_->has_sums,
-                 [&] { growing("summed-area tables", [&] { levels_->sums = make_sums(levels_->view); }); });
-  return levels_->sums.view;
+  const auto make = [&] { return growing("summed-area tables", [&] { return make_sums(levels_->view); }); };
+  return levels_->sums.value(make).view;
 }
 
 const TextureView& Texture::normal_spread() const {
-  std::call_once(levels_->has_normal_spread, [&] {
-    growing("normal variances", [&] { levels_->normal_spread = make_normal_spread(levels_->view); });
-  });
-  return levels_->normal_spread.view;
+  const auto make = [&] { return growing("normal variances", [&] { return make_normal_spread(levels_->view); }); };
+  return levels_->normal_spread.value(make).view;
 }
 
 }  // namespace zoneplate
