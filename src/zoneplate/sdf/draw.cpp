@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/sdf/evaluate.h"
 
@@ -74,6 +75,16 @@ void set_points(PointBatch& points, const Raster& raster, int left, int top, dou
     }
 }
 
+/// Selects the parts of outlines that matter to the tile with this first pixel.
+void select_for_tile(const Program& program, const ShapeCode& shape, const Raster& raster, int left, int top,
+                     EvaluationStacks& stacks) {
+  constexpr double margin = 1;  // in pixels; the points of a pixel lie within half of one
+  Bounds tile;
+  tile.add(raster.centre(left - margin, top - margin));
+  tile.add(raster.centre(left + tile_side - 1 + margin, top + tile_side - 1 + margin));
+  stacks.select_for(program, shape, tile);
+}
+
 /// A tile's accumulated colours, block by block.
 struct TileBuffer {
   float plane[4][batch_size * batch_size];
@@ -103,6 +114,7 @@ class TilePainter {
     // Above this number of blocks, the distances at their centres, one evaluation, exclude most of them.
     constexpr int many = 6;
     const bool is_large = (blocks.x1 - blocks.x0 + 1) * (blocks.y1 - blocks.y0 + 1) > many;
+    select_for_tile(drawing_.program, layer.shape, raster_, x0 * block_side, y0 * block_side, stacks_);
     DistanceBatch centres;
     if (is_large) {
       points_.begin = 0, points_.end = batch_size;
@@ -119,6 +131,7 @@ class TilePainter {
     const auto reach = static_cast<float>((block_side * diagonal / 2 + 0.1) / raster_.scale);
     for (int y = blocks.y0; y <= blocks.y1; ++y)
       for (int x = blocks.x0; x <= blocks.x1; ++x) {
+        check_deadline();
         const int block = (y - y0) * tile_blocks + x - x0;
         if (is_large && centres.d[block] > reach) continue;
         // Rows of pixels that the bounds do not reach have no coverage.
@@ -184,18 +197,20 @@ class TilePainter {
 /// Calls use(left, top, values) for the blocks of a raster.
 template <class Use>
 void evaluate_blocks(const Program& program, const ShapeCode& code, const Raster& raster, const Use& use) {
-  const int columns = (raster.width + block_side - 1) / block_side,
-            rows = (raster.height + block_side - 1) / block_side;
+  const int columns = (raster.width + tile_side - 1) / tile_side, rows = (raster.height + tile_side - 1) / tile_side;
   PerThread<EvaluationStacks> stacks;
-  parallel_for(static_cast<std::size_t>(rows), [&](std::size_t row) {
+  parallel_for(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), [&](std::size_t tile) {
     EvaluationStacks& own = stacks.local(program);
     PointBatch points;
-    for (int column = 0; column < columns; ++column) {
-      const int left = column * block_side, top = static_cast<int>(row) * block_side;
-      set_points(points, raster, left, top, 0, 0);
-      CoverageKernels::of().evaluate(program, code, points, own);
-      use(left, top, own.values[0]);
-    }
+    const int x = static_cast<int>(tile) % columns * tile_side, y = static_cast<int>(tile) / columns * tile_side;
+    select_for_tile(program, code, raster, x, y, own);
+    for (int top = y; top < std::min(y + tile_side, raster.height); top += block_side)
+      for (int left = x; left < std::min(x + tile_side, raster.width); left += block_side) {
+        check_deadline();
+        set_points(points, raster, left, top, 0, 0);
+        CoverageKernels::of().evaluate(program, code, points, own);
+        use(left, top, own.values[0]);
+      }
   });
 }
 

@@ -21,25 +21,45 @@ struct DistanceBatch {
   alignas(32) float d[batch_size], x[batch_size], y[batch_size];
 };
 
-/// The parts of an outline that determine the distances and the winding numbers of a batch.
-struct PieceSelection {
-  std::vector<std::int32_t> near;    ///< may be nearest to a point, or have a point in their bounds
-  std::vector<std::int32_t> beside;  ///< others, to the right of a point at its height
-  float winding = 0;                 ///< of other parts, which are right of all points and span their heights
+/// A rectangle of an outline's coordinates.
+struct LocalRectangle {
+  float low_x = 0, high_x = 0, low_y = 0, high_y = 0;
 };
 
-/// Selects the parts for points in the rectangle [low_x, high_x] × [low_y, high_y].
-void select_pieces(const Program& program, const Instruction& region, float low_x, float high_x, float low_y,
-                   float high_y, PieceSelection& selection);
+/// The parts of an outline that determine the distances and the winding numbers of points in a rectangle.
+struct PieceSelection {
+  std::vector<std::int32_t> near;    ///< may be nearest to a point, or pass between points
+  std::vector<std::int32_t> beside;  ///< others, to the right of all points at their heights
+  float winding = 0;                 ///< of other parts, which are right of all points and span their heights
+  std::vector<float> distances;      ///< from the middle of the rectangle, while parts are selected
+};
+
+/// Selects from all parts.
+void select_pieces(const Program& program, const Instruction& region, const LocalRectangle& points,
+                   PieceSelection& selection);
+/// Selects from the parts for a rectangle around that of the points.
+void select_pieces(const Program& program, const PieceSelection& around, const LocalRectangle& points,
+                   PieceSelection& selection);
 
 /// The stacks of an evaluation; one for each thread.
 struct EvaluationStacks {
   explicit EvaluationStacks(const Program& program)
       : values(static_cast<std::size_t>(program.value_depth())),
+        kept(static_cast<std::size_t>(program.slots())),
         frames(static_cast<std::size_t>(program.frame_depth())) {}
-  std::vector<DistanceBatch> values;
+  std::vector<DistanceBatch> values, kept;
   std::vector<PointBatch> frames;
   PieceSelection selection;
+
+  /// The parts of an outline of many parts that matter to the points of the next evaluations.
+  struct RegionSelection {
+    std::size_t instruction;
+    PieceSelection pieces;
+  };
+  std::vector<RegionSelection> regions{};  ///< in the order of instructions
+
+  /// Selects parts for evaluations of this shape at points within the bounds.
+  void select_for(const Program& program, const ShapeCode& shape, const Bounds& points);
 };
 
 /// One layer of a drawing over one block: its values in pixels, and where they are accumulated.

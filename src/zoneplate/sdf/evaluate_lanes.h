@@ -107,13 +107,19 @@ struct RegionState {
   F square, x, y, winding;
 };
 
-/// Counts a part that a ray to the right crosses: one whose half-open range of heights contains the point, and which
-/// is to its right. `is_right` decides where the point lies within the part's bounds.
+/// True if the part's half-open range of heights contains the point.
+template <class F>
+[[gnu::always_inline]] inline typename F::Bool is_at_height(const Piece& piece, LanePoint<F> p) {
+  return (p.y >= F(piece.low_y)) & (p.y < F(piece.high_y));
+}
+
+/// Counts a part that a ray to the right crosses: one at the height of the point, and to its right. `is_right` decides
+/// where the point lies within the part's bounds.
 template <class F>
 [[gnu::always_inline]] inline void count_crossing(const Piece& piece, LanePoint<F> p, typename F::Bool is_right,
                                                   RegionState<F>& state) {
-  const typename F::Bool in_height = (p.y >= F(piece.low_y)) & (p.y < F(piece.high_y));
-  const typename F::Bool crosses = in_height & (p.x < F(piece.high_x)) & ((p.x < F(piece.low_x)) | is_right);
+  const typename F::Bool crosses =
+      is_at_height<F>(piece, p) & (p.x < F(piece.high_x)) & ((p.x < F(piece.low_x)) | is_right);
   state.winding = state.winding + where(crosses, F(piece.direction));
 }
 
@@ -168,7 +174,8 @@ template <class F>
     else
       add_piece<F, false>(pieces[i], p, state);
   }
-  for (const std::int32_t i : selection.beside) count_crossing<F>(pieces[i], p, F(0.0f) > F(0.0f), state);
+  for (const std::int32_t i : selection.beside)
+    state.winding = state.winding + where(is_at_height<F>(pieces[i], p), F(pieces[i].direction));
   F winding = state.winding;
   if (region.is_even_odd) winding = winding - F(2.0f) * floor(winding * F(0.5f));
   return value_of_offset<F>(state.x, state.y, select(winding == F(0.0f), F(1.0f), F(-1.0f)));
@@ -219,14 +226,20 @@ template <class F>
   return p - (cell - F(centre)) * F(step);
 }
 
+/// Selects the parts of an outline for the points, from `around` if it is not null.
 template <class F>
-void select_for(const Program& program, const Instruction& region, const PointBatch& points, PieceSelection& out) {
+void select_for(const Program& program, const Instruction& region, const PointBatch& points,
+                const PieceSelection* around, PieceSelection& out) {
   F low_x(1e30f), low_y(1e30f), high_x(-1e30f), high_y(-1e30f);
   for (int i = points.begin; i < points.end; i += F::lanes) {
     const LanePoint<F> p = to_local<F>(region.frame, {F::load(points.x + i), F::load(points.y + i)});
     low_x = min(low_x, p.x), low_y = min(low_y, p.y), high_x = max(high_x, p.x), high_y = max(high_y, p.y);
   }
-  select_pieces(program, region, -greatest(-low_x), greatest(high_x), -greatest(-low_y), greatest(high_y), out);
+  const LocalRectangle rectangle{-greatest(-low_x), greatest(high_x), -greatest(-low_y), greatest(high_y)};
+  if (around)
+    select_pieces(program, *around, rectangle, out);
+  else
+    select_pieces(program, region, rectangle, out);
 }
 
 template <class F>
@@ -235,6 +248,7 @@ void evaluate(const Program& program, const ShapeCode& shape, const PointBatch& 
   DistanceBatch* top = stacks.values.data() - 1;
   PointBatch* frame = stacks.frames.data();
   *frame = points;
+  auto selected = stacks.regions.cbegin();
   for (std::size_t at = shape.first; at < shape.end; ++at) {
     const Instruction& now = program.instructions()[at];
     const auto for_points = [&](const auto& value) {
@@ -258,7 +272,10 @@ void evaluate(const Program& program, const ShapeCode& shape, const PointBatch& 
         break;
       case Code::Region:
         ++top;
-        select_for<F>(program, now, *frame, stacks.selection);
+        if (selected != stacks.regions.cend() && selected->instruction == at)
+          select_for<F>(program, now, *frame, &(selected++)->pieces, stacks.selection);
+        else
+          select_for<F>(program, now, *frame, nullptr, stacks.selection);
         for_points([&](LanePoint<F> p) { return region_value<F>(program, now, stacks.selection, p); });
         break;
       case Code::EnterCell:
@@ -275,6 +292,15 @@ void evaluate(const Program& program, const ShapeCode& shape, const PointBatch& 
         for (int i = points.begin; i < points.end; i += F::lanes)
           from_local<F>(now.frame, LaneValue<F>::load(*top, i)).store(*top, i);
         break;
+      case Code::Store:
+      case Code::Load: {
+        DistanceBatch& kept = stacks.kept[static_cast<std::size_t>(now.first)];
+        const bool is_store = now.code == Code::Store;
+        if (!is_store) ++top;
+        for (int i = points.begin; i < points.end; i += F::lanes)
+          LaneValue<F>::load(is_store ? *top : kept, i).store(is_store ? kept : *top, i);
+        break;
+      }
       case Code::Offset:
         for (int i = points.begin; i < points.end; i += F::lanes) (F::load(top->d + i) - F(now.a)).store(top->d + i);
         break;

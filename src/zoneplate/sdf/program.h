@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "zoneplate/sdf/shape.h"
@@ -16,7 +17,8 @@ struct Piece {
   float a_x, a_y, b_x, b_y, c_x, c_y;
   float low_x, high_x, low_y, high_y;  ///< the bounds of the ends, and by monotony of the part
   float inverse_square;                ///< 1 / |end - start|²
-  float direction;                     ///< +1 where y rises along the part, -1 where it falls, 0 for a horizontal one
+  float bulge;      ///< not less than its distance from the line between its ends, or rounding errors
+  float direction;  ///< +1 where y rises along the part, -1 where it falls, 0 for a horizontal one
 };
 
 /// The coordinates of an instruction: local = rotationᵀ (p - move) / scale, then y is multiplied by `mirror`.
@@ -42,11 +44,13 @@ struct Instruction {
     Complement,
     EnterCell,  ///< replaces the coordinates by those of a cell of a repetition
     LeaveCell,
+    Store,  ///< keeps the last value in slot `first`
+    Load,   ///< a value that was kept
   };
   Code code = Code::Circle;
   std::uint8_t cell = 0;            ///< EnterCell: bits 0 and 1 choose the second nearest column and row
   bool is_even_odd = false;         ///< Region
-  std::int32_t first = 0, end = 0;  ///< Region: the range of its pieces, lines first
+  std::int32_t first = 0, end = 0;  ///< Region: the range of its pieces, lines first; Store and Load: the slot
   std::int32_t curves = 0;          ///< Region: the first piece that is not a line
   float a = 0, b = 0;               ///< the numbers of the shape; EnterCell: the steps
   float count_x = 0, count_y = 0;   ///< EnterCell; 0: no limit
@@ -59,15 +63,17 @@ struct ShapeCode {
   Bounds bounds;  ///< the distance is positive outside
 };
 
-/// Shapes compiled to instructions. Outlines that shapes share are stored once.
+/// Shapes compiled to instructions. Outlines that shapes share are stored once, a shape that is added again is not
+/// compiled again, and an operand that several operations share is evaluated once where its coordinates are the same.
 class Program {
  public:
-  static constexpr std::size_t most_instructions = std::size_t{1} << 24;
-  static constexpr int deepest = 64;        ///< operands within operands
-  static constexpr double farthest = 1e6;   ///< the greatest coordinate or size
-  static constexpr double smallest = 1e-4;  ///< the least size of a unit of a shape, as scaled
+  static constexpr std::size_t most_instructions = std::size_t{1} << 22;  ///< of all shapes
+  static constexpr std::size_t most_pieces = std::size_t{1} << 22;
+  static constexpr std::int32_t most_slots = 4096;  ///< kept values, 768 bytes each
+  static constexpr double farthest = 1e6;           ///< the greatest coordinate or size
+  static constexpr double smallest = 1e-4;          ///< the least size of a unit of a shape, as scaled
 
-  /// Errors    ErrorKind::Input: too many instructions, nested too deeply, or a number that is out of range.
+  /// Errors    ErrorKind::Input: too many instructions, or a number that is out of range.
   ShapeCode add(const ShapePtr& shape);
 
   const std::vector<Instruction>& instructions() const { return instructions_; }
@@ -75,6 +81,8 @@ class Program {
   /// The greatest number of values, and of coordinates, on the stacks of an evaluation.
   int value_depth() const { return value_depth_; }
   int frame_depth() const { return frame_depth_; }
+  /// The number of values that an evaluation keeps.
+  std::int32_t slots() const { return slots_; }
 
  private:
   struct Emitter;
@@ -86,7 +94,9 @@ class Program {
     Point centre;
   };
   std::map<const Outline*, StoredOutline> outlines_;
+  std::map<const Shape*, std::pair<ShapePtr, ShapeCode>> shared_;  ///< held for the same reason
   int value_depth_ = 1, frame_depth_ = 1;
+  std::int32_t slots_ = 0;
 };
 
 }  // namespace zoneplate::sdf

@@ -1,42 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/sdf/shape.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cassert>
 #include <utility>
 
+#include "zoneplate/base/error.h"
 #include "zoneplate/signal/functions.h"
 
 namespace zoneplate::sdf {
 namespace {
 
-ShapePtr make(Shape shape) { return std::make_shared<const Shape>(std::move(shape)); }
-ShapePtr convex(std::initializer_list<Point> corners) {
-  return region(polygon(std::span(corners.begin(), corners.size())));
-}
-
-}  // namespace
-
-Bounds Shape::bounds() const {
-  const auto of = [this](std::size_t i) { return operands[i]->bounds(); };
-  switch (kind) {
+Bounds bounds_of(const Shape& shape) {
+  using Kind = Shape::Kind;
+  const double a = shape.a, b = shape.b;
+  const auto of = [&](std::size_t i) { return shape.operands[i]->bounds; };
+  switch (shape.kind) {
     case Kind::Circle:
       return {{-a, -a}, {a, a}};
     case Kind::Ellipse:
     case Kind::Rectangle:
       return {{-a, -b}, {a, b}};
     case Kind::Region:
-      return outline->bounds();
+      return shape.outline->bounds();
     case Kind::Union:
     case Kind::SmoothUnion: {
       Bounds all;
-      for (const ShapePtr& operand : operands) all.add(operand->bounds());
+      for (const ShapePtr& operand : shape.operands) all.add(operand->bounds);
       // The joint of n operands is at most a quarter of its width above each.
-      return kind == Kind::Union ? all : all.grown(a / 4 * static_cast<double>(operands.size() - 1));
+      return shape.kind == Kind::Union ? all : all.grown(a / 4 * static_cast<double>(shape.operands.size() - 1));
     }
     case Kind::Intersection:
     case Kind::SmoothIntersection: {
       Bounds all = of(0);
-      for (const ShapePtr& operand : operands) all = common(all, operand->bounds());
+      for (const ShapePtr& operand : shape.operands) all = common(all, operand->bounds);
       return all;
     }
     case Kind::Difference:
@@ -49,20 +48,42 @@ Bounds Shape::bounds() const {
     case Kind::Complement:
       return Bounds::everything();
     case Kind::Mapped:
-      return map(of(0));
+      return shape.map(of(0));
     case Kind::Repeat: {
-      Bounds one = of(0);
+      const Bounds one = of(0);
       if (!one.is_finite() || one.empty()) return one;
       const double far = std::numeric_limits<double>::infinity();
       const auto reach = [&](double step, int count) {
         return step == 0 ? 0 : count == 0 ? far : step * (count - 1) / 2.0;
       };
-      const Point r{reach(a, count_x), reach(b, count_y)};
+      const Point r{reach(a, shape.count_x), reach(b, shape.count_y)};
       return {one.low - r, one.high + r};
     }
   }
   return Bounds::everything();
 }
+
+ShapePtr make(Shape shape) {
+  std::size_t instructions = 1;
+  for (const ShapePtr& operand : shape.operands) {
+    shape.depth = std::max(shape.depth, operand->depth + 1);
+    instructions = std::max(instructions, operand->least_instructions + (shape.kind != Shape::Kind::Mapped));
+  }
+  if (shape.kind == Shape::Kind::Repeat) instructions *= static_cast<std::size_t>(shape.columns() * shape.rows());
+  if (shape.depth > Shape::deepest)
+    throw Error(ErrorKind::Input, fmt::format("operations are nested more than {} deep", Shape::deepest));
+  if (instructions > Shape::most_instructions)
+    throw Error(ErrorKind::Input, fmt::format("the shape has more than {} instructions", Shape::most_instructions));
+  shape.least_instructions = instructions;
+  shape.bounds = bounds_of(shape);
+  return std::make_shared<const Shape>(std::move(shape));
+}
+
+ShapePtr convex(std::initializer_list<Point> corners) {
+  return region(polygon(std::span(corners.begin(), corners.size())));
+}
+
+}  // namespace
 
 ShapePtr circle(double radius) { return make({.kind = Shape::Kind::Circle, .a = radius}); }
 ShapePtr ellipse(double radius_x, double radius_y) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <vector>
 
@@ -41,9 +42,24 @@ struct Shape {
   std::shared_ptr<const Outline> outline;
   std::vector<ShapePtr> operands;
 
+  // Found when the shape is made, from those of its operands.
   /// A rectangle outside of which the distance is positive; infinite for a complement.
-  Bounds bounds() const;
+  Bounds bounds{};
+  /// The number of operations within operations, at most `deepest`: functions may recurse to the operands.
+  int depth = 0;
+  /// At least so many instructions evaluate the shape, however many of its operands are the same.
+  std::size_t least_instructions = 1;
+
+  /// Of a repetition: the number of columns and rows near a point, whose copies may be nearest to it.
+  int columns() const { return a > 0 ? 2 : 1; }
+  int rows() const { return b > 0 ? 2 : 1; }
+
+  static constexpr int deepest = 64;
+  static constexpr std::size_t most_instructions = std::size_t{1} << 20;  ///< of one shape
 };
+
+// All functions that make shapes throw ErrorKind::Input for operations that are nested more than Shape::deepest deep,
+// or that need more than Shape::most_instructions. A shape may be an operand of several others.
 
 // Closed shapes, with their centre at the origin.
 

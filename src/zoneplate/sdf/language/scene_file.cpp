@@ -133,6 +133,16 @@ std::string readable(std::string_view parameters) {
 }
 
 class Builder {
+  /// The result of `body()`, in whose errors the place of the term is named.
+  template <class Body>
+  decltype(auto) naming(const Term& term, const Body& body) {
+    try {
+      return body();
+    } catch (const Error& error) {
+      fail(term, error.what());
+    }
+  }
+
  public:
   Builder(std::string_view file, const SceneFileOptions& options) : file_(file), options_(options) {}
 
@@ -152,7 +162,10 @@ class Builder {
       layer(statement, color(a[0]), shape(a[1]));
     } else {
       assert(statement.text == "stroke");
-      layer(statement, color(a[0]), modified(Kind::Border, number(a[1], "width+"), shape(a[2])));
+      const Linear paint = color(a[0]);
+      const double width = number(a[1], "width+");
+      ShapePtr filled = shape(a[2]);
+      layer(statement, paint, naming(statement, [&] { return modified(Kind::Border, width, std::move(filled)); }));
     }
   }
 
@@ -260,11 +273,7 @@ class Builder {
   }
 
   void layer(const Term& statement, const Linear& paint, const ShapePtr& shape) {
-    try {
-      scene_.drawing.fill(shape, paint);
-    } catch (const Error& error) {
-      fail(statement, error.what());
-    }
+    naming(statement, [&] { scene_.drawing.fill(shape, paint); });
     const Bounds& bounds = scene_.drawing.layers.back().shape.bounds;
     if (bounds.is_finite()) scene_.bounds.add(bounds);
     if (options_.keeps_shapes) scene_.shapes.push_back(shape);

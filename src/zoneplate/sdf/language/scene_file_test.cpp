@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/sdf/language/scene_file.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -112,8 +113,15 @@ TEST(SdfSceneFile, EveryTextErrorNamesLineAndColumn) {
   std::string many = "let a0 = repeat(9, 9, circle(0, 0, 1))\n";
   for (int i = 1; i <= 20; ++i)
     many += "let a" + std::to_string(i) + " = repeat(9, 9, a" + std::to_string(i - 1) + ")\n";
-  EXPECT_EQ(message_of(many + "fill #fff a20"),
-            "s: line 22, column 1: the shapes have more than 16777216 instructions");
+  EXPECT_EQ(message_of(many), "s: line 10, column 23: repeat: the shape has more than 1048576 instructions");
+  // Names make shapes deeper than a line can.
+  std::string chain = "let a0 = circle(0, 0, 1)\n";
+  for (int i = 1; i <= 100'000; ++i) chain += fmt::format("let a{} = round(0, a{})\n", i, i - 1);
+  EXPECT_EQ(message_of(chain), "s: line 65, column 20: round: operations are nested more than 64 deep");
+  std::string moved = "let a0 = circle(0, 0, 1)\n";  // at 2^30 places
+  for (int i = 1; i <= 30; ++i)
+    moved += fmt::format("let a{0} = union(a{1}, move({2:.4f}, 0, a{1}))\n", i, i - 1, 0.0001 * (1 << i));
+  EXPECT_EQ(message_of(moved + "fill #fff a30"), "s: line 32, column 1: the shape has more than 1048576 instructions");
 }
 
 TEST(SdfSceneFile, EveryJsonErrorNamesLineAndColumn) {
