@@ -14,6 +14,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/image/tonemap.h"
 #include "zoneplate/render/renderer.h"
 #include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/scene/default_lights.h"
@@ -107,6 +108,40 @@ TEST(LightPasses, AddUpToTheColor) {
 
 TEST(LightPasses, AddUpToTheColorInAnEnvironmentMap) {
   for (const Material& material : {metallic, layered(all_layers())}) expect_sum(rendered(unlit_scene_of(material)));
+}
+
+/// The passes of a teapot of glass before a background, which beside the teapot is in no pass.
+void expect_sum_of_glass(const Material& material, const RenderOptions& options) {
+  Scene scene = unlit_scene_of(material);
+  light_unlit(scene);
+  const Camera camera = fit_camera(scene, 4.0f / 3, {});
+  Renderer renderer(PreparedScene(std::move(scene)), make_resolver(antialias::methods(), "none"));
+  Planes planes = light;
+  planes.object_id = true;
+  RenderedImage image = renderer.render(camera, {.options = options, .planes = planes, .form = ImageForm::Linear});
+  EXPECT_GT(greatest(image.data.light[Transmission]), 0.02f);
+  image.linear = over_background(std::move(image.linear), options.display);
+  int beside = 0;
+  for (std::size_t i = 0; i < image.linear.values().size(); ++i)
+    if (image.data.object_id.values()[i] == UINT32_MAX) image.linear.values()[i] = {0, 0, 0, 0}, ++beside;
+  EXPECT_GT(beside, 100);
+  EXPECT_LT(beside, options.width * options.height - 500);
+  expect_sum(image);
+}
+
+TEST(LightPasses, AddUpToTheColorOfGlassBeforeABackground) {
+  MaterialLayers layers{.transmission = 1};
+  Material clear = layered(layers, {1, 1, 1, 1});
+  clear.metallic = 0, clear.roughness = 0;
+  layers.sheen_color = {0.5f, 0.4f, 0.3f}, layers.sheen_roughness = 0.5f;
+  Material rough = layered(layers);
+  rough.metallic = 0, rough.roughness = 0.3f;
+  RenderOptions environment{.width = 80, .height = 60, .background = EnvironmentBackground{}}, color = environment;
+  color.background.reset(), color.display.background = {0.3f, 0.6f, 0.9f, 1};
+  for (const Material& material : {clear, rough, layered(all_layers())}) {
+    expect_sum_of_glass(material, environment);
+    expect_sum_of_glass(material, color);
+  }
 }
 
 TEST(LightPasses, TheColorStaysTheSame) {

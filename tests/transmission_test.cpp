@@ -98,6 +98,47 @@ TEST(Transmission, RoughGlassBlursAndKeepsTheSum) {
   EXPECT_NEAR(blurred(middle - 3, y).r + blurred(middle - 3, y).g, 1, 0.06f);
 }
 
+/// A grey wall from column -4 to `right`, and a pane before it, in white surroundings, without a background.
+LinearImage pane_before_wall(float right, float roughness, bool is_transparent) {
+  Scene scene;
+  add_square(scene, 4, -0.5f, glowing({0.25f, 0.25f, 0.25f}));
+  for (float3& p : scene.meshes[0].position) p.x = std::min(p.x, right);
+  MaterialLayers rough{.ior = 1, .transmission = 1};
+  rough.specular = 0;
+  add_square(scene, 1, 0, glass(rough, roughness));
+  scene.environment.color = {1, 1, 1};
+  RenderOptions options{.width = width, .height = height};
+  options.display.is_transparent = is_transparent, options.display.background = {0, 0, 0, 1};
+  return render(PreparedScene(scene), from_front(), {.samples = standard_pattern(8)}, options).color;
+}
+
+TEST(Transmission, RoughGlassBeforeAnOpaqueWallIsOpaque) {
+  for (const float roughness : {0.0f, 0.3f, 0.6f, 0.8f, 1.0f})
+    for (const bool is_transparent : {true, false}) {
+      const LinearImage seen = pane_before_wall(0.5f, roughness, is_transparent);
+      for (const int x : {width / 2 - 10, width / 2, width / 2 + 4}) {  // the wall ends at the column width / 2 + 6
+        EXPECT_NEAR(seen(x, height / 2).g, 0.25f, 2e-3f) << roughness << " " << x;
+        EXPECT_NEAR(seen(x, height / 2).a, 1, 1e-5f) << roughness << " " << x;
+      }
+      EXPECT_NEAR(seen(width / 2 + 9, height / 2).a, 0, 1e-3f) << roughness;
+    }
+}
+
+TEST(Transmission, SilhouettesBehindGlassHaveNoHalo) {
+  // The wall's end lies in a pixel, whose colour is that of the wall at its part of alpha: no white surroundings shine
+  // through the glass twice.
+  for (const float roughness : {0.0f, 0.3f, 1.0f}) {
+    const LinearImage seen = pane_before_wall(0.52f, roughness, true);
+    int partial = 0;
+    for (int x = width / 2 - 10; x < width / 2 + 10; ++x) {
+      const Linear c = seen(x, height / 2);
+      EXPECT_NEAR(c.g, 0.25f * c.a, 2e-3f) << roughness << " " << x;
+      partial += c.a > 0.05f && c.a < 0.95f;
+    }
+    EXPECT_GT(partial, 0);
+  }
+}
+
 TEST(Transmission, AVolumeAbsorbsAsItsThicknessSays) {
   MaterialLayers volume{.ior = 1, .transmission = 1, .thickness = 2, .attenuation_distance = 1};
   volume.specular = 0, volume.attenuation_color = {0.5f, 0.25f, 1};

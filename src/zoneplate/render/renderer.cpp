@@ -124,7 +124,8 @@ RenderOptions Renderer::frame_options(const RenderSettings& settings, const Requ
 }
 
 void Renderer::draw_behind(const Camera& camera, const RenderOptions& options, LinearImage& color) const {
-  if (options.background && !color.empty())
+  // Glass shows the background in its own light; the background beside surfaces is in no component of it.
+  if (options.background && options.light_component == LightComponent::All && !color.empty())
     draw_environment(scene_.lighting().environment, scene_.scene().up, camera, options, color);
 }
 
@@ -153,7 +154,6 @@ void Renderer::render_light(const Camera& camera, const RenderSettings& settings
     const Request request = method_->request(context_);
     RenderOptions options = frame_options(settings, request);
     options.light_component = components[k].second;
-    options.background.reset();
     Rounds rounds = render_rounds(camera, request, options, counts);
     const LinearImage picture = method_->resolve(rounds.frame);
     data.light[k] = Plane<float3>(picture.width(), picture.height());

@@ -126,24 +126,38 @@ template <class F>
   return {select(is_sharp, sharp.color, smooth.color), select(is_sharp, sharp.alpha, smooth.alpha)};
 }
 
-/// The image about places, blurred as a wall of a roughness in [0, 1] blurs it: not at all at 0, over its whole width
-/// at 1, and over the same part of it whatever its size.
-///
-/// Source    the level roughness × log2(width) of glTF's sample viewer and three.js, for the width of 1024 that the
-///           former draws this image with.
+/// The image about places, of a level each that need not be whole.
 template <class F>
-[[gnu::always_inline]] inline BackdropColor<F> backdrop_color(const BackdropView& b, ImagePlace<F> at, F roughness) {
+[[gnu::always_inline]] inline BackdropColor<F> blurred_backdrop(const BackdropView& b, ImagePlace<F> at, F level) {
   using Int = typename F::Int;
-  constexpr float levels = 10, pixels = 1024;  // 2^levels
-  const F last(static_cast<float>(b.levels - 1)), one(1.0f);
-  const F part_of_width = (exp2(roughness * F(levels)) - one) * F(1 / (pixels - 1));
-  const F level = min(max(log2(one + part_of_width * F(static_cast<float>(b.width[0]))), F(0.0f)), last);
   const Int lower = truncate(level), upper = min(lower + Int(1), Int(b.levels - 1));
   const F part = level - F::from(lower);
   const BackdropColor<F> sharp = backdrop_texels(b, at, lower);
   if (none(part > F(0.0f))) return sharp;
   const BackdropColor<F> blurred = backdrop_texels(b, at, upper);
   return {sharp.color + (blurred.color - sharp.color) * part, sharp.alpha + (blurred.alpha - sharp.alpha) * part};
+}
+
+/// The image about places, blurred as a wall of a roughness in [0, 1] blurs it: not at all at 0, over its whole width
+/// at 1, and over the same part of it whatever its size. What is empty stays as sharp as it is and has no part in the
+/// colour: a wall in front of an opaque surface is opaque however far it blurs.
+///
+/// Source    the level roughness × log2(width) of glTF's sample viewer and three.js, for the width of 1024 that the
+///           former draws this image with.
+template <class F>
+[[gnu::always_inline]] inline BackdropColor<F> backdrop_color(const BackdropView& b, ImagePlace<F> at, F roughness) {
+  constexpr float levels = 10, pixels = 1024;  // 2^levels
+  const F last(static_cast<float>(b.levels - 1)), zero(0.0f), one(1.0f);
+  const F part_of_width = (exp2(roughness * F(levels)) - one) * F(1 / (pixels - 1));
+  const F level = min(max(log2(one + part_of_width * F(static_cast<float>(b.width[0]))), zero), last);
+  const BackdropColor<F> blurred = blurred_backdrop(b, at, level);
+  // Weights of the look-ups add up to 1 but for rounding.
+  constexpr float full = 1 - 1e-5f, least = 1e-6f;
+  const auto is_full = (blurred.alpha > F(full)) | (level == zero);
+  if (all(is_full)) return blurred;
+  const F alpha = backdrop_texels(b, at, typename F::Int(0)).alpha;
+  const F scale = select(is_full, one, alpha / max(blurred.alpha, F(least)));
+  return {blurred.color * scale, select(is_full, blurred.alpha, alpha)};
 }
 
 }  // namespace zoneplate

@@ -90,5 +90,26 @@ TEST(Backdrop, IsBlurredByTheSamePartOfItsWidthAtEverySize) {
   EXPECT_NEAR(at(large, 0.3125f, 1), 0.5f, 0.02f);
 }
 
+TEST(Backdrop, WhatIsEmptyStaysSharpAndHasNoPartInTheColour) {
+  using F = scalar::Float;
+  LinearImage image(64, 64, Linear{0, 0, 0, 0});
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 20; ++x) image(x, y) = {0.25f, 2, 0, 1};
+  const Backdrop walled(image, {}), thin(LinearImage(64, 64, Linear{0.25f, 0.125f, 0, 0.5f}), {});
+  const auto at = [](const Backdrop& backdrop, float x, float roughness) {
+    return backdrop_color<F>(backdrop.view(), {F(x), F(32), scalar::Int(0)}, F(roughness));
+  };
+  for (const float roughness : {0.0f, 0.2f, 0.5f, 0.8f, 1.0f}) {
+    for (const float x : {0.0f, 10.0f, 19.4f}) {
+      EXPECT_EQ(at(walled, x, roughness).alpha.v, 1) << roughness << " " << x;
+      EXPECT_NEAR(at(walled, x, roughness).color.x.v, 0.25f, 1e-5f) << roughness << " " << x;
+      EXPECT_NEAR(at(walled, x, roughness).color.y.v, 2, 1e-4f) << roughness << " " << x;
+    }
+    for (const float x : {20.6f, 40.0f, 64.0f}) EXPECT_EQ(at(walled, x, roughness).alpha.v, 0) << roughness << " " << x;
+    EXPECT_NEAR(at(thin, 17.3f, roughness).alpha.v, 0.5f, 1e-6f) << roughness;
+    EXPECT_NEAR(at(thin, 17.3f, roughness).color.y.v, 0.125f, 1e-6f) << roughness;
+  }
+}
+
 }  // namespace
 }  // namespace zoneplate

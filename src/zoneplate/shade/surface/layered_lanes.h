@@ -393,9 +393,9 @@ void light_layered_in(const ShadingUniforms& s, const Layers& u, const FragmentB
     if (u.has_transmission && !s.has_environment_behind) {
       // The background is seen through the surface as far as all colours pass; the other light is added here.
       const Vector<F> part = passing(u, surface);
-      clear = min(max(min(min(part.x, part.y), part.z), zero), one) * through.open;
-      sum = sum - through.beyond * clear;
-      clear = min(clear, max(one - greatest_channel(sum), zero));
+      const F all_colors = min(max(min(min(part.x, part.y), part.z), zero), one);
+      sum = sum - through.beyond * all_colors;
+      clear = min(all_colors * through.open, max(one - greatest_channel(sum), zero));
     }
     finish(s, kind, p, sum, surface.base, out, i);
     if (u.has_transmission) (F::load(out.a + i) * (one - clear)).store(out.a + i);

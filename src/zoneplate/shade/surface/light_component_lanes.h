@@ -103,8 +103,8 @@ template <class F, class Radiance>
   if (!s.has_environment_behind) {
     // As light_layered leaves it out of the colour: the background is seen through the surface.
     const Vector<F> part = passing(u, surface);
-    const F clear = min(max(min(min(part.x, part.y), part.z), zero), one) * behind.open;
-    out.transmitted = out.transmitted - behind.beyond * clear;
+    const F all_colors = min(max(min(min(part.x, part.y), part.z), zero), one);
+    out.transmitted = out.transmitted - behind.beyond * all_colors;
   }
   return out;
 }
@@ -117,6 +117,8 @@ void keep_component(LightComponent component, const ShadingUniforms& s, const La
   const Viewer<F> viewer(s.viewpoint);
   const LobeRows<F> rows(s);
   const F one(1.0f), zero(0.0f);
+  const bool shows_background =
+      s.has_background_color && !s.has_environment_behind && layers != nullptr && layers->has_transmission;
   for (int i = 0; i < p.count; i += F::lanes) {
     const auto v = s.needs_viewer || layers != nullptr ? viewer.direction(batch, p, i) : zeros<F>();
     LightComponents<F> all;
@@ -138,7 +140,11 @@ void keep_component(LightComponent component, const ShadingUniforms& s, const La
     const Vector<F> total{F::load(out.r + i), F::load(out.g + i), F::load(out.b + i)};
     Vector<F> kept = total - (all.diffuse + all.transmitted + all.emitted) * alpha;
     if (component == LightComponent::Diffuse) kept = all.diffuse * alpha;
-    if (component == LightComponent::Transmission) kept = all.transmitted * alpha;
+    if (component == LightComponent::Transmission) {
+      kept = all.transmitted * alpha;
+      // What glass shows of a background of one colour, which alpha leaves to the image behind.
+      if (shows_background) kept = kept + Vector<F>::all(s.background) * (alpha - F::load(out.a + i));
+    }
     if (component == LightComponent::Emission) kept = all.emitted * alpha;
     const auto bounded = [&](F x) { return min(max(x, zero), F(brightest_color)); };
     bounded(kept.x).store(out.r + i), bounded(kept.y).store(out.g + i), bounded(kept.z).store(out.b + i);
