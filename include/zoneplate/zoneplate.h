@@ -319,7 +319,8 @@ zoneplate_status zoneplate_image_new(const zoneplate_array* pixels, zoneplate_im
 zoneplate_status zoneplate_image_load(const char* path, zoneplate_image** image);
 
 /// Measures the difference of two images by a metric, as "psnr" or "flip:ppd=30". Integers are sRGB codes, floats
-/// linear light. `map` gets the array "map" with the error of each pixel, if the metric has one; null is allowed.
+/// linear light; NaN and infinities are an error. Images with alpha are measured over black and over white, and the
+/// worse value counts. `map` gets the array "map" with the error of each pixel, if the metric has one; null is allowed.
 /// `figures` gets the metric's other values as arrays of one number; null is allowed.
 zoneplate_status zoneplate_measure(const zoneplate_array* reference, const zoneplate_array* test, const char* metric,
                                    double* value, zoneplate_image** map, zoneplate_image** figures);

@@ -37,7 +37,7 @@ struct Result {
 
 /// The results of all metrics.
 struct Comparison {
-  bool are_same = true;         ///< every pair has the same encoded values, including alpha
+  bool are_same = true;         ///< every pair has the same values (has_same_values)
   int width = 0, height = 0;    ///< in pixels, of the last test image
   std::size_t count = 0;        ///< the number of pairs that were compared
   std::vector<Result> results;  ///< in the order of the choices, without omitted ones
@@ -45,6 +45,9 @@ struct Comparison {
 
 /// Measures images with metrics.
 ///
+/// Images with alpha are measured over black and over white, and the worse value counts, of each figure too; a metric
+/// that says itself what alpha means (Metric::defines_alpha) is measured once. Values that are not finite are measured
+/// as 0 (NaN) and ±65504 (infinities): count_not_finite (metrics/picture.h) finds them.
 /// Requires  count > 0.
 /// Errors    ErrorKind::Input naming the image's index and sizes if a metric requires other sizes; otherwise as in Unfit.
 Comparison compare(const Comparands& pictures, std::span<const Choice> choices, Unfit unfit);

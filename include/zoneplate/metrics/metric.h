@@ -63,6 +63,7 @@ struct Metric {
   std::string_view unit;                ///< "dB"; empty for a pure number
   Better better = Better::Lower;        ///< decides which of several values is the worst
   std::optional<double> perfect = 0.0;  ///< the value for identical images, if there is one
+  bool defines_alpha = false;           ///< it says itself what alpha means; else the worse of black and white counts
   bool is_default = true;               ///< measured if the user names no metric
   int frames = 1;                       ///< number of consecutive frames that are used together
   bool starts_short = false;            ///< the first images are measured too, with fewer frames

@@ -12,7 +12,7 @@ namespace metrics {
 /// The input of metrics: the same image as display-referred values and in linear light.
 struct Picture {
   DisplayImage display;          ///< straight alpha
-  LinearImage linear;            ///< premultiplied
+  LinearImage linear;            ///< premultiplied; of files as stored, with NaN and infinities
   bool is_scene_linear = false;  ///< `display` was made from `linear`, not the other way round
   /// 1 where a surface was hidden, or outside the image, in the frame before. Only of references that the renderer has
   /// made as frames of a sequence; otherwise empty.
@@ -27,8 +27,16 @@ struct Picture {
 /// From display-referred values; linear light is their decoded value.
 Picture make_picture(DisplayImage display);
 
-/// From linear light; the display-referred values are clamped and encoded, without tone mapping.
+/// From linear light; the display-referred values are clamped and encoded, without tone mapping. There NaN is 0, and
+/// infinity the greatest value.
 Picture make_picture(LinearImage linear);
+
+/// True if two images have the same pixels: bits of light, of which NaN equals only the same NaN, or codes, with the
+/// colours of transparent pixels. A display-referred image never equals a scene-linear one.
+bool has_same_values(const Picture& a, const Picture& b);
+
+/// The number of pixels in which a channel is NaN or infinite.
+std::size_t count_not_finite(const Picture& picture);
 
 /// The image over black: each encoded value times alpha. Metrics measure this unless they state otherwise.
 struct Codes {

@@ -12,7 +12,7 @@
 #include "zoneplate/codec/save.h"
 #include "zoneplate/codec/webp_still.h"
 #include "zoneplate/image/transfer.h"
-#include "zoneplate/metrics/picture_file.h"
+#include "zoneplate/metrics/file/picture_file.h"
 #include "zoneplate/os/file.h"
 
 using namespace zoneplate;

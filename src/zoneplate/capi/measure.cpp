@@ -61,11 +61,20 @@ FrequencyFilter frequency_filter_of(std::string_view pass, double low, double hi
   return out;
 }
 
+/// An image to measure: of values that are not finite, no metric has one.
+metrics::Picture finite_picture_of(const zoneplate_array& array, const char* name) {
+  metrics::Picture picture = picture_of(array, name);
+  if (const std::size_t pixels = metrics::count_not_finite(picture); pixels > 0)
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: has {} pixels that are NaN or infinite, expected finite values", name, pixels));
+  return picture;
+}
+
 metrics::Result measure(const zoneplate_array& reference, const zoneplate_array& test, const char* metric) {
   const metrics::Choice choice = metrics::choose_metric(metrics::metrics(), metric);
   const metrics::Comparands pair{.count = 1,
-                                 .reference = [&](std::size_t) { return picture_of(reference, "reference"); },
-                                 .test = [&](std::size_t) { return picture_of(test, "test"); }};
+                                 .reference = [&](std::size_t) { return finite_picture_of(reference, "reference"); },
+                                 .test = [&](std::size_t) { return finite_picture_of(test, "test"); }};
   return std::move(metrics::compare(pair, {&choice, 1}, metrics::Unfit::Refuse).results.front());
 }
 

@@ -19,7 +19,8 @@
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/save.h"
 #include "zoneplate/image/transfer.h"
-#include "zoneplate/metrics/picture_file.h"
+#include "zoneplate/metrics/backdrop.h"
+#include "zoneplate/metrics/file/picture_file.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/upscale/upscaler.h"
 
@@ -108,7 +109,7 @@ UpscaleGrid grid_of(const Filters& filters, int width, int height, const std::st
 ///
 /// Errors    ErrorKind::Usage if two images have the same output file.
 std::vector<FilterItem> plan(const std::string& operand, const std::string& output) {
-  const std::vector<std::string> inputs = metrics::list_pictures(operand);
+  const std::vector<std::string> inputs = metrics::list_pictures(operand).paths;
   if (inputs.size() == 1 && inputs.front() == operand) return {{operand, output}};
   std::vector<FilterItem> items;
   std::map<std::string, std::string> input_of;  // maps an output to its input
@@ -136,7 +137,7 @@ void filter_linear(const FilterItem& item, const LinearImage& image, const Filte
 
 void filter_image(const FilterItem& item, const Filters& filters, int bit_depth) {
   metrics::Picture picture = metrics::load_picture(item.input);
-  if (picture.is_scene_linear) return filter_linear(item, picture.linear, filters);
+  if (picture.is_scene_linear) return filter_linear(item, metrics::finite(std::move(picture)).linear, filters);
   if (is_linear_file(item.output))
     throw Error(ErrorKind::Usage, fmt::format("{}: is a display-referred image, and {} is scene-linear: write a .png",
                                               item.input, item.output));

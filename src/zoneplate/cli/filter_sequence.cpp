@@ -16,7 +16,7 @@
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/save.h"
 #include "zoneplate/image/transfer.h"
-#include "zoneplate/metrics/picture_file.h"
+#include "zoneplate/metrics/file/picture_file.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/upscale/upscaler.h"
 
@@ -71,7 +71,7 @@ Names channels_of(const Pass& pass, const std::string& path, bool is_own_file) {
 
 std::vector<std::string> files_of(const std::string& operand, const char* pass, std::size_t count) {
   if (operand.empty()) return {};
-  std::vector<std::string> files = metrics::list_pictures(operand);
+  std::vector<std::string> files = metrics::list_pictures(operand).paths;
   if (files.size() != count)
     throw Error(ErrorKind::Input, fmt::format("--{} {}: has {} frames, expected {}, one for each image", pass, operand,
                                               files.size(), count));

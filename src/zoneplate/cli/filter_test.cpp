@@ -12,7 +12,7 @@
 #include "zoneplate/base/paths_for_test.h"
 #include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/png.h"
-#include "zoneplate/metrics/picture_file.h"
+#include "zoneplate/metrics/file/picture_file.h"
 #include "zoneplate/metrics/psnr.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/render/renderer.h"

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -18,6 +19,7 @@
 #include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/codec/exr_chroma.h"
+#include "zoneplate/codec/exr_header.h"
 #include "zoneplate/image/half.h"
 #include "zoneplate/os/library.h"
 #include "zoneplate/os/limited_child.h"
@@ -30,74 +32,24 @@ struct Refusal {
   std::string cause;
 };
 
-/// A rectangle of pixels; both corners are inclusive.
-struct Window {
-  std::int32_t left = 0, top = 0, right = -1, bottom = -1;
-
-  std::int64_t width() const { return std::int64_t{right} - left + 1; }
-  std::int64_t height() const { return std::int64_t{bottom} - top + 1; }
-  bool is_sound() const {
-    constexpr std::int64_t most_side = 1 << 24;
-    return width() > 0 && height() > 0 && width() <= most_side && height() <= most_side;
-  }
-  std::uint64_t pixels() const { return static_cast<std::uint64_t>(width()) * static_cast<std::uint64_t>(height()); }
-};
+using Window = ExrWindow;
 
 struct Windows {
   Window data, display;
 };
 
-/// Takes the text before the next zero byte from the front of `bytes`; at most 255 bytes.
-std::optional<std::string_view> take_text(std::span<const std::uint8_t>& bytes) {
-  const std::size_t most = std::min<std::size_t>(bytes.size(), 256);
-  const auto end = std::find(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(most), 0);
-  if (end == bytes.begin() + static_cast<std::ptrdiff_t>(most)) return std::nullopt;
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
-                              static_cast<std::size_t>(end - bytes.begin()));
-  bytes = bytes.subspan(text.size() + 1);
-  return text;
+/// The data and display windows of a part; nothing if the header is wrong.
+std::optional<Windows> windows_of(const std::optional<ExrPart>& part) {
+  if (!part || !part->data.is_sound() || !part->display.is_sound()) return std::nullopt;
+  return Windows{part->data, part->display};
 }
 
-/// Calls use(name, type, value) for the attributes of the first header: name, type, size, value. False if it is cut
-/// off.
-template <class Use>
-bool for_attributes(std::span<const std::uint8_t> bytes, const Use& use) {
-  if (!is_exr(bytes)) return false;
-  for (bytes = bytes.subspan(8);;) {
-    const auto name = take_text(bytes);
-    if (!name) return false;
-    if (name->empty()) return true;
-    const auto type = take_text(bytes);
-    std::uint32_t size = 0;
-    if (!type || bytes.size() < sizeof size) return false;
-    std::memcpy(&size, bytes.data(), sizeof size);
-    bytes = bytes.subspan(sizeof size);
-    if (size > bytes.size()) return false;
-    use(*name, *type, bytes.first(size));
-    bytes = bytes.subspan(size);
-  }
-}
-
-/// Finds the data and display windows.
-std::optional<Windows> find_windows(std::span<const std::uint8_t> bytes) {
-  Windows out;
-  const auto keep = [&](std::string_view name, std::string_view type, std::span<const std::uint8_t> value) {
-    if (type != "box2i" || value.size() != sizeof(Window)) return;
-    if (name == "dataWindow") std::memcpy(&out.data, value.data(), sizeof(Window));
-    if (name == "displayWindow") std::memcpy(&out.display, value.data(), sizeof(Window));
-  };
-  if (!for_attributes(bytes, keep) || !out.data.is_sound() || !out.display.is_sound()) return std::nullopt;
-  return out;
-}
+std::optional<Windows> find_windows(std::span<const std::uint8_t> bytes) { return windows_of(read_exr_part(bytes)); }
 
 /// The file's chromaticities, or those of Rec.709, which are what a file without them has.
 Chromaticities find_chromaticities(std::span<const std::uint8_t> bytes) {
-  Chromaticities out;
-  for_attributes(bytes, [&](std::string_view name, std::string_view type, std::span<const std::uint8_t> value) {
-    if (name == "chromaticities" && type == "chromaticities" && value.size() == sizeof out)
-      std::memcpy(&out, value.data(), sizeof out);
-  });
-  return out;
+  const std::optional<ExrPart> part = read_exr_part(bytes);
+  return part && part->chromaticities ? std::bit_cast<Chromaticities>(*part->chromaticities) : Chromaticities();
 }
 
 /// The functions of libOpenEXRCore that this file calls. The library is loaded at run time; the program is not linked
@@ -175,8 +127,13 @@ class Channel {
   std::unique_ptr<float, Free> values_;
 };
 
-/// The names of the channels that are decoded, at most four; none: the colour.
-using ChannelNames = std::span<const std::string>;
+/// What is decoded of a file.
+struct Selection {
+  int part = 0;
+  std::span<const std::string> names = {};  ///< of at most four channels; none: the colour
+  bool replaces_infinite = false;           ///< NaN becomes 0, infinity 65504
+  bool keeps_numbers = false;               ///< whole numbers keep their bits, and are no floats
+};
 
 /// The number of multiples of `step` from `first` on, among `count` integers.
 std::int64_t multiples(std::int64_t first, std::int64_t count, std::int64_t step) {
@@ -206,8 +163,9 @@ void copy_values(const std::uint8_t* from, std::int64_t count, std::uint16_t typ
 /// An open file, decoded into the channels of its data window. It exists in the child process only.
 class ExrReader {
  public:
-  ExrReader(const ExrLibrary& library, std::span<const std::uint8_t> bytes, const Window& window, ChannelNames names)
-      : library_(library), bytes_(bytes), window_(window), names_(names) {
+  ExrReader(const ExrLibrary& library, std::span<const std::uint8_t> bytes, const Window& window,
+            const Selection& selection)
+      : library_(library), bytes_(bytes), window_(window), selection_(selection), names_(selection.names) {
     exr_context_initializer_t set_up{};
     set_up.size = sizeof set_up;
     set_up.error_handler_fn = say_nothing;
@@ -228,7 +186,7 @@ class ExrReader {
 
   void read() {
     exr_storage_t storage{};
-    library_.check(library_.storage(context_, 0, &storage));
+    library_.check(library_.storage(context_, selection_.part, &storage));
     if (storage == EXR_STORAGE_SCANLINE)
       read_scanlines();
     else if (storage == EXR_STORAGE_TILED)
@@ -252,7 +210,7 @@ class ExrReader {
     const auto value = [&](std::size_t slot, std::size_t x) {
       if (!channels_[slot]) return slot == 3 ? 1.0f : 0.0f;
       const float v = channels_[slot](x, static_cast<std::size_t>(y));
-      return !names_.empty() || std::isfinite(v) ? v : std::isnan(v) ? 0.0f : std::copysign(65504.0f, v);
+      return !selection_.replaces_infinite || std::isfinite(v) ? v : std::isnan(v) ? 0.0f : std::copysign(65504.0f, v);
     };
     for (std::size_t i = 0; i < out.size(); ++i) {
       const std::size_t x = static_cast<std::size_t>(first) + i;
@@ -283,7 +241,7 @@ class ExrReader {
 
   void find_channels() {
     const exr_attr_chlist_t* list = nullptr;
-    library_.check(library_.channels(context_, 0, &list));
+    library_.check(library_.channels(context_, selection_.part, &list));
     const auto find = [&](std::string_view name) -> const exr_attr_chlist_entry_t* {
       for (int i = 0; i < list->num_channels; ++i)
         if (list->entries[i].name.str == name) return &list->entries[i];
@@ -329,13 +287,13 @@ class ExrReader {
       throw Refusal{"is corrupt: a part lies outside the image"};
     check_deadline();
     exr_decode_pipeline_t pipeline = EXR_DECODE_PIPELINE_INITIALIZER;
-    library_.check(library_.begin_decoding(context_, 0, &chunk, &pipeline));
+    library_.check(library_.begin_decoding(context_, selection_.part, &chunk, &pipeline));
     const std::unique_ptr<exr_decode_pipeline_t, std::function<void(exr_decode_pipeline_t*)>> end(
         &pipeline, [this](exr_decode_pipeline_t* p) { library_.end_decoding(context_, p); });
     check_counts(pipeline, x, y);
     // The library decompresses. Its copies to channels are not used: they take the first channel's width for that of
     // all, swap channels or crash where one has no destination, depending on the version.
-    library_.check(library_.choose_routines(context_, 0, &pipeline));
+    library_.check(library_.choose_routines(context_, selection_.part, &pipeline));
     // A chunk that compression would not make smaller is stored as it is, which B44 in some versions does not know.
     if (chunk.packed_size == chunk.unpacked_size)
       pipeline.decompress_fn = nullptr;
@@ -351,7 +309,7 @@ class ExrReader {
       to.reader.copy_chunk(*p, to.x, to.y);
       return EXR_ERR_SUCCESS;
     };
-    library_.check(library_.decode(context_, 0, &pipeline));
+    library_.check(library_.decode(context_, selection_.part, &pipeline));
   }
 
   std::int64_t columns(const exr_coding_channel_info_t& channel, std::int64_t x, std::int64_t width) const {
@@ -382,31 +340,36 @@ class ExrReader {
       for (const exr_coding_channel_info_t& c : channels) {
         if ((window_.top + row) % c.y_samples != 0) continue;
         const std::int64_t count = columns(c, x, pipeline.chunk.width);
-        if (const std::optional<std::size_t> slot = slot_of(c.channel_name))
-          copy_values(from, count, c.data_type, c.x_samples, channels_[*slot].row(static_cast<std::size_t>(row)) + x);
+        if (const std::optional<std::size_t> slot = slot_of(c.channel_name)) {
+          const std::uint16_t type = selection_.keeps_numbers && c.data_type == EXR_PIXEL_UINT
+                                         ? std::uint16_t{EXR_PIXEL_FLOAT}  // the same number of bits
+                                         : c.data_type;
+          copy_values(from, count, type, c.x_samples, channels_[*slot].row(static_cast<std::size_t>(row)) + x);
+        }
         from += count * c.bytes_per_element;
       }
   }
 
   void read_scanlines() {
     std::int32_t lines = 0;
-    library_.check(library_.scanlines_per_chunk(context_, 0, &lines));
+    library_.check(library_.scanlines_per_chunk(context_, selection_.part, &lines));
     if (lines < 1) throw Refusal{"is corrupt"};
     for (std::int64_t y = window_.top; y <= window_.bottom; y += lines) {
       exr_chunk_info_t chunk{};
-      library_.check(library_.scanline_chunk(context_, 0, static_cast<int>(y), &chunk));
+      library_.check(library_.scanline_chunk(context_, selection_.part, static_cast<int>(y), &chunk));
       read_chunk(chunk, 0, y - window_.top);
     }
   }
 
   void read_tiles() {
     std::int32_t width = 0, height = 0;
-    library_.check(library_.tile_sizes(context_, 0, 0, 0, &width, &height));
+    library_.check(library_.tile_sizes(context_, selection_.part, 0, 0, &width, &height));
     if (width < 1 || height < 1) throw Refusal{"is corrupt"};
     for (std::int64_t j = 0; j * height < window_.height(); ++j)
       for (std::int64_t i = 0; i * width < window_.width(); ++i) {
         exr_chunk_info_t chunk{};
-        library_.check(library_.tile_chunk(context_, 0, static_cast<int>(i), static_cast<int>(j), 0, 0, &chunk));
+        library_.check(
+            library_.tile_chunk(context_, selection_.part, static_cast<int>(i), static_cast<int>(j), 0, 0, &chunk));
         read_chunk(chunk, i * width, j * height);
       }
   }
@@ -414,7 +377,8 @@ class ExrReader {
   const ExrLibrary& library_;
   std::span<const std::uint8_t> bytes_;
   Window window_;
-  ChannelNames names_;
+  Selection selection_;
+  std::span<const std::string> names_;
   exr_context_t context_ = nullptr;
   Kind kind_ = Kind::Colors;
   /// Red or grey, green, blue, alpha, or as `names_`; those not in the file: empty. Chroma in place of red and blue,
@@ -461,10 +425,15 @@ std::uint64_t exr_working_memory(std::span<const std::uint8_t> bytes) {
 namespace {
 
 void decode_rows(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
-                 ChannelNames channels, const std::function<void(std::span<const Linear>)>& take_row) {
+                 const Selection& selection, const std::function<void(std::span<const Linear>)>& take_row) {
   const auto fail = [&](const std::string& cause) -> Error { return {ErrorKind::Input, name + ": EXR: " + cause}; };
-  const std::optional<Windows> windows = find_windows(bytes);
+  const std::vector<ExrPart> parts = read_exr_parts(bytes);
+  const auto part = static_cast<std::size_t>(selection.part);
+  const std::optional<Windows> windows = windows_of(part < parts.size() ? std::optional(parts[part]) : std::nullopt);
   if (!windows) throw fail("the header is wrong");
+  const Window &own = windows->display, &first = parts[0].display;
+  if (own.width() != first.width() || own.height() != first.height())
+    throw fail("part " + parts[part].name + " has another size than the first one, which is not read");
   for (const Window& window : {windows->display, windows->data})
     if (window.pixels() > max_pixels)
       throw fail(std::to_string(window.width()) + " x " + std::to_string(window.height()) + " pixels, at most " +
@@ -472,7 +441,7 @@ void decode_rows(std::span<const std::uint8_t> bytes, const std::string& name, s
 
   const auto decode = [&](const ExrLibrary& library, auto send) {
     try {
-      ExrReader reader(library, bytes, windows->data, channels);
+      ExrReader reader(library, bytes, windows->data, selection);
       reader.read();
       send_rows(reader, *windows, send);
     } catch (const Refusal& refused) {
@@ -508,45 +477,68 @@ void decode_rows(std::span<const std::uint8_t> bytes, const std::string& name, s
 
 void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
                      const std::function<void(std::span<const Linear>)>& take_row) {
-  decode_rows(bytes, name, max_pixels, {}, take_row);
+  decode_rows(bytes, name, max_pixels, {.replaces_infinite = true}, take_row);
 }
 
 std::vector<std::string> exr_channel_names(std::span<const std::uint8_t> bytes) {
-  std::vector<std::string> out;
-  for_attributes(bytes, [&](std::string_view name, std::string_view type, std::span<const std::uint8_t> value) {
-    if (name != "channels" || type != "chlist") return;
-    constexpr std::size_t description = 16;  // type, linearity, sampling along x and y
-    while (const auto channel = take_text(value)) {
-      if (channel->empty() || value.size() < description) return;
-      out.emplace_back(*channel);
-      value = value.subspan(description);
-    }
-  });
-  return out;
+  std::vector<std::string> names;
+  if (const std::optional<ExrPart> part = read_exr_part(bytes))
+    for (const ExrPartChannel& channel : part->channels) names.push_back(channel.name);
+  return names;
 }
 
-std::vector<Plane<float>> decode_exr_channels(std::span<const std::uint8_t> bytes, const std::string& name,
-                                              std::span<const std::string> channels, std::uint64_t max_pixels) {
-  std::vector<Plane<float>> planes(channels.size());
+namespace {
+
+/// Decodes channels to planes of floats or of their bits.
+template <class T>
+std::vector<Plane<T>> decode_planes(std::span<const std::uint8_t> bytes, const std::string& name,
+                                    std::uint64_t max_pixels, const Selection& selection) {
+  std::vector<Plane<T>> planes(selection.names.size());
   int y = 0;
-  decode_rows(bytes, name, max_pixels, channels, [&](std::span<const Linear> row) {
+  decode_rows(bytes, name, max_pixels, selection, [&](std::span<const Linear> row) {
     constexpr float Linear::*slots[] = {&Linear::r, &Linear::g, &Linear::b, &Linear::a};
     for (std::size_t c = 0; c < planes.size(); ++c) {
-      if (y == 0) planes[c] = Plane<float>(static_cast<int>(row.size()), find_exr_size(bytes)->y);
-      std::ranges::transform(row, planes[c].row(y).begin(), slots[c]);
+      if (y == 0) planes[c] = Plane<T>(static_cast<int>(row.size()), find_exr_size(bytes)->y);
+      std::ranges::transform(row, planes[c].row(y).begin(),
+                             [slot = slots[c]](const Linear& v) { return std::bit_cast<T>(v.*slot); });
     }
     ++y;
   });
   return planes;
 }
 
-LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+LinearImage decode_color(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
+                         const Selection& selection) {
   LinearImage image;  // allocated when the first row arrives, so that a corrupt file takes no memory
   int y = 0;
-  decode_exr_rows(bytes, name, max_pixels, [&](std::span<const Linear> row) {
+  decode_rows(bytes, name, max_pixels, selection, [&](std::span<const Linear> row) {
     if (y == 0) image = LinearImage(static_cast<int>(row.size()), find_exr_size(bytes)->y);
     std::copy(row.begin(), row.end(), image.row(y++).begin());
   });
   return image;
 }
+
+}  // namespace
+
+std::vector<Plane<float>> decode_exr_channels(std::span<const std::uint8_t> bytes, const std::string& name,
+                                              std::span<const std::string> channels, std::uint64_t max_pixels) {
+  return decode_planes<float>(bytes, name, max_pixels, {.names = channels});
+}
+
+std::vector<Plane<std::uint32_t>> decode_exr_bits(std::span<const std::uint8_t> bytes, const std::string& name,
+                                                  int part, std::span<const std::string> channels,
+                                                  std::uint64_t max_pixels) {
+  return decode_planes<std::uint32_t>(bytes, name, max_pixels,
+                                      {.part = part, .names = channels, .keeps_numbers = true});
+}
+
+LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  return decode_color(bytes, name, max_pixels, {.replaces_infinite = true});
+}
+
+LinearImage decode_exr_as_stored(std::span<const std::uint8_t> bytes, const std::string& name,
+                                 std::uint64_t max_pixels) {
+  return decode_color(bytes, name, max_pixels, {});
+}
+
 }  // namespace zoneplate

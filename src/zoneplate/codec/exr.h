@@ -34,6 +34,10 @@ std::optional<int2> find_exr_size(std::span<const std::uint8_t> bytes);
 LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& name,
                        std::uint64_t max_pixels = std::uint64_t{1} << 28);
 
+/// The same with NaN and infinities as they are stored.
+LinearImage decode_exr_as_stored(std::span<const std::uint8_t> bytes, const std::string& name,
+                                 std::uint64_t max_pixels = std::uint64_t{1} << 28);
+
 /// Decodes an image as decode_exr does, and passes it on row by row, from the top.
 void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
                      const std::function<void(std::span<const Linear>)>& take_row);
@@ -49,6 +53,12 @@ std::vector<std::string> exr_channel_names(std::span<const std::uint8_t> bytes);
 std::vector<Plane<float>> decode_exr_channels(std::span<const std::uint8_t> bytes, const std::string& name,
                                               std::span<const std::string> channels,
                                               std::uint64_t max_pixels = std::uint64_t{1} << 28);
+
+/// The same channels of any part (codec/exr_header.h), at most four, as bits: of floats, to which halves are converted,
+/// or of whole numbers.
+std::vector<Plane<std::uint32_t>> decode_exr_bits(std::span<const std::uint8_t> bytes, const std::string& name,
+                                                  int part, std::span<const std::string> channels,
+                                                  std::uint64_t max_pixels = std::uint64_t{1} << 28);
 
 /// The memory in bytes that decoding takes in addition to the rows.
 std::uint64_t exr_working_memory(std::span<const std::uint8_t> bytes);

@@ -12,6 +12,8 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr_header.h"
+#include "zoneplate/codec/inspect/exr_parts_for_test.h"
 #include "zoneplate/image/half.h"
 #include "zoneplate/math/random.h"
 
@@ -130,6 +132,33 @@ TEST(Exr, WhatIsNotFiniteBecomesSo) {
   image(0, 0) = {std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(), std::nanf(""), 1};
   const LinearImage out = decode_exr(exr_of(image, ExrType::Float), "a.exr");
   EXPECT_EQ(out(0, 0), (Linear{65504, -65504, 0, 1}));
+}
+
+TEST(Exr, BitsOfEveryPartAreReadAsStored) {
+  const float values[] = {std::nanf(""), -std::numeric_limits<float>::infinity(), -0.0f, 1e30f};
+  const std::uint32_t numbers[] = {0x7f800001, 0, 1, ~std::uint32_t{0}};  // not exact as floats
+  const Bytes file =
+      encode_exr(2, 2, {{"R", ExrType::Float, values, nullptr, 1}, {"id", ExrType::Number, nullptr, numbers, 1}});
+  const std::string names[] = {"R", "id"};
+  const auto planes = decode_exr_bits(file, "a.exr", 0, names);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(planes[0].values()[i], std::bit_cast<std::uint32_t>(values[i]));
+    EXPECT_EQ(planes[1].values()[i], numbers[i]);
+  }
+  EXPECT_TRUE(std::isnan(decode_exr_as_stored(file, "a.exr")(0, 0).r));
+  EXPECT_EQ(decode_exr(file, "a.exr")(0, 0).r, 0);
+
+  const Bytes two = exr_of_parts(4, {{"left", {{"R", 1}}}, {"right", {{"R", 2}, {"Z", 3}}}});
+  const std::vector<ExrPart> parts = read_exr_parts(two);
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_EQ(parts[1].name, "right");
+  ASSERT_EQ(parts[1].channels.size(), 2u);
+  EXPECT_EQ(parts[1].channels[1].name, "Z");
+  const std::string depth[] = {"Z"};
+  EXPECT_EQ(decode_exr_bits(two, "a.exr", 1, depth)[0](3, 3), std::bit_cast<std::uint32_t>(3.0f));
+  EXPECT_THROW(decode_exr_bits(two, "a.exr", 0, depth), Error);
+  EXPECT_THROW(decode_exr_bits(two, "a.exr", 2, depth), Error);
+  for (std::size_t size = 0; size < 700; ++size) EXPECT_LE(read_exr_parts(std::span(two).first(size)).size(), 2u);
 }
 
 TEST(Exr, TheDisplayWindowIsWhatIsSeen) {

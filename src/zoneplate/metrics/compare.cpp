@@ -7,6 +7,7 @@
 #include <cassert>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/metrics/backdrop.h"
 
 namespace zoneplate::metrics {
 namespace {
@@ -49,7 +50,53 @@ std::string name_of(const Comparands& pictures, std::size_t index) {
   return pictures.name ? pictures.name(index) : fmt::format("image {}", index + 1);
 }
 
-bool has_same_codes(const Picture& a, const Picture& b) { return a.display == b.display; }
+/// The worse of the scores of an image over two backdrops, which has the worse of each figure. The map is that of the
+/// worse value.
+std::optional<Score> worse_of(const Metric& metric, std::optional<Score> a, std::optional<Score> b) {
+  if (!a || !b) return a ? std::move(a) : std::move(b);
+  if (is_worse(metric, b->value, a->value)) std::swap(a, b);
+  for (Figure& figure : a->more)
+    for (const Figure& other : b->more)
+      if (other.name == figure.name && is_worse(metric, other.value, figure.value)) figure.value = other.value;
+  return a;
+}
+
+/// The last images of the reference or of the test, for the metrics of several frames.
+class Window {
+ public:
+  explicit Window(std::size_t length) : length_(length) {}
+
+  const Picture& newest() const { return plain_.back(); }
+  std::size_t size() const { return plain_.size(); }
+  Frames plain(std::size_t count) const { return Frames(plain_).last(count); }
+  Frames on(Backdrop backdrop, std::size_t count) const {
+    return laid_.empty() ? plain(count) : Frames(backdrop == Backdrop::Black ? laid_ : white_).last(count);
+  }
+
+  void add(Picture picture) {
+    if (plain_.size() == length_) drop_first();
+    plain_.push_back(std::move(picture));
+    if (!laid_.empty()) lay(plain_.back());
+  }
+
+  /// From now on keeps the images over both backdrops; opaque ones need none.
+  void lay_all() {
+    if (!laid_.empty()) return;
+    for (const Picture& picture : plain_) lay(picture);
+  }
+
+ private:
+  void drop_first() {
+    for (std::vector<Picture>* all : {&plain_, &laid_, &white_})
+      if (!all->empty()) all->erase(all->begin());
+  }
+  void lay(const Picture& picture) {
+    laid_.push_back(laid_on(picture, Backdrop::Black)), white_.push_back(laid_on(picture, Backdrop::White));
+  }
+
+  std::size_t length_;
+  std::vector<Picture> plain_, laid_, white_;  ///< as given, over black and over white
+};
 
 void leave_out(Measurement& m, Unfit unfit, const std::string& name, const std::string& why) {
   if (unfit == Unfit::Refuse) {
@@ -60,16 +107,29 @@ void leave_out(Measurement& m, Unfit unfit, const std::string& name, const std::
 
 constexpr const char* nothing_to_measure = "has nothing that it could measure";
 
-/// Measures the last frames of the window, the newest of which is image `index`, called `name`.
-void measure(Measurement& m, Frames reference, Frames test, std::size_t index, const std::string& name, Unfit unfit) {
+std::optional<Score> score_of(const Choice& choice, const Window& reference, const Window& test, std::size_t frames,
+                              bool has_alpha) {
+  const Metric& metric = *choice.metric;
+  if (!has_alpha || metric.defines_alpha)
+    return metric.measure(reference.plain(frames), test.plain(frames), choice.settings);
+  const auto on = [&](Backdrop backdrop) {
+    return metric.measure(reference.on(backdrop, frames), test.on(backdrop, frames), choice.settings);
+  };
+  std::optional<Score> black = on(Backdrop::Black);
+  return worse_of(metric, std::move(black), on(Backdrop::White));
+}
+
+/// Measures the last frames of the windows, the newest of which is image `index`, called `name`.
+void measure(Measurement& m, const Window& reference, const Window& test, bool has_alpha, std::size_t index,
+             const std::string& name, Unfit unfit) {
   const Metric& metric = *m.choice->metric;
   const auto required = static_cast<std::size_t>(metric.frames);
   const std::size_t frames = metric.starts_short ? std::min(required, reference.size()) : required;
   if (m.is_left_out || reference.size() < frames) return;
-  const std::string why = objection(metric, reference.back(), test.back());
+  const std::string why = objection(metric, reference.newest(), test.newest());
   if (!why.empty()) return leave_out(m, unfit, name, why);
 
-  auto score = metric.measure(reference.last(frames), test.last(frames), m.choice->settings);
+  auto score = score_of(*m.choice, reference, test, frames, has_alpha);
   if (!score && metric.frames > 1) return;  // a later window may have it
   if (!score) return leave_out(m, unfit, name, nothing_to_measure);
   Result& result = m.result;
@@ -108,19 +168,22 @@ Comparison compare(const Comparands& pictures, std::span<const Choice> choices, 
     measurements.push_back(std::move(m));
   }
 
-  std::vector<Picture> reference, test;
+  Window reference(window), test(window);
+  bool has_any_alpha = false;
   for (std::size_t i = 0; i < pictures.count; ++i) {
-    if (reference.size() == window) reference.erase(reference.begin()), test.erase(test.begin());
-    reference.push_back(pictures.reference(i));
-    test.push_back(pictures.test(i));
-    if (pictures.are_frames && reference.size() > 1) {
-      check_sizes(reference[reference.size() - 2], reference.back(), i, "reference");
-      check_sizes(test[test.size() - 2], test.back(), i, "test");
+    Picture next_reference = pictures.reference(i), next_test = pictures.test(i);
+    out.are_same = out.are_same && has_same_values(next_reference, next_test);
+    next_reference = finite(std::move(next_reference)), next_test = finite(std::move(next_test));
+    if (pictures.are_frames && i > 0) {
+      check_sizes(reference.newest(), next_reference, i, "reference");
+      check_sizes(test.newest(), next_test, i, "test");
     }
-    check_pair(choices, reference.back(), test.back(), name_of(pictures, i));
-    out.are_same = out.are_same && has_same_codes(reference.back(), test.back());
-    out.width = test.back().width(), out.height = test.back().height();
-    for (Measurement& m : measurements) measure(m, reference, test, i, name_of(pictures, i), unfit);
+    has_any_alpha = has_any_alpha || has_alpha(next_reference) || has_alpha(next_test);
+    reference.add(std::move(next_reference)), test.add(std::move(next_test));
+    if (has_any_alpha) reference.lay_all(), test.lay_all();
+    check_pair(choices, reference.newest(), test.newest(), name_of(pictures, i));
+    out.width = test.newest().width(), out.height = test.newest().height();
+    for (Measurement& m : measurements) measure(m, reference, test, has_any_alpha, i, name_of(pictures, i), unfit);
   }
 
   for (Measurement& m : measurements) {

@@ -73,7 +73,43 @@ TEST(Compare, AlphaAloneMakesADifference) {
   const std::vector<Picture> b = {make_picture(DisplayImage(2, 2, {0, 0, 0, 0}))};
   const Comparison c = compare(sequence(a, b), choices({"mse"}), Unfit::Refuse);
   EXPECT_FALSE(c.are_same);
-  EXPECT_EQ(c.results[0].value, 0);
+  EXPECT_EQ(c.results[0].value, 1);  // over white
+}
+
+TEST(Compare, TheWorseOfBlackAndWhiteCounts) {
+  const std::vector<Picture> half = {make_picture(DisplayImage(16, 16, {0, 0, 0, 0.5f}))};
+  const std::vector<Picture> clear = {make_picture(DisplayImage(16, 16, {0, 0, 0, 0}))};
+  const std::vector<Picture> white = {make_picture(DisplayImage(16, 16, {1, 1, 1, 1}))};
+  const Comparison dark = compare(sequence(clear, half), choices({"psnr", "mae", "ssim"}), Unfit::Refuse);
+  EXPECT_NEAR(find(dark, "psnr")->value, psnr_of_mse(0.25), 1e-9);
+  EXPECT_NEAR(find(dark, "mae")->score.more[0].value, 0.5, 1e-9);
+  EXPECT_LT(find(dark, "ssim")->value, 0.9);
+  // Over black these differ by 1, over white not at all.
+  EXPECT_EQ(compare(sequence(white, clear), choices({"mae"}), Unfit::Refuse).results[0].value, 1);
+  // Light without alpha adds to the background.
+  const std::vector<Picture> flame = {make_picture(LinearImage(16, 16, {4, 2, 1, 0}))};
+  const std::vector<Picture> none = {make_picture(LinearImage(16, 16, {0, 0, 0, 0}))};
+  EXPECT_EQ(compare(sequence(none, flame), choices({"mse"}), Unfit::Refuse).results[0].value, 1);
+}
+
+TEST(Compare, AnOpaqueFrameBesideATransparentOneKeepsItsValue) {
+  const Picture grey = flat(0.5f), lighter = flat(0.75f), clear = make_picture(DisplayImage(16, 16, {0, 0, 0, 0}));
+  const std::vector<Picture> a = {grey, clear, grey}, b = {lighter, clear, lighter};
+  const Comparison c = compare(sequence(a, b), choices({"mse", "flicker"}), Unfit::Refuse);
+  EXPECT_EQ(find(c, "mse")->values, (std::vector<double>{0.0625, 0, 0.0625}));
+  EXPECT_EQ(find(c, "flicker")->values.size(), 2u);
+}
+
+TEST(Compare, ValuesThatAreNotFiniteAreMeasuredAsNumbers) {
+  LinearImage light(8, 8, {0.5f, 0.5f, 0.5f, 1});
+  light(1, 2) = {std::nanf(""), std::numeric_limits<float>::infinity(), 0, 1};
+  const std::vector<Picture> a = {make_picture(LinearImage(8, 8, {0.5f, 0.5f, 0.5f, 1}))}, b = {make_picture(light)};
+  EXPECT_EQ(count_not_finite(a[0]), 0u);
+  EXPECT_EQ(count_not_finite(b[0]), 1u);
+  const Comparison c = compare(sequence(a, b), choices({"mse", "flip", "flip_hdr", "cvvdp"}), Unfit::Leave);
+  for (const Result& result : c.results) EXPECT_TRUE(std::isfinite(result.value)) << result.metric->name;
+  EXPECT_FALSE(c.are_same);
+  EXPECT_TRUE(compare(sequence(b, b), choices({"mse"}), Unfit::Refuse).are_same);
 }
 
 std::string refusal(const Picture& a, const Picture& b, std::string_view name) {

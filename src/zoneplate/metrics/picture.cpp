@@ -2,8 +2,11 @@
 #include "zoneplate/metrics/picture.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/metrics/backdrop.h"
 #include "zoneplate/metrics/rows.h"
 
 namespace zoneplate::metrics {
@@ -13,7 +16,8 @@ Linear light_of(Display c) { return {decode_srgb(c.r) * c.a, decode_srgb(c.g) * 
 
 float code_of(float premultiplied, float alpha) { return encode_srgb(std::clamp(premultiplied / alpha, 0.0f, 1.0f)); }
 
-Display shown(Linear c) {
+Display shown(Linear stored) {
+  const Linear c = finite(stored);
   if (!(c.a > 0)) return {0, 0, 0, 0};
   return {code_of(c.r, c.a), code_of(c.g, c.a), code_of(c.b, c.a), std::min(c.a, 1.0f)};
 }
@@ -30,6 +34,21 @@ Picture make_picture(LinearImage linear) {
   DisplayImage display(linear.width(), linear.height());
   for_rows(linear.height(), [&](int y) { std::ranges::transform(linear.row(y), display.row(y).begin(), shown); });
   return {std::move(display), std::move(linear), true};
+}
+
+bool has_same_values(const Picture& a, const Picture& b) {
+  if (a.is_scene_linear != b.is_scene_linear) return false;
+  if (!a.is_scene_linear) return a.display == b.display;
+  const auto has_same_bits = [](const Linear& p, const Linear& q) {
+    return std::bit_cast<std::array<std::uint32_t, 4>>(p) == std::bit_cast<std::array<std::uint32_t, 4>>(q);
+  };
+  return a.width() == b.width() && a.height() == b.height() &&
+         std::ranges::equal(a.linear.values(), b.linear.values(), has_same_bits);
+}
+
+std::size_t count_not_finite(const Picture& picture) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(picture.linear.values(), [](const Linear& c) { return !is_finite(c); }));
 }
 
 Plane<double> luma_plane(const DisplayImage& image, LumaWeights weights) {

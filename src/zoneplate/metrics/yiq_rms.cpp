@@ -77,6 +77,7 @@ Metric yiq_rms() {
               "Color Difference Using YIQ NTSC Transmission Color Space in Mobile Applications, 2010",
           .unit = "dB",
           .perfect = -std::numeric_limits<double>::infinity(),
+          .defines_alpha = true,
           .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
             return measure(reference[0].display, test[0].display);
           },

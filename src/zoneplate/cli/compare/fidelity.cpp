@@ -18,8 +18,8 @@
 #include "zoneplate/formats/json/json.h"
 #include "zoneplate/math/angle.h"
 #include "zoneplate/metrics/compare.h"
+#include "zoneplate/metrics/file/picture_file.h"
 #include "zoneplate/metrics/metrics.h"
-#include "zoneplate/metrics/picture_file.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/report/table.h"
 

@@ -11,8 +11,8 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/usage.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/metrics/file/picture_file.h"
 #include "zoneplate/metrics/metrics.h"
-#include "zoneplate/metrics/picture_file.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {

@@ -31,9 +31,11 @@ std::string value_text(const JudgedItem& item, const metrics::Metric* metric) {
   return found == item.results.end() ? "–" : number_text(found->value);
 }
 
+/// Why an item failed, and what the metrics do not say of it.
 std::string reason_of(const JudgedItem& item) {
-  if (!item.evidence.is_left_out) return item.message;
-  return item.message + " (its images are left out: the page has its greatest size)";
+  std::string text = item.message;
+  for (const std::string& remark : remarks_of(item)) text += (text.empty() ? "" : "; ") + remark;
+  return text + (item.evidence.is_left_out ? " (its images are left out: the page has its greatest size)" : "");
 }
 
 /// The images of items and their places in the page.
@@ -47,6 +49,7 @@ class JudgementPage {
     else
       for (const JudgedItem& item : judgement_.items) add_pair(item);
     std::string text = fmt::format("Test images: {}. References: {}.", shown(paths_.test), shown(paths_.reference));
+    if (!judgement_.not_compared.empty()) text += fmt::format(" Not compared: {}.", joined(judgement_.not_compared));
     if (!judgement_.pooled_message.empty()) text += fmt::format(" All images: {}.", judgement_.pooled_message);
     Json::Array tables;
     if (judgement_.items.size() > 1) tables.emplace_back(pooled_table());
@@ -81,7 +84,7 @@ class JudgementPage {
     if (item.evidence.test.png.empty()) return;
     targets_.back() = Json::Object{{"scene", scene}, {"failed", !item.passed()}};
     scenes_.emplace_back(Json::Object{{"name", shown(item.name)},
-                                      {"text", shown(item.message)},
+                                      {"text", shown(reason_of(item))},
                                       {"failed", !item.passed()},
                                       {"images", images_of({add(item.evidence.reference)}, {add(item.evidence.test)},
                                                            {add(item.evidence.errors)}, item.evidence.error_text)}});

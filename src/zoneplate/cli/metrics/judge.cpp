@@ -9,6 +9,7 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/metrics/file/picture_file.h"
 #include "zoneplate/metrics/flip/magma.h"
 
 namespace zoneplate::cli {
@@ -30,21 +31,27 @@ std::optional<double> value_of(const Bound& bound, double value, const metrics::
   return std::nullopt;
 }
 
-/// Which bounds the values of one metric miss, as the text of a message; empty if none.
-std::string shortfall(const std::vector<Bound>& bounds, const Metric* metric, double value,
-                      const metrics::Score& score) {
-  std::string text;
-  for (const Bound& bound : bounds) {
-    if (bound.metric != metric) continue;
-    const std::optional<double> found = value_of(bound, value, score);
-    if (found && metrics::is_as_good(*metric, *found, bound.value)) continue;
-    const std::string name = std::string(metric->name) + (bound.figure.empty() ? "" : "." + bound.figure);
-    text += text.empty() ? "" : "; ";
-    text += found ? fmt::format("{} is {}, the threshold is {} or {}", name, number_text(*found),
-                                number_text(bound.value), metric->better == metrics::Better::Lower ? "less" : "more")
-                  : fmt::format("{} has no value", name);
-  }
-  return text;
+void append(std::string& text, const std::string& more) { text += (text.empty() || more.empty() ? "" : "; ") + more; }
+
+/// How a value misses a bound, as the text of a message; empty if it does not.
+std::string shortfall(const Bound& bound, const std::optional<double>& found) {
+  const Metric& metric = *bound.metric;
+  if (found && metrics::is_as_good(metric, *found, bound.value)) return {};
+  const std::string name = std::string(metric.name) + (bound.figure.empty() ? "" : "." + bound.figure);
+  if (!found) return name + " has no value";
+  return fmt::format("{} is {}, the threshold is {} or {}", name, number_text(*found), number_text(bound.value),
+                     metric.better == metrics::Better::Lower ? "less" : "more");
+}
+
+/// What the images of a pair have in common: "name" or "number", with the shift if two whole sequences have one.
+std::string pairing_of(const metrics::PictureSet& reference, const metrics::PictureSet& test) {
+  const std::vector<std::uint64_t>&a = reference.numbers, &b = test.numbers;
+  if (a.empty() || b.empty()) return reference.is_directory ? "name" : "number";
+  const bool is_whole =
+      a.size() == b.size() && a.back() - a.front() == a.size() - 1 && b.back() - b.front() == b.size() - 1;
+  if (!is_whole || a.front() == b.front()) return "number";
+  return fmt::format("number: the references are {} to {}, the test images {} to {}", a.front(), a.back(), b.front(),
+                     b.back());
 }
 
 /// Judges one pair after another; everything else of the Judgement follows from the items.
@@ -55,6 +62,7 @@ class Judge {
       : reference_(reference),
         test_(test),
         verdicts_(verdicts),
+        by_(pairing_of(reference, test)),
         keeps_evidence_(keeps_evidence),
         keeps_passed_(has_one_pair || (reference.are_frames && test.are_frames)) {
     for (const Choice& choice : choices) (is_single(choice) ? singles_ : sequences_).push_back(choice);
@@ -66,9 +74,9 @@ class Judge {
     JudgedItem item{.name = pair.name};
     try {
       if (!pair.test) {
-        unpaired(item, Outcome::Missing, "there is no test image of this name");
+        unpaired(item, Outcome::Missing, "there is no test image of this " + by_);
       } else if (!pair.reference) {
-        unpaired(item, Outcome::New, "there is no reference of this name");
+        unpaired(item, Outcome::New, "there is no reference of this " + by_);
       } else {
         measure(*pair.reference, *pair.test, item);
       }
@@ -88,35 +96,42 @@ class Judge {
                          return item.width == first.width && item.height == first.height;
                        });
     std::erase_if(out_.pooled, [](const PooledResult& pooled) { return pooled.values.empty(); });
-    for (PooledResult& pooled : out_.pooled) {
+    for (PooledResult& pooled : out_.pooled)
       if (!pooled.items.empty())
         pooled.value = pooled.values.size() == 1 ? pooled.values[0] : pooled.metric->pool(pooled.values);
-      // Values of several frames belong to no single image: their bounds always hold for the sequence.
-      if (!verdicts_.judges_mean && !pooled.items.empty()) continue;
-      const std::string text = shortfall(verdicts_.bounds, pooled.metric, pooled.value, pooled.score);
-      out_.pooled_message += (text.empty() || out_.pooled_message.empty() ? "" : "; ") + text;
-    }
+    // Values of several frames belong to no single image: their bounds always hold for the sequence.
+    for (const Bound& bound : verdicts_.bounds)
+      if (verdicts_.judges_mean || bound.metric->frames > 1) append(out_.pooled_message, pooled_shortfall(bound));
     return std::move(out_);
   }
 
  private:
-  void unpaired(JudgedItem& item, Outcome outcome, const char* message) const {
+  std::string pooled_shortfall(const Bound& bound) const {
+    const auto found = std::ranges::find(out_.pooled, bound.metric, &PooledResult::metric);
+    if (found == out_.pooled.end()) return shortfall(bound, std::nullopt);
+    return shortfall(bound, value_of(bound, found->value, found->score));
+  }
+
+  void unpaired(JudgedItem& item, Outcome outcome, const std::string& message) const {
     item.outcome = verdicts_.allows_unpaired ? Outcome::Passed : outcome;
     item.message = message;
   }
 
   void measure(std::size_t reference_index, std::size_t test_index, JudgedItem& item) {
-    const Picture reference = reference_.load(reference_index), test = test_.load(test_index);
+    const metrics::ImageFile reference_file = reference_.open(reference_index), test_file = test_.open(test_index);
+    const Picture reference = metrics::decode_file(reference_file), test = metrics::decode_file(test_file);
     item.width = test.width(), item.height = test.height();
-    const bool is_equal = reference.width() == test.width() && reference.height() == test.height();
+    item.stored = metrics::compare_stored(reference_file, reference, test_file, test);
+    std::string sizes;
+    if (reference.width() != test.width() || reference.height() != test.height())
+      sizes = fmt::format("{} × {} pixels, expected {} × {} as the reference", test.width(), test.height(),
+                          reference.width(), reference.height());
     const auto takes_any = [](const Choice& c) { return c.metric->sizes == metrics::Sizes::ReferenceMultiple; };
-    if (!is_equal && std::ranges::none_of(singles_, takes_any)) {
+    if (!sizes.empty() && std::ranges::none_of(singles_, takes_any)) {
       item.outcome = Outcome::Failed;
-      item.message = fmt::format("{} × {} pixels, expected {} × {} as the reference", test.width(), test.height(),
-                                 reference.width(), reference.height());
+      item.message = sizes;
       return;
     }
-    item.is_identical = is_equal && reference.display == test.display;
     Comparison comparison;
     const metrics::Comparands one{.count = 1,
                                   .reference = [&](std::size_t) { return reference; },
@@ -130,26 +145,32 @@ class Judge {
       item.message = error.what();
       return;
     }
-    decide(comparison.results, item);
+    decide(comparison.results, sizes, item);
     keep_maps(reference, test, comparison.results, item);
     for (Result& result : comparison.results) result.score.map = {};
     item.results = std::move(comparison.results);
     pool(item.results);
   }
 
-  void decide(const std::vector<Result>& results, JudgedItem& item) const {
+  /// `sizes`: how the sizes differ, if they do.
+  void decide(const std::vector<Result>& results, const std::string& sizes, JudgedItem& item) const {
     if (verdicts_.bounds.empty()) {
-      if (item.is_identical) return;
-      item.outcome = Outcome::Failed;
-      item.message = "the images differ";
+      if (!item.is_identical()) append(item.message, sizes.empty() ? "the images differ" : sizes);
+    } else {
+      for (const auto& [name, values] :
+           {std::pair("the reference", &item.stored.reference), std::pair("the test image", &item.stored.test)})
+        if (values->is_wrong)
+          append(item.message, fmt::format("{} is not finite: {}", name, text_of(values->channels)));
+      for (const Bound& bound : verdicts_.bounds)
+        if (!verdicts_.judges_mean && bound.metric->frames == 1) append(item.message, shortfall_of(bound, results));
     }
-    if (verdicts_.judges_mean) return;
-    for (const Result& result : results) {
-      const std::string text = shortfall(verdicts_.bounds, result.metric, result.value, result.score);
-      if (text.empty()) continue;
-      item.outcome = Outcome::Failed;
-      item.message += (item.message.empty() ? "" : "; ") + text;
-    }
+    if (!item.message.empty()) item.outcome = Outcome::Failed;
+  }
+
+  static std::string shortfall_of(const Bound& bound, const std::vector<Result>& results) {
+    const auto found = std::ranges::find(results, bound.metric, &Result::metric);
+    if (found == results.end()) return shortfall(bound, std::nullopt);
+    return shortfall(bound, value_of(bound, found->value, found->score));
   }
 
   /// Keeps the map if this image is the worst so far, and the evidence of a failure.
@@ -202,7 +223,9 @@ class Judge {
 
   /// Metrics of several frames: over all pairs, if every frame could be compared.
   void measure_sequences(const std::vector<metrics::PicturePair>& pairs) {
-    const bool is_sequence = reference_.are_frames && test_.are_frames;
+    // The images of a folder, as photo1 and photo2, are a sequence only for who asks for a metric of several frames.
+    const bool are_listed = reference_.is_directory && !verdicts_.refuses_unfit;
+    const bool is_sequence = reference_.are_frames && test_.are_frames && !are_listed;
     const bool is_complete =
         std::ranges::all_of(out_.items, [](const JudgedItem& item) { return item.width > 0; }) &&
         std::ranges::all_of(pairs, [](const metrics::PicturePair& pair) { return pair.reference && pair.test; });
@@ -235,6 +258,7 @@ class Judge {
   const metrics::PictureSet &reference_, &test_;
   std::vector<Choice> singles_, sequences_;
   const Verdicts& verdicts_;
+  const std::string by_;  ///< what pairs have in common
   const bool keeps_evidence_, keeps_passed_;
   std::size_t evidence_bytes_ = 0;
   Judgement out_;
@@ -247,9 +271,7 @@ std::size_t Judgement::failures() const {
   return static_cast<std::size_t>(std::ranges::count_if(items, [](const JudgedItem& item) { return !item.passed(); }));
 }
 
-bool Judgement::is_identical() const {
-  return std::ranges::all_of(items, [](const JudgedItem& item) { return item.is_identical; });
-}
+bool Judgement::is_identical() const { return std::ranges::all_of(items, &JudgedItem::is_identical); }
 
 Judgement judge(const metrics::PictureSet& reference, const metrics::PictureSet& test,
                 const std::vector<Choice>& choices, const Verdicts& verdicts, bool keeps_evidence,
@@ -260,7 +282,22 @@ Judgement judge(const metrics::PictureSet& reference, const metrics::PictureSet&
     progress(static_cast<double>(i) / static_cast<double>(pairs.size()));
     all.add(pairs[i]);
   }
-  return all.finish(pairs);
+  Judgement out = all.finish(pairs);
+  out.not_compared = reference.others;
+  for (const std::string& other : test.others)
+    if (std::ranges::find(out.not_compared, other) == out.not_compared.end()) out.not_compared.push_back(other);
+  return out;
+}
+
+std::string text_of(const std::vector<metrics::ChannelCount>& counts) {
+  std::string text;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    text += (text.empty() ? "" : ", ") + counts[i].channel;
+    const bool is_last = i + 1 == counts.size();
+    if (!is_last && counts[i + 1].pixels == counts[i].pixels) continue;
+    text += fmt::format(" in {} {}", counts[i].pixels, counts[i].pixels == 1 ? "pixel" : "pixels");
+  }
+  return text;
 }
 
 std::string number_text(double value) { return fmt::format("{:.6g}", value); }

@@ -8,7 +8,7 @@
 
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/metrics/compare.h"
-#include "zoneplate/metrics/picture_set.h"
+#include "zoneplate/metrics/file/picture_set.h"
 #include "zoneplate/report/html_page.h"
 
 namespace zoneplate::cli {
@@ -47,14 +47,15 @@ struct Evidence {
 struct JudgedItem {
   std::string name;
   Outcome outcome = Outcome::Passed;
-  std::string message;  ///< why it failed
-  bool is_identical = false;
+  std::string message;                                      ///< why it failed
+  metrics::StoredDifference stored{.is_identical = false};  ///< what the metrics do not say
   double seconds = 0;
   int width = 0, height = 0;             ///< of the test image; 0 if it was not measured
   std::vector<metrics::Result> results;  ///< without maps
   Evidence evidence;                     ///< only if it was requested
 
   bool passed() const { return outcome == Outcome::Passed; }
+  bool is_identical() const { return stored.is_identical; }
 };
 
 /// The value of one metric over all images that it measured.
@@ -70,7 +71,8 @@ struct PooledResult {
 
 struct Judgement {
   std::vector<JudgedItem> items;
-  bool is_sequence = false;  ///< the items are frames of equal size
+  std::vector<std::string> not_compared;  ///< files of the directories, in formats that are not read there
+  bool is_sequence = false;               ///< the items are frames of equal size
   std::vector<PooledResult> pooled;
   std::string pooled_message;  ///< which pooled value misses its bound; empty if none does
   /// The error map of the worst image by the first metric that has one, and its reference.
@@ -89,6 +91,9 @@ struct Judgement {
 Judgement judge(const metrics::PictureSet& reference, const metrics::PictureSet& test,
                 const std::vector<metrics::Choice>& choices, const Verdicts& verdicts, bool keeps_evidence,
                 const std::function<void(double)>& progress);
+
+/// "R, G, B in 64 pixels; Z in 3 pixels".
+std::string text_of(const std::vector<metrics::ChannelCount>& counts);
 
 /// A number with six digits; infinities are "inf" and "-inf".
 std::string number_text(double value);

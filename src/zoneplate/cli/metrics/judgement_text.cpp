@@ -67,6 +67,20 @@ Json json_of(const Judgement& judgement, const PooledResult& pooled) {
   return row;
 }
 
+Json json_texts(const std::vector<std::string>& texts) {
+  Json::Array out;
+  for (const std::string& text : texts) out.emplace_back(text);
+  return out;
+}
+
+/// The number of pixels by channel.
+Json json_of(const std::vector<metrics::ChannelCount>& counts) {
+  Json::Object out;
+  for (const metrics::ChannelCount& count : counts)
+    out.emplace_back(count.channel, static_cast<std::uint64_t>(count.pixels));
+  return out;
+}
+
 Json json_of(const JudgedItem& item) {
   Json::Object values;
   for (const metrics::Result& result : item.results)
@@ -76,7 +90,12 @@ Json json_of(const JudgedItem& item) {
   if (item.width > 0) {
     row.emplace_back("width", item.width);
     row.emplace_back("height", item.height);
-    row.emplace_back("identical", item.is_identical);
+    row.emplace_back("identical", item.is_identical());
+    row.emplace_back("different", json_of(item.stored.differing));
+    row.emplace_back("equal_layers", json_texts(item.stored.equal_layers));
+    row.emplace_back("not_finite", Json::Object{{"reference", json_of(item.stored.reference.channels)},
+                                                {"test", json_of(item.stored.test.channels)}});
+    row.emplace_back("notes", json_texts(item.stored.notes));
   }
   if (!values.empty()) row.emplace_back("metrics", std::move(values));
   return row;
@@ -87,6 +106,25 @@ Json json_of(const JudgedItem& item) {
 std::string_view name_of(Outcome outcome) {
   constexpr std::array<std::string_view, 5> names = {"passed", "failed", "missing", "new", "unreadable"};
   return names[static_cast<std::size_t>(outcome)];
+}
+
+std::string joined(const std::vector<std::string>& texts) {
+  std::string out;
+  for (const std::string& text : texts) out += (out.empty() ? "" : ", ") + text;
+  return out;
+}
+
+std::vector<std::string> remarks_of(const JudgedItem& item) {
+  const metrics::StoredDifference& stored = item.stored;
+  std::vector<std::string> out;
+  if (!stored.differing.empty()) out.push_back("stored values differ: " + text_of(stored.differing));
+  if (!stored.reference.channels.empty())
+    out.push_back("not finite in the reference: " + text_of(stored.reference.channels));
+  if (!stored.test.channels.empty()) out.push_back("not finite in the test image: " + text_of(stored.test.channels));
+  if (!stored.equal_layers.empty())
+    out.push_back(fmt::format("compared for equality only, and equal: {}", joined(stored.equal_layers)));
+  out.insert(out.end(), stored.notes.begin(), stored.notes.end());
+  return out;
 }
 
 std::string text_of(const Judgement& judgement) {
@@ -104,9 +142,14 @@ std::string text_of(const Judgement& judgement) {
     text.erase(text.find_last_not_of(' ') + 1);
     text += '\n';
   }
-  if (count == 1) return text;
-  for (const JudgedItem& item : judgement.items)
-    if (!item.message.empty()) text += fmt::format("{:<12}{}: {}\n", name_of(item.outcome), item.name, item.message);
+  if (!judgement.not_compared.empty()) text += fmt::format("not compared: {}\n", joined(judgement.not_compared));
+  for (const JudgedItem& item : judgement.items) {
+    const std::vector<std::string> remarks = remarks_of(item);
+    const bool is_listed = count > 1 && (!item.message.empty() || item.stored.has_news());
+    if (is_listed) text += fmt::format("{:<12}{}: {}\n", name_of(item.outcome), item.name, item.message);
+    if (is_listed || count == 1)
+      for (const std::string& remark : remarks) text += fmt::format("  {}\n", remark);
+  }
   return text;
 }
 
@@ -130,6 +173,7 @@ Json json_of(const Judgement& judgement, const ComparedPaths& paths) {
   out.emplace_back("identical", judgement.is_identical());
   out.emplace_back("passed", judgement.passed());
   out.emplace_back("failed", static_cast<std::uint64_t>(judgement.failures()));
+  if (!judgement.not_compared.empty()) out.emplace_back("not_compared", json_texts(judgement.not_compared));
   out.emplace_back("metrics", std::move(rows));
   out.emplace_back("items", std::move(items));
   return out;

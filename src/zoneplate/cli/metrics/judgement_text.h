@@ -25,6 +25,13 @@ std::string junit_of(const Judgement& judgement, const ComparedPaths& paths, con
 /// The result as a page for a browser (report/html_page.h), with the evidence of the items.
 std::string html_of(const Judgement& judgement, const ComparedPaths& paths);
 
+/// What the metrics do not say of a pair, a line each: stored values that differ or are not finite, layers that were
+/// only compared for equality, and what was not compared.
+std::vector<std::string> remarks_of(const JudgedItem& item);
+
+/// The texts with commas between them.
+std::string joined(const std::vector<std::string>& texts);
+
 /// What standard error reports if something failed: one line; empty if everything passed.
 std::string failure_of(const Judgement& judgement);
 

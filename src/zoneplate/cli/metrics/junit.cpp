@@ -16,6 +16,17 @@ std::string values_of(const JudgedItem& item) {
   for (const metrics::Result& result : item.results)
     text += fmt::format("{} {}{}{}\n", result.metric->name, number_text(result.value),
                         result.metric->unit.empty() ? "" : " ", result.metric->unit);
+  for (const std::string& remark : remarks_of(item)) text += remark + '\n';
+  return text;
+}
+
+/// What the metrics do not say of the images that pass: of a test case that passes, the format has no text.
+std::string remarks_of_passed(const Judgement& judgement) {
+  std::string text;
+  for (const JudgedItem& item : judgement.items)
+    if (item.passed() && item.stored.has_news())
+      for (const std::string& remark : remarks_of(item)) text += fmt::format("{}: {}\n", item.name, remark);
+  if (!judgement.not_compared.empty()) text += fmt::format("not compared: {}\n", joined(judgement.not_compared));
   return text;
 }
 
@@ -50,7 +61,9 @@ std::string junit_of(const Judgement& judgement, const ComparedPaths& paths, con
         "    <testcase name=\"all images\" classname=\"zoneplate.metrics\" time=\"0.000\">\n      <failure "
         "type=\"failed\" message=\"{}\"></failure>\n    </testcase>\n",
         escape_markup(judgement.pooled_message));
-  return text + "    <system-out></system-out>\n    <system-err></system-err>\n  </testsuite>\n</testsuites>\n";
+  return text +
+         fmt::format("    <system-out>{}</system-out>\n    <system-err></system-err>\n  </testsuite>\n</testsuites>\n",
+                     escape_markup(remarks_of_passed(judgement)));
 }
 
 }  // namespace zoneplate::cli

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <string_view>
 #include <utility>
 
 #include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/codec/exr.h"
 #include "zoneplate/codec/hdr.h"
+#include "zoneplate/codec/inspect/image_format.h"
 #include "zoneplate/codec/jpeg.h"
 #include "zoneplate/codec/ktx2/ktx2.h"
 #include "zoneplate/codec/pfm.h"
@@ -19,22 +19,6 @@
 
 namespace zoneplate {
 namespace {
-
-bool has_text(std::span<const std::uint8_t> bytes, std::size_t at, std::string_view text) {
-  return bytes.size() >= at + text.size() &&
-         std::equal(text.begin(), text.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at),
-                    [](char c, std::uint8_t b) { return static_cast<std::uint8_t>(c) == b; });
-}
-
-/// The name of a known image format that is not supported.
-std::string_view known_format(std::span<const std::uint8_t> bytes) {
-  if (has_text(bytes, 1, "KTX ")) return "a KTX 1";
-  if (has_text(bytes, 0, "DDS ")) return "a DDS";
-  if (has_text(bytes, 0, "GIF8")) return "a GIF";
-  if (has_text(bytes, 4, "ftypavif")) return "an AVIF";
-  if (has_text(bytes, 0, "BM")) return "a BMP";
-  return "no known";
-}
 
 int big_endian(std::span<const std::uint8_t> bytes, std::size_t at, int size) {
   std::uint32_t v = 0;
@@ -121,8 +105,7 @@ TexelImage decode_image(std::span<const std::uint8_t> bytes, const std::string& 
   if (is_png(bytes)) return decode_png_texels(bytes, name, max_pixels);
   if (is_ktx2(bytes)) return decode_ktx2(bytes, name, max_pixels);
   if (is_pfm(bytes)) return decode_pfm_light(bytes, name, max_pixels);
-  throw Error(ErrorKind::Input, name + ": is " + std::string(known_format(bytes)) +
-                                    " image, expected PNG, JPEG, WebP, HDR, EXR, PFM or KTX2");
+  throw unread_format(bytes, name, "PNG, JPEG, WebP, HDR, EXR, PFM or KTX2");
 }
 
 std::optional<std::string> size_warning(const TextureImage& image) {

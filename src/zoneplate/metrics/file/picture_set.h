@@ -1,27 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "zoneplate/metrics/file/stored.h"
 #include "zoneplate/metrics/picture.h"
 
 namespace zoneplate::metrics {
 
 /// The images of one operand, in order. They are loaded one at a time.
 struct PictureSet {
-  std::vector<std::string> names;            ///< for messages: in a directory, the path within it
-  std::function<Picture(std::size_t)> load;  ///< Errors: ErrorKind::Input naming the file and the cause
-  bool is_directory = false;                 ///< its images are paired by name
-  bool are_frames = false;                   ///< the images are consecutive frames of one sequence
+  std::vector<std::string> names;              ///< for messages: in a directory, the path within it
+  std::function<ImageFile(std::size_t)> open;  ///< Errors: ErrorKind::Input naming the file and the cause
+  std::vector<std::uint64_t> numbers = {};     ///< of the frames, ascending, if the operand is a pattern
+  bool is_directory = false;                   ///< its images are paired by name
+  bool are_frames = false;                     ///< their names differ only by numbers, or they are those of a video
+  std::vector<std::string> others = {};        ///< images and films of a directory in formats that are not read there
+
+  Picture load(std::size_t index) const;  ///< decode_file(open(index))
 };
 
 /// Lists the images of an operand.
 ///
 /// A directory: its images and those of its subfolders, in natural order. A video (.mp4, .m4v, .mov, .mkv, .webm, .avi,
-/// .gif, .apng): its frames, decoded by ffmpeg. Anything else: as list_pictures (metrics/picture_file.h).
+/// .gif, .apng): its frames, decoded by ffmpeg. Anything else: as list_pictures (metrics/file/picture_file.h).
 /// Errors    ErrorKind::Input if nothing is found, or ffmpeg cannot decode the video.
 PictureSet open_pictures(const std::string& operand);
 
@@ -32,7 +38,7 @@ struct PicturePair {
 };
 
 /// Pairs the images of two sets. The images of two directories are paired by their path, or else by their path without
-/// the extension; all others by their order.
+/// the extension; two sequences that are patterns by the numbers of their frames; all others by their order.
 std::vector<PicturePair> pair_pictures(const PictureSet& reference, const PictureSet& test);
 
 }  // namespace zoneplate::metrics

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/metrics/picture_set.h"
+#include "zoneplate/metrics/file/picture_set.h"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/codec/png.h"
-#include "zoneplate/metrics/picture_file.h"
+#include "zoneplate/metrics/file/picture_file.h"
 #include "zoneplate/os/run_program.h"
 
 namespace zoneplate::metrics {
@@ -94,9 +94,8 @@ PictureSet open_video(const std::string& path) {
   if (images.empty()) throw Error(ErrorKind::Input, path + ": the video has no frame");
   PictureSet set{.are_frames = true};
   for (std::size_t i = 0; i < images.size(); ++i) set.names.push_back(fmt::format("frame {}", i + 1));
-  set.load = [stream, images, path](std::size_t i) {
-    const std::string name = fmt::format("{}, frame {}", path, i + 1);
-    return decode_picture(images[i], name);
+  set.open = [stream, images, path](std::size_t i) {
+    return ImageFile{fmt::format("{}, frame {}", path, i + 1), images[i], stream};
   };
   return set;
 }
@@ -108,29 +107,52 @@ std::string without_extension(const std::string& path) { return fs::path(path).r
 PictureSet open_pictures(const std::string& operand) {
   if (is_video_name(operand) && !is_directory(operand)) return open_video(operand);
   PictureSet set{.is_directory = is_directory(operand)};
-  auto paths = std::make_shared<const std::vector<std::string>>(set.is_directory ? list_pictures_below(operand)
-                                                                                 : list_pictures(operand));
+  PictureFiles files = set.is_directory ? PictureFiles{list_pictures_below(operand)} : list_pictures(operand);
+  set.numbers = std::move(files.numbers);
+  if (set.is_directory)
+    for (const std::string& other : list_other_images(operand))
+      set.others.push_back(fs::path(other).lexically_relative(operand).string());
+  auto paths = std::make_shared<const std::vector<std::string>>(std::move(files.paths));
   for (const std::string& path : *paths)
     set.names.push_back(set.is_directory ? fs::path(path).lexically_relative(operand).string()
                                          : fs::path(path).filename().string());
-  set.load = [paths](std::size_t i) { return load_picture((*paths)[i]); };
+  set.open = [paths](std::size_t i) { return open_image((*paths)[i]); };
   set.are_frames = are_frames(*paths);
   return set;
 }
 
-std::vector<PicturePair> pair_pictures(const PictureSet& reference, const PictureSet& test) {
+Picture PictureSet::load(std::size_t index) const { return decode_file(open(index)); }
+
+namespace {
+
+std::vector<PicturePair> pair_by_order(const PictureSet& reference, const PictureSet& test) {
   std::vector<PicturePair> pairs;
-  if (!reference.is_directory || !test.is_directory) {
-    const std::size_t count = std::max(reference.names.size(), test.names.size());
-    for (std::size_t i = 0; i < count; ++i) {
-      PicturePair pair;
-      if (i < reference.names.size()) pair.reference = i;
-      if (i < test.names.size()) pair.test = i;
-      pair.name = pair.test ? test.names[i] : reference.names[i];
-      pairs.push_back(std::move(pair));
-    }
-    return pairs;
+  for (std::size_t i = 0; i < std::max(reference.names.size(), test.names.size()); ++i) {
+    PicturePair pair;
+    if (i < reference.names.size()) pair.reference = i;
+    if (i < test.names.size()) pair.test = i;
+    pair.name = pair.test ? test.names[i] : reference.names[i];
+    pairs.push_back(std::move(pair));
   }
+  return pairs;
+}
+
+/// In the order of the numbers.
+std::vector<PicturePair> pair_by_number(const PictureSet& reference, const PictureSet& test) {
+  std::map<std::uint64_t, PicturePair> pairs;
+  for (std::size_t i = 0; i < reference.names.size(); ++i)
+    pairs[reference.numbers[i]] = {.name = reference.names[i], .reference = i, .test = {}};
+  for (std::size_t i = 0; i < test.names.size(); ++i) {
+    PicturePair& pair = pairs[test.numbers[i]];
+    pair.test = i, pair.name = test.names[i];
+  }
+  std::vector<PicturePair> out;
+  for (auto& [number, pair] : pairs) out.push_back(std::move(pair));
+  return out;
+}
+
+std::vector<PicturePair> pair_by_path(const PictureSet& reference, const PictureSet& test) {
+  std::vector<PicturePair> pairs;
   // The references that have no partner yet, by path and by path without extension.
   std::map<std::string, std::size_t> exact;
   std::multimap<std::string, std::size_t> loose;
@@ -155,6 +177,14 @@ std::vector<PicturePair> pair_pictures(const PictureSet& reference, const Pictur
   std::ranges::sort(missing);
   for (const std::size_t i : missing) pairs.push_back({.name = reference.names[i], .reference = i, .test = {}});
   return pairs;
+}
+
+}  // namespace
+
+std::vector<PicturePair> pair_pictures(const PictureSet& reference, const PictureSet& test) {
+  if (reference.is_directory && test.is_directory) return pair_by_path(reference, test);
+  const bool are_numbered = !reference.numbers.empty() && !test.numbers.empty();
+  return are_numbered ? pair_by_number(reference, test) : pair_by_order(reference, test);
 }
 
 }  // namespace zoneplate::metrics

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/metrics/picture_file.h"
+#include "zoneplate/metrics/file/picture_file.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -96,25 +96,25 @@ TEST_F(PictureFile, OfLightIsUnboundedAndItsCodesAreClamped) {
 TEST_F(PictureFile, DirectoriesListPicturesInTheOrderOfNumbers) {
   for (const char* name : {"d/f10.png", "d/f9.PNG", "d/f011.jpg", "d/e.png", "d/notes.txt", "d/inner/f1.png"})
     save(name);
-  EXPECT_EQ(names(list_pictures(at("d"))), (std::vector<std::string>{"e.png", "f9.PNG", "f10.png", "f011.jpg"}));
+  EXPECT_EQ(names(list_pictures(at("d")).paths), (std::vector<std::string>{"e.png", "f9.PNG", "f10.png", "f011.jpg"}));
   fs::create_directories(at("empty"));
-  EXPECT_THROW(list_pictures(at("empty")), Error);
+  EXPECT_THROW(list_pictures(at("empty")).paths, Error);
   for (const char* name : {"all/a.webp", "all/b.pfm", "all/c.hdr"}) save(name);
-  EXPECT_EQ(list_pictures(at("all")).size(), 3u);
+  EXPECT_EQ(list_pictures(at("all")).paths.size(), 3u);
 }
 
 TEST_F(PictureFile, PatternsFindFrames) {
   for (const char* name : {"f.0001.png", "f.0002.png", "f.10000.png", "f.3.png", "f.0001.jpg", "g.0001.png"})
     save(name);
   const std::vector<std::string> frames = {"f.0001.png", "f.0002.png", "f.10000.png"};
-  EXPECT_EQ(names(list_pictures(at("f.####.png"))), frames);
-  EXPECT_EQ(names(list_pictures(at("f.%04d.png"))), frames);
-  EXPECT_EQ(names(list_pictures(at("f.%d.png"))), (std::vector<std::string>{"f.3.png", "f.10000.png"}));
-  EXPECT_TRUE(are_frames(list_pictures(at("f.####.png"))));
+  EXPECT_EQ(names(list_pictures(at("f.####.png")).paths), frames);
+  EXPECT_EQ(names(list_pictures(at("f.%04d.png")).paths), frames);
+  EXPECT_EQ(names(list_pictures(at("f.%d.png")).paths), (std::vector<std::string>{"f.3.png", "f.10000.png"}));
+  EXPECT_TRUE(are_frames(list_pictures(at("f.####.png")).paths));
   EXPECT_FALSE(are_frames({"a1.png", "b1.png"}));
   EXPECT_FALSE(are_frames({"a1.png"}));
-  EXPECT_THROW(list_pictures(at("h.####.png")), Error);
-  EXPECT_EQ(list_pictures(at("missing.png")).size(), 1u);
+  EXPECT_THROW(list_pictures(at("h.####.png")).paths, Error);
+  EXPECT_EQ(list_pictures(at("missing.png")).paths.size(), 1u);
   EXPECT_THROW(load_picture(at("missing.png")), Error);
 }
 

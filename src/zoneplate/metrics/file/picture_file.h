@@ -6,19 +6,35 @@
 #include <string>
 #include <vector>
 
+#include "zoneplate/metrics/file/stored.h"
 #include "zoneplate/metrics/picture.h"
 
 namespace zoneplate::metrics {
 
+/// Opens an image file; "-" is stdin.
+///
+/// Errors    ErrorKind::Input naming the file and the cause.
+ImageFile open_image(const std::string& path);
+
+/// Decodes it as load_picture does.
+Picture decode_file(const ImageFile& file);
+
 /// Loads an image from a PNG (8 or 16 bits), JPEG, WebP, HDR, EXR or PFM file, recognised by its first bytes. "-" is
 /// stdin.
 ///
-/// HDR, EXR and PFM contain unbounded linear light; their display-referred values are clamped.
+/// HDR, EXR and PFM contain unbounded linear light, which is kept as it is stored, with NaN and infinities; their
+/// display-referred values are clamped.
 /// Errors    ErrorKind::Input naming the file and the cause.
 Picture load_picture(const std::string& path);
 
 /// The same from the bytes of a file; `name` is for messages.
 Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name);
+
+/// The image files of one operand, in order.
+struct PictureFiles {
+  std::vector<std::string> paths;
+  std::vector<std::uint64_t> numbers = {};  ///< of the frames, if the operand is a pattern
+};
 
 /// Lists the files of one operand, in order.
 ///
@@ -27,12 +43,15 @@ Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& n
 /// order of the numbers. Any other operand: that file.
 ///
 /// Errors    ErrorKind::Input if a directory or a pattern matches no image.
-std::vector<std::string> list_pictures(const std::string& operand);
+PictureFiles list_pictures(const std::string& operand);
 
 /// Lists the images of a directory and of its subfolders, in natural order of their paths.
 ///
 /// Errors    ErrorKind::Input if there is none, or a folder cannot be read.
 std::vector<std::string> list_pictures_below(const std::string& directory);
+
+/// The names of a directory's files, below it too, that end as images or films that list_pictures omits.
+std::vector<std::string> list_other_images(const std::string& directory);
 
 /// True if the names differ only by numbers, as those of the frames of a sequence do.
 bool are_frames(const std::vector<std::string>& paths);

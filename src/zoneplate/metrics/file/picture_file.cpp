@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/metrics/picture_file.h"
+#include "zoneplate/metrics/file/picture_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <cctype>
+#include <charconv>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string_view>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/codec/exr.h"
 #include "zoneplate/codec/hdr.h"
+#include "zoneplate/codec/inspect/image_format.h"
 #include "zoneplate/codec/jpeg.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
@@ -51,7 +53,8 @@ constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;
 DisplayImage decode_display(std::span<const std::uint8_t> bytes, const std::string& path) {
   if (is_jpeg(bytes)) return display_of(decode_jpeg(bytes, path));
   if (is_webp(bytes)) return display_of(decode_webp(bytes, path, most_pixels));
-  const PngImage png = decode_png(bytes, path);
+  if (!is_png(bytes)) throw unread_format(bytes, path, "PNG, JPEG, WebP, HDR, EXR or PFM");
+  const PngImage png = decode_png_as_stored(bytes, path, most_pixels);
   return png.pixels16.empty() ? display_of(png.pixels) : display_of(png.pixels16);
 }
 
@@ -77,11 +80,21 @@ bool comes_before(const std::string& a, const std::string& b) {
   return a.size() - i < b.size() - j;
 }
 
-bool is_picture_name(const fs::path& path) {
+std::string lower_extension(const fs::path& path) {
   std::string extension = path.extension().string();
   std::ranges::transform(extension, extension.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+  return extension;
+}
+
+bool is_picture_name(const fs::path& path) {
   constexpr std::array<std::string_view, 7> known = {".png", ".jpg", ".jpeg", ".webp", ".hdr", ".exr", ".pfm"};
-  return std::ranges::find(known, extension) != known.end();
+  return std::ranges::find(known, lower_extension(path)) != known.end();
+}
+
+bool is_other_image_name(const fs::path& path) {
+  constexpr std::string_view known[] = {".apng", ".gif", ".bmp",  ".tif", ".tiff", ".avif", ".heic", ".jxl", ".tga",
+                                        ".ktx2", ".dds", ".webm", ".mp4", ".mov",  ".mkv",  ".avi",  ".m4v"};
+  return std::ranges::find(known, lower_extension(path)) != std::end(known);
 }
 
 /// The paths of a directory's files whose names `accepts(name)` accepts; `Iterator` decides about subfolders.
@@ -103,11 +116,16 @@ struct FramePattern {
   std::string before, after;
   std::size_t digits = 1;
 
-  bool matches(const std::string& name) const {
-    if (name.size() < before.size() + after.size() + digits) return false;
-    if (!name.starts_with(before) || !name.ends_with(after)) return false;
-    const std::string number = name.substr(before.size(), name.size() - before.size() - after.size());
-    return std::ranges::all_of(number, is_digit) && (number.size() == digits || number.front() != '0');
+  /// The number in a name that matches.
+  std::optional<std::uint64_t> number_in(const std::string& name) const {
+    if (name.size() < before.size() + after.size() + digits) return std::nullopt;
+    if (!name.starts_with(before) || !name.ends_with(after)) return std::nullopt;
+    const std::string_view text(name.data() + before.size(), name.size() - before.size() - after.size());
+    if (text.size() > digits && text.front() == '0') return std::nullopt;
+    std::uint64_t number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+    return number;
   }
 };
 
@@ -141,34 +159,46 @@ std::vector<std::string> if_any(std::vector<std::string> paths, const std::strin
 
 Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name) {
   return is_hdr(bytes)   ? make_picture(decode_hdr(bytes, name))
-         : is_exr(bytes) ? make_picture(decode_exr(bytes, name))
+         : is_exr(bytes) ? make_picture(decode_exr_as_stored(bytes, name))
          : is_pfm(bytes) ? make_picture(decode_pfm(bytes, name))
                          : make_picture(decode_display(bytes, name));
 }
 
-Picture load_picture(const std::string& path) {
+ImageFile open_image(const std::string& path) {
+  auto file = std::make_shared<const FileBytes>(path);
+  const std::span<const std::uint8_t> bytes = file->bytes();
+  return {path, bytes, std::move(file)};
+}
+
+Picture decode_file(const ImageFile& file) {
   const MappedFileWatch watch;
-  const FileBytes file(path);
-  Picture picture = decode_picture(file.bytes(), path);
-  watch.check(path);
+  Picture picture = decode_picture(file.bytes, file.name);
+  watch.check(file.name);
   return picture;
 }
+
+Picture load_picture(const std::string& path) { return decode_file(open_image(path)); }
 
 std::vector<std::string> list_pictures_below(const std::string& directory) {
   return if_any(files_of<fs::recursive_directory_iterator>(directory, is_picture_name), directory);
 }
 
-std::vector<std::string> list_pictures(const std::string& operand) {
+std::vector<std::string> list_other_images(const std::string& directory) {
+  return files_of<fs::recursive_directory_iterator>(directory, is_other_image_name);
+}
+
+PictureFiles list_pictures(const std::string& operand) {
   const fs::path path(operand);
-  if (is_directory(operand)) return if_any(files_of(path, is_picture_name), operand);
+  if (is_directory(operand)) return {if_any(files_of(path, is_picture_name), operand)};
   const auto pattern = frame_pattern(path.filename().string());
   std::error_code ignored;
-  if (!pattern || fs::exists(path, ignored)) return {operand};
+  if (!pattern || fs::exists(path, ignored)) return {{operand}};
   const fs::path directory = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  std::vector<std::string> paths =
-      files_of(directory, [&](const fs::path& name) { return pattern->matches(name.string()); });
-  if (paths.empty()) throw Error(ErrorKind::Input, operand + ": no file has a number there");
-  return paths;
+  const auto number_of = [&](const fs::path& file) { return pattern->number_in(file.filename().string()); };
+  PictureFiles files{files_of(directory, number_of)};
+  if (files.paths.empty()) throw Error(ErrorKind::Input, operand + ": no file has a number there");
+  for (const std::string& file : files.paths) files.numbers.push_back(*number_of(file));
+  return files;
 }
 
 bool are_frames(const std::vector<std::string>& paths) {

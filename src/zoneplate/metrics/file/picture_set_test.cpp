@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/metrics/picture_set.h"
+#include "zoneplate/metrics/file/picture_set.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -58,14 +58,20 @@ TEST_F(PictureSets, DirectoriesPairByPathAndThenByStem) {
   EXPECT_EQ(partner("new.png"), "- new.png");
 }
 
-TEST_F(PictureSets, SequencesPairByOrder) {
-  for (const char* name : {"p1.png", "p2.png", "p3.png", "q7.png", "q8.png"}) save(name);
-  const auto pairs = pair_pictures(open_pictures(at("p#.png")), open_pictures(at("q#.png")));
-  ASSERT_EQ(pairs.size(), 3u);
-  EXPECT_EQ(pairs[1].reference, 1u);
-  EXPECT_EQ(pairs[1].test, 1u);
-  EXPECT_EQ(pairs[1].name, "q8.png");
-  EXPECT_FALSE(pairs[2].test);
+TEST_F(PictureSets, SequencesPairByTheNumbersOfTheirFrames) {
+  for (const char* name : {"p8.png", "p9.png", "p11.png", "q09.png", "q10.png", "q11.png"}) save(name);
+  const PictureSet reference = open_pictures(at("p#.png")), test = open_pictures(at("q##.png"));
+  const auto pairs = pair_pictures(reference, test);
+  ASSERT_EQ(pairs.size(), 4u);
+  const auto text = [&](const PicturePair& pair) {
+    return (pair.reference ? reference.names[*pair.reference] : "-") + " " + (pair.test ? test.names[*pair.test] : "-");
+  };
+  EXPECT_EQ(text(pairs[0]), "p8.png -");
+  EXPECT_EQ(text(pairs[1]), "p9.png q09.png");
+  EXPECT_EQ(text(pairs[2]), "- q10.png");
+  EXPECT_EQ(text(pairs[3]), "p11.png q11.png");
+  EXPECT_EQ(pairs[0].name, "p8.png");
+  EXPECT_EQ(pairs[1].name, "q09.png");
 }
 
 TEST_F(PictureSets, VideosAreDecodedByFfmpeg) {

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/codec/exr_header.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <string_view>
+
+#include "zoneplate/codec/exr.h"
+#include "zoneplate/codec/exr_encode.h"
+
+namespace zoneplate {
+namespace {
+
+using ExrBytes = std::span<const std::uint8_t>;
+
+/// Takes the text before the next zero byte from the front of `bytes`; at most 255 bytes.
+std::optional<std::string_view> take_text(ExrBytes& bytes) {
+  const std::size_t most = std::min<std::size_t>(bytes.size(), 256);
+  const auto end = std::find(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(most), 0);
+  if (end == bytes.begin() + static_cast<std::ptrdiff_t>(most)) return std::nullopt;
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
+                              static_cast<std::size_t>(end - bytes.begin()));
+  bytes = bytes.subspan(text.size() + 1);
+  return text;
+}
+
+std::vector<ExrPartChannel> channels_in(ExrBytes value) {
+  std::vector<ExrPartChannel> out;
+  constexpr std::size_t description = 16;  // type, linearity, sampling along x and y
+  while (const auto channel = take_text(value)) {
+    if (channel->empty() || value.size() < description) break;
+    out.push_back({std::string(*channel), value[0] == static_cast<std::uint8_t>(ExrType::Number)});
+    value = value.subspan(description);
+  }
+  return out;
+}
+
+/// Numbers as text; the primaries of Rec.709 are what a file without the attribute has.
+std::string floats_in(std::string_view name, ExrBytes value) {
+  std::vector<float> numbers(value.size() / sizeof(float));
+  std::memcpy(numbers.data(), value.data(), numbers.size() * sizeof(float));
+  if (name == "chromaticities" && std::ranges::equal(numbers, rec709_chromaticities)) return {};
+  std::string text(name);
+  for (const float v : numbers) text += fmt::format(" {:g}", v);
+  return text;
+}
+
+void take_attribute(std::string_view name, std::string_view type, ExrBytes value, ExrPart& part) {
+  if (type == "box2i" && value.size() == sizeof(ExrWindow)) {
+    if (name == "dataWindow") std::memcpy(&part.data, value.data(), sizeof(ExrWindow));
+    if (name == "displayWindow") std::memcpy(&part.display, value.data(), sizeof(ExrWindow));
+  }
+  if (name == "chromaticities" && type == "chromaticities" && value.size() == sizeof(ExrChromaticities))
+    std::memcpy(part.chromaticities.emplace().data(), value.data(), value.size());
+  const std::string text(reinterpret_cast<const char*>(value.data()), value.size());
+  if (name == "channels" && type == "chlist") part.channels = channels_in(value);
+  if (name == "name" && type == "string") part.name = text;
+  constexpr std::array<std::string_view, 3> of_color = {"chromaticities", "whiteLuminance", "adoptedNeutral"};
+  std::string color;
+  if (std::ranges::find(of_color, name) != of_color.end()) color = floats_in(name, value);
+  if (name == "colorInteropID" || name == "colorSpace") color = fmt::format("{} {}", name, text);
+  if (!color.empty()) part.color_space += (part.color_space.empty() ? "" : ", ") + color;
+}
+
+/// Takes a header from the front: attributes of a name, a type, a size and a value, up to an empty name. Nothing if it
+/// is cut off.
+std::optional<ExrPart> take_header(ExrBytes& bytes) {
+  ExrPart part;
+  for (;;) {
+    const auto name = take_text(bytes);
+    if (!name) return std::nullopt;
+    if (name->empty()) return part;
+    const auto type = take_text(bytes);
+    std::uint32_t size = 0;
+    if (!type || bytes.size() < sizeof size) return std::nullopt;
+    std::memcpy(&size, bytes.data(), sizeof size);
+    bytes = bytes.subspan(sizeof size);
+    if (size > bytes.size()) return std::nullopt;
+    take_attribute(*name, *type, bytes.first(size), part);
+    bytes = bytes.subspan(size);
+  }
+}
+
+}  // namespace
+
+std::optional<ExrPart> read_exr_part(std::span<const std::uint8_t> bytes) {
+  if (!is_exr(bytes)) return std::nullopt;
+  bytes = bytes.subspan(8);
+  return take_header(bytes);
+}
+
+std::vector<ExrPart> read_exr_parts(std::span<const std::uint8_t> bytes) {
+  std::vector<ExrPart> parts;
+  if (!is_exr(bytes)) return parts;
+  constexpr std::uint8_t several_parts = 0x10;  // bit 12 of the version
+  const bool has_several = (bytes[5] & several_parts) != 0;
+  // An empty header ends the list of several parts.
+  for (bytes = bytes.subspan(8); !(has_several && !bytes.empty() && bytes[0] == 0);) {
+    std::optional<ExrPart> part = take_header(bytes);
+    if (!part) break;
+    parts.push_back(std::move(*part));
+    if (!has_several) break;
+  }
+  return parts;
+}
+
+}  // namespace zoneplate
