@@ -155,6 +155,24 @@ std::vector<std::string> if_any(std::vector<std::string> paths, const std::strin
   return paths;
 }
 
+/// The last numbers of the names, if these differ by them alone; else none.
+std::vector<std::uint64_t> frame_numbers(const std::vector<std::string>& paths) {
+  std::vector<std::uint64_t> numbers;
+  if (!are_frames(paths)) return numbers;
+  for (const std::string& path : paths) {
+    const std::string name = fs::path(path).stem().string();
+    const std::size_t last = name.find_last_of("0123456789");
+    if (last == std::string::npos) return {};
+    const std::size_t before = name.find_last_not_of("0123456789", last);
+    const std::size_t first = before == std::string::npos ? 0 : before + 1;
+    std::uint64_t number = 0;
+    if (std::from_chars(name.data() + first, name.data() + last + 1, number).ec != std::errc()) return {};
+    if (!numbers.empty() && number <= numbers.back()) return {};
+    numbers.push_back(number);
+  }
+  return numbers;
+}
+
 }  // namespace
 
 Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name) {
@@ -189,7 +207,11 @@ std::vector<std::string> list_other_images(const std::string& directory) {
 
 PictureFiles list_pictures(const std::string& operand) {
   const fs::path path(operand);
-  if (is_directory(operand)) return {if_any(files_of(path, is_picture_name), operand)};
+  if (is_directory(operand)) {
+    PictureFiles files{if_any(files_of(path, is_picture_name), operand)};
+    files.numbers = frame_numbers(files.paths);
+    return files;
+  }
   const auto pattern = frame_pattern(path.filename().string());
   std::error_code ignored;
   if (!pattern || fs::exists(path, ignored)) return {{operand}};

@@ -33,7 +33,7 @@ Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& n
 /// The image files of one operand, in order.
 struct PictureFiles {
   std::vector<std::string> paths;
-  std::vector<std::uint64_t> numbers = {};  ///< of the frames, if the operand is a pattern
+  std::vector<std::uint64_t> numbers = {};  ///< ascending: of the frames of a pattern, or of a folder with one sequence
 };
 
 /// Lists the files of one operand, in order.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/filter_sequence.h"
+#include "zoneplate/cli/filter/sequence.h"
 
 #include <fmt/format.h>
 
@@ -12,6 +12,8 @@
 #include <sstream>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/cli/filter/still.h"
+#include "zoneplate/cli/log.h"
 #include "zoneplate/codec/exr.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/save.h"
@@ -69,21 +71,10 @@ Names channels_of(const Pass& pass, const std::string& path, bool is_own_file) {
                                             path, pass.name));
 }
 
-std::vector<std::string> files_of(const std::string& operand, const char* pass, std::size_t count) {
-  if (operand.empty()) return {};
-  std::vector<std::string> files = metrics::list_pictures(operand).paths;
-  if (files.size() != count)
-    throw Error(ErrorKind::Input, fmt::format("--{} {}: has {} frames, expected {}, one for each image", pass, operand,
-                                              files.size(), count));
-  return files;
-}
-
 std::vector<FrameFiles> checked_files(const SequenceFilter& filter) {
-  const std::size_t count = filter.items.size();
-  const std::vector<std::string> depth = files_of(filter.depth, "depth", count);
-  const std::vector<std::string> motion = files_of(filter.motion, "motion", count);
+  const std::vector<std::string>&depth = filter.passes.depth, &motion = filter.passes.motion;
   std::vector<FrameFiles> out;
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < filter.items.size(); ++i) {
     FrameFiles frame{.color = filter.items[i].input, .output = filter.items[i].output};
     frame.depth = depth.empty() ? frame.color : depth[i], frame.motion = motion.empty() ? frame.color : motion[i];
     frame.depth_channels = channels_of(depth_pass(), frame.depth, !depth.empty());
@@ -171,6 +162,17 @@ Frame frame_of(const FrameFiles& files, LinearImage color, const SequenceFilter&
   return frame;
 }
 
+metrics::Picture load_frame(const std::string& path, Progress& progress) {
+  metrics::Picture picture = load_still(path, progress);
+  if (!picture.is_scene_linear) return picture;
+  if (const std::size_t pixels = fill_not_finite(picture.linear, path); pixels > 0) {
+    progress.clear();
+    say_warning(fmt::format("{}: {} {} not finite, and {} the mean of neighbours", path, pixels,
+                            pixels == 1 ? "pixel is" : "pixels are", pixels == 1 ? "takes" : "take"));
+  }
+  return picture;
+}
+
 void save(const std::string& path, LinearImage image, bool is_scene_linear, int bit_depth) {
   if (is_scene_linear) return save_image(path, image);
   const DisplayImage display = metrics::make_picture(std::move(image)).display;
@@ -179,11 +181,6 @@ void save(const std::string& path, LinearImage image, bool is_scene_linear, int 
 }
 
 }  // namespace
-
-bool is_linear_file(const std::string& path) {
-  const std::string ending = extension_of(path);
-  return ending == ".exr" || ending == ".pfm";
-}
 
 bool filters_sequences(const std::string& method) {
   FrameContext context;
@@ -210,7 +207,7 @@ void filter_sequence(const SequenceFilter& filter, Progress& progress) {
   int2 frame_size{0, 0};
   for (std::size_t i = 0; i < files.size(); ++i) {
     progress.begin(files[i].color, static_cast<double>(i) / static_cast<double>(files.size()));
-    metrics::Picture picture = metrics::load_picture(files[i].color);
+    metrics::Picture picture = load_frame(files[i].color, progress);
     if (picture.is_scene_linear != is_linear_file(files[i].output))
       throw Error(ErrorKind::Usage,
                   fmt::format("{}: is a {} image, and {} is not: write {}", files[i].color,

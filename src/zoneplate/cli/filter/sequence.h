@@ -5,21 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "zoneplate/cli/filter/items.h"
 #include "zoneplate/cli/progress.h"
 #include "zoneplate/math/vec.h"
 
 namespace zoneplate::cli {
 
-struct FilterItem {
-  std::string input, output;
-};
-
 /// The frames of a sequence of any renderer, and the method with history that makes images of them.
 struct SequenceFilter {
   std::string method;  ///< as for upscale::make_method
   std::vector<FilterItem> items;
-  /// Files or sequences with the data of each frame; empty: in the files of the frames.
-  std::string motion, depth;
+  FramePasses passes;         ///< the files with the data of each frame; none: those of the frames
   std::string jitter;         ///< a text file with the sample of each frame; empty: that of the method
   float2 motion_scale{1, 1};  ///< from the unit of the motion files to pixels, x right, y down, now minus last
   float fov = 60;             ///< vertical field of view, degrees
@@ -28,13 +24,11 @@ struct SequenceFilter {
   int bit_depth = 8;
 };
 
-/// True for the ending of a format of scene-linear light that is written: .exr or .pfm.
-bool is_linear_file(const std::string& path);
-
 /// True if the method keeps history of one-sample frames and reads no planes but those that files contain.
 bool filters_sequences(const std::string& method);
 
-/// Filters the frames in order and writes each image, after it has checked that all files fit together.
+/// Filters the frames in order and writes each image, after it has checked that all files fit together. A pixel that is
+/// not finite takes the mean of its neighbours, so that it does not enter the history; a warning counts them.
 ///
 /// Errors    ErrorKind::Input naming the file that is missing, lacks a channel or has another size.
 void filter_sequence(const SequenceFilter& filter, Progress& progress);

@@ -4,14 +4,15 @@
 
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <optional>
 
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/args.h"
-#include "zoneplate/cli/filter_sequence.h"
+#include "zoneplate/cli/filter/items.h"
+#include "zoneplate/cli/filter/sequence.h"
+#include "zoneplate/cli/filter/still.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/progress.h"
 #include "zoneplate/cli/values.h"
@@ -35,6 +36,7 @@ struct FilterArgs {
   double fov = 60;
   std::optional<int2> size;  ///< of the upscaled images
   int bit_depth = 8, threads = 0;
+  bool replaces_inputs = false;
   std::optional<ProgressKind> progress;  ///< none: a bar on a terminal
 };
 
@@ -105,25 +107,6 @@ UpscaleGrid grid_of(const Filters& filters, int width, int height, const std::st
   return {width, height, 0, 0, {size.x, size.y, std::nullopt}};
 }
 
-/// The images of the operand, and the output file of each.
-///
-/// Errors    ErrorKind::Usage if two images have the same output file.
-std::vector<FilterItem> plan(const std::string& operand, const std::string& output) {
-  const std::vector<std::string> inputs = metrics::list_pictures(operand).paths;
-  if (inputs.size() == 1 && inputs.front() == operand) return {{operand, output}};
-  std::vector<FilterItem> items;
-  std::map<std::string, std::string> input_of;  // maps an output to its input
-  for (const std::string& input : inputs) {
-    const std::string ending = is_linear_file(input) || extension_of(input) == ".hdr" ? ".exr" : ".png";
-    items.push_back({input, (fs::path(output) / fs::path(input).stem()).string() + ending});
-    const auto [first, is_new] = input_of.emplace(items.back().output, input);
-    if (!is_new)
-      throw Error(ErrorKind::Usage,
-                  fmt::format("--output: {} and {} would both be written to {}", first->second, input, first->first));
-  }
-  return items;
-}
-
 void filter_linear(const FilterItem& item, const LinearImage& image, const Filters& filters) {
   if (filters.antialiasing)
     throw Error(ErrorKind::Input,
@@ -135,8 +118,12 @@ void filter_linear(const FilterItem& item, const LinearImage& image, const Filte
   save_image(item.output, upscale::upscale_linear(*filters.upscaler, image, grid));
 }
 
-void filter_image(const FilterItem& item, const Filters& filters, int bit_depth) {
-  metrics::Picture picture = metrics::load_picture(item.input);
+void filter_image(const FilterItem& item, const Filters& filters, int bit_depth, Progress& progress) {
+  metrics::Picture picture = load_still(item.input, progress);
+  if (const std::size_t pixels = metrics::count_not_finite(picture); pixels > 0) {
+    progress.clear();
+    say_warning(fmt::format("{}: {} pixels are not finite: NaN is taken as 0, infinity as 65504", item.input, pixels));
+  }
   if (picture.is_scene_linear) return filter_linear(item, metrics::finite(std::move(picture)).linear, filters);
   if (is_linear_file(item.output))
     throw Error(ErrorKind::Usage, fmt::format("{}: is a display-referred image, and {} is scene-linear: write a .png",
@@ -195,6 +182,7 @@ Syntax make_syntax(FilterArgs& args) {
       .notes =
           "IMAGES is a PNG, JPEG or WebP file, a folder of them, or a sequence (name.####.png, name.%04d.png);\n"
           "upscalers also read scene-linear .hdr, .exr and .pfm files, and write .exr and .pfm for them.\n"
+          "A file that is read is not replaced without --force.\n"
           "Antialiasing filters work on 8-bit sRGB values. Pixels that the filter does not blend keep their exact "
           "value;\n"
           "images with alpha are filtered premultiplied.\n"
@@ -208,13 +196,14 @@ Syntax make_syntax(FilterArgs& args) {
           "frame, in\n"
           "pixels of the frame, without jitter, in channels motion.X and motion.Y, X and Y, or R and G; depth is the\n"
           "distance along the view axis in channel Z, R or Y. Frames of zoneplate render --aov depth,motion,object-id\n"
-          "contain both, and object ids, by which history of another object is dropped. The images are written in\n"
+          "contain both, and object ids, by which history of another object is dropped. Frames, depth and motion are\n"
+          "paired by their numbers; a number that one of them lacks is an error. The images are written in\n"
           "scene-linear light for .exr frames, and as .png for .png frames, whose colours are averaged in linear "
           "light.\n"};
   syntax.options = {
       {"--output,-o", "FILE",
        "The image to write: .png, .jpg or .webp, or .exr or .pfm for a scene-linear one; for several inputs a folder, "
-       "which receives .png files",
+       "which receives .png files (.exr of scene-linear ones), or a name with a frame number, as out.####.png",
        "Options", true, [&](auto& text) { args.output = text; }},
       {"--anti-aliasing,--aa", "METHOD", "Filter, such as smaa or fxaa:preset=39: one of " + filter_names(), "Options",
        true, [&](auto& text) { args.method = text; }},
@@ -238,6 +227,8 @@ Syntax make_syntax(FilterArgs& args) {
        [&](auto& text) {
          args.bit_depth = parse_choice(text, {"8", "16"}) == 0 ? 8 : 16;
        }},
+      {"--force", "", "Replace inputs: the output may be a file that is read", "Options", false,
+       [&](auto&) { args.replaces_inputs = true; }},
       {"--threads,-t", "N", "Maximum number of threads; 0, the default: the CPUs allowed by affinity and quota",
        "Options", false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }},
       {"--progress", "KIND", "Progress on stderr: auto (a bar on a terminal), bar, json (one line per image) or none",
@@ -256,10 +247,20 @@ void run_filter(std::span<const std::string> arguments) {
   if (args.output.empty()) throw Error(ErrorKind::Usage, "no output: name a file or folder with -o");
   const std::string method = sequence_method(args);
   const Filters filters = method.empty() ? make_filters(args) : Filters{};
-  const std::vector<FilterItem> items = plan(syntax.found_operands.front(), args.output);
+  const std::string& operand = syntax.found_operands.front();
+  const std::vector<FilterItem> items = plan_items(operand, args.output);
+  FramePasses passes;
+  if (!method.empty()) passes = find_passes(operand, items, args.depth, args.motion);
+  if (!args.replaces_inputs) {
+    std::vector<std::string> data = passes.depth;
+    data.insert(data.end(), passes.motion.begin(), passes.motion.end());
+    if (!args.jitter.empty()) data.push_back(args.jitter);
+    check_inputs_remain(items, data);
+  }
   if (items.front().output != args.output) {
+    const fs::path folder = fs::path(items.front().output).parent_path();
     std::error_code error;
-    fs::create_directories(args.output, error);
+    if (!folder.empty()) fs::create_directories(folder, error);
     if (error) throw Error(ErrorKind::Output, args.output + ": " + error.message());
   }
   for (const FilterItem& item : items) check_savable(item.output);
@@ -268,12 +269,13 @@ void run_filter(std::span<const std::string> arguments) {
   with_threads(args.threads, [&] {
     Progress progress(args.progress ? *args.progress : parse_progress("auto"));
     if (!method.empty()) {
+      if (const std::string gaps = gaps_in(items); !gaps.empty())
+        say_warning(fmt::format("{}: has no frame {}: the history goes on without them", operand, gaps));
       const double scale =
           args.upscaler.empty() ? 1 : parse_spec("upscaler", upscale::upscalers(), method).settings.number("scale");
       return filter_sequence({.method = method,
                               .items = items,
-                              .motion = args.motion,
-                              .depth = args.depth,
+                              .passes = std::move(passes),
                               .jitter = args.jitter,
                               .motion_scale = args.motion_scale,
                               .fov = static_cast<float>(args.fov),
@@ -285,7 +287,7 @@ void run_filter(std::span<const std::string> arguments) {
     double done = 0;
     for (const FilterItem& item : items) {
       progress.begin(item.input, done++ / static_cast<double>(items.size()));
-      filter_image(item, filters, args.bit_depth);
+      filter_image(item, filters, args.bit_depth, progress);
     }
   });
 }

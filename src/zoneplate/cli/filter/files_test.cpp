@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which files the verb pairs, writes and keeps: tests that run the built program.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "zoneplate/cli/filter/still.h"
+#include "zoneplate/cli/program_for_test.h"
+#include "zoneplate/codec/apng.h"
+#include "zoneplate/codec/exr.h"
+#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/png.h"
+#include "zoneplate/os/file.h"
+
+namespace zoneplate::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int side = 16;
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+class FilterFiles : public ProgramTest {
+ protected:
+  ProgramAnswer run(const std::string& arguments) const { return ProgramTest::run("filter " + arguments); }
+  bool exists(const std::string& name) const { return fs::exists(place / name); }
+  void save(const std::string& name, const std::vector<std::uint8_t>& bytes) const {
+    fs::create_directories((place / name).parent_path());
+    save_bytes((place / name).string(), bytes);
+  }
+  /// An image with an edge, which every filter changes.
+  void save_png(const std::string& name) const {
+    Rgba8Image image(side, side, {0, 0, 0, 255});
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < 4 + y / 3; ++x) image(x, y) = {255, 255, 255, 255};
+    save(name, encode_png(image));
+  }
+  /// A frame of colour, or one pass of it, with the channels R, G and B.
+  void save_exr(const std::string& name, const LinearImage& image) const {
+    std::vector<ExrChannel> channels = rgba_channels(image);
+    for (ExrChannel& channel : channels) channel.type = ExrType::Float;
+    save(name, encode_exr(side, side, channels));
+  }
+  void save_flat(const std::string& name, float value) const {
+    save_exr(name, LinearImage(side, side, {value, value, value, 1}));
+  }
+  /// Requires that a run is refused with this text, and writes nothing.
+  void expect_refused(const std::string& arguments, int code, const std::string& text) const {
+    const ProgramAnswer answer = run(arguments);
+    EXPECT_EQ(answer.code, code) << answer.out;
+    EXPECT_TRUE(contains(answer.out, text)) << answer.out;
+    EXPECT_FALSE(exists("out"));
+  }
+};
+
+TEST_F(FilterFiles, PassesPairByTheNumbersOfTheirFrames) {
+  for (int i = 0; i < 8; ++i) {
+    if (i != 2) save_flat(fmt::format("c.{:04}.exr", i), 0.3f);
+    if (i != 4) save_flat(fmt::format("z.{:04}.exr", i), 4);
+    if (i != 6) save_flat(fmt::format("v.{:04}.exr", i), 0);
+    save_flat(fmt::format("whole/c.{:04}.exr", i), 0.3f);
+    save_flat(fmt::format("depth/z.{:04}.exr", i), 4);
+    save_flat(fmt::format("late/v.{:04}.exr", i + 1), 0);
+  }
+  expect_refused("c.####.exr --depth z.####.exr --motion v.####.exr --aa taa -o out", 3,
+                 "c.####.exr has no frame 2; --depth z.####.exr has no frame 4; --motion v.####.exr has no frame 6");
+  for (const char* passes : {"whole/c.####.exr --depth depth/z.####.exr --motion late/v.####.exr",
+                             "whole --depth depth --motion late/v.####.exr", "whole --depth depth --motion late"})
+    expect_refused(std::string(passes) + " --aa taa -o out", 3, "has no frame 8; --motion late");
+  EXPECT_EQ(run("whole --depth depth/z.####.exr --motion whole --motion-scale 0,0 --aa taa -o out").code, 0);
+}
+
+TEST_F(FilterFiles, AGapIsNamed) {
+  for (const int i : {0, 1, 4}) save_flat(fmt::format("c.{}.exr", i), 0.3f);
+  const ProgramAnswer answer = run("c.#.exr --depth c.#.exr --motion c.#.exr --motion-scale 0,0 --aa taa -o out");
+  EXPECT_EQ(answer.code, 0) << answer.out;
+  EXPECT_TRUE(contains(answer.out, "c.#.exr: has no frame 2, 3: the history goes on without them")) << answer.out;
+}
+
+TEST_F(FilterFiles, NamesWithAFrameNumberAreFiles) {
+  save_png("n.07.png"), save_png("n.08.png");
+  EXPECT_EQ(run("'n.##.png' -o 'o.###.png' --aa smaa").code, 0);
+  EXPECT_TRUE(fs::is_regular_file(place / "o.007.png") && fs::is_regular_file(place / "o.008.png"));
+  EXPECT_EQ(run("'n.##.png' -o 'made/o.%02d.png' --aa smaa").code, 0);
+  EXPECT_TRUE(exists("made/o.07.png"));
+  save_png("photos/tree.png"), save_png("photos/house.png");
+  expect_refused("photos -o 'out.##.png' --aa smaa", 2, "is no frame of a sequence");
+  EXPECT_FALSE(exists("o.###.png") || exists("out.##.png"));
+}
+
+TEST_F(FilterFiles, InputsAreKeptUnlessForced) {
+  save_png("shots/a.png"), save_png("shots/b.png"), save_png("single.png");
+  fs::create_directory_symlink(place / "shots", place / "link");
+  fs::create_symlink(place / "single.png", place / "other.png");
+  const std::string before = text_of(place / "shots/a.png");
+  const std::string absolute = "shots -o '" + (place / "shots").string() + "'";
+  for (const std::string& names :
+       {std::string("shots -o shots"), std::string("shots/ -o shots/"), std::string("shots -o ./shots/../shots"),
+        std::string("shots -o link"), std::string("link -o shots"), absolute})
+    expect_refused(names + " --aa smaa", 2, "would replace the input");
+  expect_refused("single.png -o single.png --aa smaa", 2, "single.png: would replace the input single.png");
+  expect_refused("single.png -o other.png --aa smaa", 2, "other.png: would replace the input single.png");
+  for (int i = 0; i < 2; ++i) save_png(fmt::format("f.{}.png", i)), save_flat(fmt::format("z.{}.exr", i), 4);
+  expect_refused("f.#.png -o f.#.png --aa smaa", 2, "would replace the input");
+  expect_refused("f.#.png -o . --aa smaa", 2, "would replace the input");
+  expect_refused("z.#.exr --depth z.#.exr --motion z.#.exr --aa taa -o .", 2, "would replace the input");
+  EXPECT_EQ(text_of(place / "shots/a.png"), before);
+  EXPECT_EQ(run("shots -o shots --aa smaa --force").code, 0);
+  EXPECT_NE(text_of(place / "shots/a.png"), before);
+  EXPECT_EQ(run("shots -o out --aa smaa").code, 0);
+}
+
+TEST_F(FilterFiles, OtherFormatsAreNamed) {
+  using namespace std::string_literals;
+  const std::pair<const char*, std::string> files[] = {
+      {"a GIF", "GIF89a"}, {"a BMP", "BM6"}, {"a TIFF", "II*\0abcd"s}, {"an AVIF", "\0\0\0\x1c"s + "ftypavif"}};
+  for (const auto& [format, bytes] : files) {
+    save("x.bin", std::vector<std::uint8_t>(bytes.begin(), bytes.end()));
+    expect_refused("x.bin -o out.png --aa smaa", 3,
+                   fmt::format("x.bin: is {} image, expected PNG, JPEG, WebP, HDR, EXR or PFM", format));
+  }
+  Animation animation;
+  animation.frames = {Rgba8Image(side, side, {9, 9, 9, 255}), Rgba8Image(side, side, {0, 9, 9, 255})};
+  save("film.png", encode_apng(animation));
+  const ProgramAnswer answer = run("film.png -o first.png --aa smaa");
+  EXPECT_EQ(answer.code, 0);
+  EXPECT_TRUE(contains(answer.out, "is an animation of 2 frames, of which the first is filtered")) << answer.out;
+}
+
+TEST_F(FilterFiles, WhatIsNotFiniteDoesNotEnterTheHistory) {
+  for (int i = 0; i < 6; ++i) {
+    LinearImage image(side, side, {0.25f, 0.25f, 0.25f, 1});
+    if (i == 2) image(5, 5) = {std::nanf(""), 0.25f, 0.25f, 1}, image(10, 10) = {0.25f, infinity, 0.25f, 1};
+    save_exr(fmt::format("c.{}.exr", i), image);
+    save_flat(fmt::format("z.{}.exr", i), 4), save_flat(fmt::format("v.{}.exr", i), 0);
+  }
+  for (const char* method : {"--aa taa", "--aa history-guided", "--upscale fsr2:scale=1.5", "--upscale taau:scale=2",
+                             "--upscale sgsr2:scale=2", "--upscale fsr3:scale=2"}) {
+    const ProgramAnswer answer = run(fmt::format("c.#.exr --depth z.#.exr --motion v.#.exr {} -o out", method));
+    EXPECT_EQ(answer.code, 0) << answer.out;
+    EXPECT_TRUE(contains(answer.out, "c.2.exr: 2 pixels are not finite")) << answer.out;
+    for (int i = 0; i < 6; ++i) {
+      const FileBytes file((place / fmt::format("out/c.{}.exr", i)).string());
+      const LinearImage image = decode_exr_as_stored(file.bytes(), "out");
+      for (const Linear& c : image.values()) {
+        ASSERT_NEAR(c.r, 0.25f, 0.005f) << method << i;
+        ASSERT_NEAR(c.g, 0.25f, 0.005f) << method << i;
+      }
+    }
+  }
+}
+
+TEST(FillNotFinite, GoesFromTheBorderInwards) {
+  LinearImage image(5, 5, {1, 2, 3, 1});
+  for (int y = 1; y < 5; ++y)
+    for (int x = 1; x < 5; ++x) image(x, y).g = std::nanf("");
+  EXPECT_EQ(fill_not_finite(image, "a"), 16u);
+  for (const Linear& c : image.values()) EXPECT_EQ(c, (Linear{1, 2, 3, 1}));
+  EXPECT_EQ(fill_not_finite(image, "a"), 0u);
+  LinearImage none(2, 2, {infinity, 0, 0, 1});
+  EXPECT_ANY_THROW(fill_not_finite(none, "a"));
+}
+
+}  // namespace
+}  // namespace zoneplate::cli

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace zoneplate::cli {
+
+/// An image to filter.
+struct FilterItem {
+  std::string input, output;
+  std::optional<std::uint64_t> frame = {};  ///< its number, in a sequence
+};
+
+/// True for the ending of a format of scene-linear light that is written: .exr or .pfm.
+bool is_linear_file(const std::string& path);
+
+/// The images of the operand, and the output file of each: `output` itself for one file; for several a name with a
+/// placeholder for the frame number, as render has it, or else a folder.
+///
+/// Errors    ErrorKind::Usage if two images have the same output file, or images without numbers have to be numbered.
+std::vector<FilterItem> plan_items(const std::string& operand, const std::string& output);
+
+/// Refuses to write a file that is read: one of the inputs, or of the files with their data. Links and other spellings
+/// of a name are the same file.
+///
+/// Errors    ErrorKind::Usage naming the output and the input.
+void check_inputs_remain(std::span<const FilterItem> items, std::span<const std::string> data);
+
+/// The files of other passes of a sequence, by pass; each operand names a sequence or is empty.
+struct FramePasses {
+  std::vector<std::string> depth, motion;  ///< one for each item, or none
+};
+
+/// Finds the files with the depth and the motion of each frame, by the numbers of the frames, or by their order where
+/// one of the operands has no numbers.
+///
+/// Errors    ErrorKind::Input naming every frame that one of the sequences lacks.
+FramePasses find_passes(const std::string& operand, std::span<const FilterItem> items, const std::string& depth,
+                        const std::string& motion);
+
+/// The numbers that a sequence omits between its first and its last one, as text: "3, 7-9"; empty if its steps are
+/// equal.
+std::string gaps_in(std::span<const FilterItem> items);
+
+}  // namespace zoneplate::cli

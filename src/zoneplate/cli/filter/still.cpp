@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/cli/filter/still.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/cli/log.h"
+#include "zoneplate/codec/inspect/image_format.h"
+#include "zoneplate/metrics/backdrop.h"
+#include "zoneplate/metrics/file/picture_file.h"
+
+namespace zoneplate::cli {
+namespace {
+
+/// Pixels that are not finite, from the border of each region inwards.
+class Fill {
+ public:
+  explicit Fill(LinearImage& image) : image_(image), states_(image.width(), image.height(), State::Finite) {
+    for (int y = 0; y < image.height(); ++y)
+      for (int x = 0; x < image.width(); ++x)
+        if (!metrics::is_finite(image(x, y))) states_(x, y) = State::Undefined, ++undefined_;
+  }
+  std::size_t undefined() const { return undefined_; }
+
+  void run() {
+    std::vector<int2> front;
+    for (int y = 0; y < image_.height(); ++y)
+      for (int x = 0; x < image_.width(); ++x)
+        if (states_(x, y) == State::Undefined && has_finite_neighbour(x, y)) enter(x, y, front);
+    while (!front.empty()) {
+      std::vector<Linear> means;
+      for (const int2 p : front) means.push_back(mean_around(p));
+      for (std::size_t i = 0; i < front.size(); ++i)
+        image_(front[i].x, front[i].y) = means[i], states_(front[i].x, front[i].y) = State::Finite;
+      std::vector<int2> next;
+      for (const int2 p : front)
+        for_neighbours(p, [&](int x, int y) {
+          if (states_(x, y) == State::Undefined) enter(x, y, next);
+        });
+      front = std::move(next);
+    }
+  }
+
+ private:
+  enum class State : std::uint8_t { Finite, Undefined, Waiting };
+
+  void enter(int x, int y, std::vector<int2>& front) {
+    states_(x, y) = State::Waiting;
+    front.push_back({x, y});
+  }
+
+  template <class Use>
+  void for_neighbours(int2 p, const Use& use) const {
+    for (int y = std::max(p.y - 1, 0); y <= std::min(p.y + 1, image_.height() - 1); ++y)
+      for (int x = std::max(p.x - 1, 0); x <= std::min(p.x + 1, image_.width() - 1); ++x) use(x, y);
+  }
+  bool has_finite_neighbour(int x, int y) const {
+    bool is_found = false;
+    for_neighbours({x, y}, [&](int i, int j) { is_found = is_found || states_(i, j) == State::Finite; });
+    return is_found;
+  }
+  Linear mean_around(int2 p) const {
+    double sum[4] = {};
+    int count = 0;
+    for_neighbours(p, [&](int x, int y) {
+      if (states_(x, y) != State::Finite) return;
+      const Linear& c = image_(x, y);
+      sum[0] += static_cast<double>(c.r), sum[1] += static_cast<double>(c.g);
+      sum[2] += static_cast<double>(c.b), sum[3] += static_cast<double>(c.a);
+      ++count;
+    });
+    const auto mean = [&](int i) { return static_cast<float>(sum[i] / count); };
+    return {mean(0), mean(1), mean(2), mean(3)};
+  }
+
+  LinearImage& image_;
+  Plane<State> states_;
+  std::size_t undefined_ = 0;
+};
+
+}  // namespace
+
+metrics::Picture load_still(const std::string& path, Progress& progress) {
+  const metrics::ImageFile file = metrics::open_image(path);
+  metrics::Picture picture = metrics::decode_file(file);
+  if (const std::uint32_t frames = count_frames(file.bytes); frames > 1) {
+    progress.clear();
+    say_warning(fmt::format("{}: is an animation of {} frames, of which the first is filtered", path, frames));
+  }
+  return picture;
+}
+
+std::size_t fill_not_finite(LinearImage& image, const std::string& name) {
+  Fill fill(image);
+  if (fill.undefined() == image.values().size()) throw Error(ErrorKind::Input, name + ": no pixel is finite");
+  if (fill.undefined() > 0) fill.run();
+  return fill.undefined();
+}
+
+}  // namespace zoneplate::cli

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+#include "zoneplate/cli/progress.h"
+#include "zoneplate/metrics/picture.h"
+
+namespace zoneplate::cli {
+
+/// Loads an image to filter, with a warning if it is the first one of an animation.
+///
+/// Errors    those of load_picture (metrics/file/picture_file.h).
+metrics::Picture load_still(const std::string& path, Progress& progress);
+
+/// Gives each pixel with a channel that is not finite the mean of those of its eight neighbours that are finite; where
+/// all are undefined, from the border of such a region inwards.
+///
+/// Returns   the number of these pixels.
+/// Errors    ErrorKind::Input, with `name` in front, if no pixel is finite.
+std::size_t fill_not_finite(LinearImage& image, const std::string& name);
+
+}  // namespace zoneplate::cli
