@@ -11,9 +11,9 @@
 
 #include "zoneplate/base/paths_for_test.h"
 #include "zoneplate/cli/program_for_test.h"
-#include "zoneplate/cli/render/environment_file.h"
 #include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/png.h"
+#include "zoneplate/os/cache_folder.h"
 #include "zoneplate/os/file.h"
 
 namespace zoneplate {
@@ -70,15 +70,15 @@ TEST_F(EnvironmentImages, AreRemovedByTheTimeOfTheirLastReading) {
     ASSERT_EQ(::utimensat(AT_FDCWD, (place / name).c_str(), times, 0), 0);
   };
   write("a.env", 5000), write("b.env", 3000), write("c.env", 4000), write("d.png", 2000);
-  cli::trim_cache(place.string(), 3000);
+  const auto trim = [&](std::uint64_t most) { CacheFolder::open(place.string())->trim(".env", most); };
+  trim(3000);
   EXPECT_TRUE(fs::exists(place / "b.env"));
-  cli::trim_cache(place.string(), 2999);
+  trim(2999);
   EXPECT_FALSE(fs::exists(place / "b.env"));
-  cli::trim_cache(place.string(), 1999);
+  trim(1999);
   EXPECT_FALSE(fs::exists(place / "c.env"));
   EXPECT_TRUE(fs::exists(place / "a.env"));
   EXPECT_TRUE(fs::exists(place / "d.png"));
-  cli::trim_cache((place / "missing").string(), 0);
 }
 
 TEST_F(EnvironmentImages, AreFilteredOnceAndKept) {
@@ -118,6 +118,43 @@ TEST_F(EnvironmentImages, AreFilteredOnceAndKept) {
   const Cache blocked("/dev/null");
   ASSERT_EQ(render("-o d.png").code, 0);
   EXPECT_EQ(text_of(place / "d.png"), text_of(place / "none.png"));
+}
+
+// Whatever has the name of a file of the cache, or of the cache, the image is the same at once, and no other file is
+// written.
+TEST_F(EnvironmentImages, NothingInTheCacheIsFollowedOrWaitedFor) {
+  const Cache cache(place / "cache");
+  const auto expect_same_image = [&] {
+    fs::remove(place / "b.png");
+    ASSERT_EQ(ProgramTest::run("teapot --size 80x60 --quiet --hdri-file sky.exr -o b.png", "timeout 60").code, 0);
+    EXPECT_EQ(text_of(place / "b.png"), text_of(place / "a.png"));
+  };
+  ASSERT_EQ(render("-o a.png").code, 0);
+  ASSERT_EQ(cached().size(), 1u);
+  const fs::path entry = cached()[0];
+  const std::string bytes = text_of(entry);
+  std::ofstream(place / "mine") << "mine";
+
+  fs::remove(entry);
+  ASSERT_EQ(::mkfifo(entry.c_str(), 0666), 0);
+  expect_same_image();
+  EXPECT_EQ(text_of(entry), bytes);
+  fs::remove(entry);
+  fs::create_symlink(place / "mine", entry);
+  expect_same_image();
+  EXPECT_EQ(text_of(entry), bytes);
+  EXPECT_FALSE(fs::is_symlink(entry));
+  fs::remove(entry);
+  fs::create_directory(entry);
+  expect_same_image();
+  EXPECT_TRUE(fs::is_empty(entry));
+
+  fs::remove_all(place / "cache/zoneplate");
+  fs::create_directory(place / "victim");
+  fs::create_directory_symlink(place / "victim", place / "cache/zoneplate");
+  expect_same_image();
+  EXPECT_TRUE(fs::is_empty(place / "victim"));
+  EXPECT_EQ(text_of(place / "mine"), "mine");
 }
 
 TEST_F(EnvironmentImages, StandBehindTheSceneInCropsToo) {

@@ -45,9 +45,11 @@ class ProgramTest : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(place); }
 
-  /// Runs the program in that folder, with arguments in shell syntax.
-  ProgramAnswer run(const std::string& arguments) const {
-    const std::string command = "cd '" + place.string() + "' && '" + program_file + "' " + arguments + " 2>&1";
+  /// Runs the program in that folder, with arguments in shell syntax. `before` precedes the program in its command: a
+  /// command that runs it, as `timeout 60`.
+  ProgramAnswer run(const std::string& arguments, const std::string& before = "") const {
+    const std::string command =
+        "cd '" + place.string() + "' && " + before + " '" + program_file + "' " + arguments + " 2>&1";
     std::FILE* pipe = ::popen(command.c_str(), "r");
     ProgramAnswer answer;
     std::array<char, 4096> part{};

@@ -100,13 +100,16 @@ std::span<const std::uint8_t> read_all(int fd, const std::string& path, std::uin
 FileBytes::FileBytes(const std::string& path, std::uint64_t limit) {
   const bool is_stdin = path == "-";
   const Descriptor file(is_stdin ? -1 : open_retrying(path.c_str(), O_RDONLY));
-  const int fd = is_stdin ? STDIN_FILENO : file.fd();
+  *this = FileBytes(is_stdin ? STDIN_FILENO : file.fd(), path, limit);
+}
+
+FileBytes::FileBytes(int fd, const std::string& path, std::uint64_t limit) {
   struct stat status {};
   if (fd < 0 || ::fstat(fd, &status) != 0) throw read_error(path, cause_of(errno));
   if (S_ISDIR(status.st_mode)) throw read_error(path, "it is a directory");
 
   // A file of known size is mapped; other inputs are read.
-  if (S_ISREG(status.st_mode) && status.st_size > 0 && !is_stdin) {
+  if (S_ISREG(status.st_mode) && status.st_size > 0 && path != "-") {
     const auto size = static_cast<std::uint64_t>(status.st_size);
     if (size > limit) throw too_large(path, limit);
     // The mapping is writable and private although it is never written, because the kernel then counts it as data of

@@ -18,6 +18,8 @@ namespace zoneplate {
 class FileBytes {
  public:
   explicit FileBytes(const std::string& path, std::uint64_t limit = ~std::uint64_t{0});
+  /// The contents of an open file, which errors call `path`; the descriptor may then be closed.
+  FileBytes(int descriptor, const std::string& path, std::uint64_t limit);
   ~FileBytes();
   FileBytes(FileBytes&& other) noexcept;
   FileBytes& operator=(FileBytes&& other) noexcept;

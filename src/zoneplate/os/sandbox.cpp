@@ -62,6 +62,7 @@ constexpr int allowed_calls[] = {
     SCMP_SYS(faccessat),
     SCMP_SYS(getcwd),
     SCMP_SYS(getpid),
+    SCMP_SYS(geteuid),
     SCMP_SYS(gettid),
     SCMP_SYS(exit),
     SCMP_SYS(exit_group),

@@ -86,7 +86,7 @@ void use_studio(RenderArgs& render) {
   render.cache = environment_cache();
   Environments environments;
   environments.complete(render, [&](std::uint64_t key, std::span<const std::uint8_t> bytes) {
-    store_environment(environment_path(render.cache, key), bytes);
+    store_environment(render.cache, key, bytes);
   });
   render.lighting.studio = [studio = render.lighting.studio()] { return studio; };
 }

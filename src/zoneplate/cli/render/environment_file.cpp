@@ -2,14 +2,10 @@
 #include "zoneplate/cli/render/environment_file.h"
 
 #include <fmt/format.h>
-#include <sys/stat.h>
 
-#include <algorithm>
 #include <cstdlib>
-#include <ctime>
-#include <filesystem>
 #include <optional>
-#include <tuple>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -18,6 +14,7 @@
 #include "zoneplate/cli/render/item_process.h"
 #include "zoneplate/formats/import/image_file.h"
 #include "zoneplate/formats/import/import_budget.h"
+#include "zoneplate/os/cache_folder.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/mapped_file_guard.h"
 #include "zoneplate/shade/environment/equirectangular.h"
@@ -27,8 +24,9 @@
 namespace zoneplate::cli {
 namespace {
 
-namespace fs = std::filesystem;
 using Map = std::shared_ptr<const PreparedEnvironment>;
+
+constexpr std::string_view environment_extension = ".env";
 
 std::string absolute_variable(const char* name) {
   const char* const value = std::getenv(name);
@@ -36,23 +34,20 @@ std::string absolute_variable(const char* name) {
 }
 
 /// The environment of a file of the cache; null where there is none, or a damaged one.
-Map read_cached(const std::string& path) {
-  std::error_code ignored;
-  if (path.empty() || !fs::is_regular_file(path, ignored)) return nullptr;
-  try {
-    const FileBytes file(path, PreparedEnvironment::most_bytes());
-    std::optional<PreparedEnvironment> found = PreparedEnvironment::from_bytes(file.bytes());
-    return found ? std::make_shared<const PreparedEnvironment>(std::move(*found)) : nullptr;
-  } catch (const Error&) {
-    return nullptr;
-  }
+Map read_cached(const std::string& cache, std::uint64_t key) {
+  const std::optional<CacheFolder> folder = CacheFolder::open(cache);
+  if (!folder) return nullptr;
+  const std::optional<FileBytes> file = folder->read(environment_name(key), PreparedEnvironment::most_bytes());
+  if (!file) return nullptr;
+  std::optional<PreparedEnvironment> found = PreparedEnvironment::from_bytes(file->bytes());
+  return found ? std::make_shared<const PreparedEnvironment>(std::move(*found)) : nullptr;
 }
 
 /// An environment of the cache, or a new one, which is stored there.
 Map find_or_make(const std::string& cache, std::uint64_t key, const Environments::Store& store,
                  const std::function<PreparedEnvironment()>& make) {
   if (!cache.empty())
-    if (Map found = read_cached(environment_path(cache, key))) return found;
+    if (Map found = read_cached(cache, key)) return found;
   const Map made = growing("environment", [&] { return std::make_shared<const PreparedEnvironment>(make()); });
   if (!cache.empty() && store) store(key, made->bytes());
   return made;
@@ -66,50 +61,13 @@ std::string environment_cache() {
   return home.empty() ? "" : home + "/.cache/zoneplate";
 }
 
-std::string environment_path(const std::string& cache, std::uint64_t key) {
-  return fmt::format("{}/{:016x}.env", cache, key);
-}
+std::string environment_name(std::uint64_t key) { return fmt::format("{:016x}{}", key, environment_extension); }
 
-void trim_cache(const std::string& folder, std::uint64_t most) {
-  struct File {
-    timespec read;
-    std::uint64_t size;
-    std::string path;
-  };
-  std::vector<File> files;
-  std::uint64_t total = 0;
-  std::error_code failure;
-  for (fs::directory_iterator entry(folder, failure), end; !failure && entry != end; entry.increment(failure)) {
-    struct stat found;
-    if (entry->path().extension() != ".env" || ::stat(entry->path().c_str(), &found) != 0) continue;
-    const auto is_earlier = [](const timespec& a, const timespec& b) {
-      return std::pair(a.tv_sec, a.tv_nsec) < std::pair(b.tv_sec, b.tv_nsec);
-    };
-    // Where the file system records no reading, the time of writing counts.
-    const timespec read = is_earlier(found.st_atim, found.st_mtim) ? found.st_mtim : found.st_atim;
-    files.push_back({read, static_cast<std::uint64_t>(found.st_size), entry->path().string()});
-    total += files.back().size;
-  }
-  std::sort(files.begin(), files.end(), [](const File& a, const File& b) {
-    return std::tuple(a.read.tv_sec, a.read.tv_nsec, a.path) < std::tuple(b.read.tv_sec, b.read.tv_nsec, b.path);
-  });
-  for (const File& file : files) {
-    if (total <= most) break;
-    // Another process may have removed it; one that reads it keeps its bytes.
-    fs::remove(file.path, failure);
-    total -= file.size;
-  }
-}
-
-void store_environment(const std::string& path, std::span<const std::uint8_t> bytes) {
-  std::error_code failure;
-  fs::create_directories(fs::path(path).parent_path(), failure);
-  if (failure) return;
-  try {
-    save_bytes(path, bytes);
-    trim_cache(fs::path(path).parent_path().string(), most_cache_bytes);
-  } catch (const Error&) {  // of a cache that cannot be written
-  }
+void store_environment(const std::string& cache, std::uint64_t key, std::span<const std::uint8_t> bytes) {
+  const std::optional<CacheFolder> folder = CacheFolder::make(cache);
+  if (!folder) return;
+  folder->store(environment_name(key), bytes);
+  folder->trim(environment_extension, most_cache_bytes);
 }
 
 std::vector<std::string> environment_files(const RenderArgs& args) {

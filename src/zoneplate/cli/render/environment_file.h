@@ -13,23 +13,19 @@
 
 namespace zoneplate::cli {
 
-/// The folder of prepared environments: zoneplate in $XDG_CACHE_HOME, or else in $HOME/.cache; empty where neither is
-/// an absolute path.
+/// The folder of prepared environments (os/cache_folder.h): zoneplate in $XDG_CACHE_HOME, or else in $HOME/.cache;
+/// empty where neither is an absolute path.
 std::string environment_cache();
 
-/// The file of a prepared environment in the folder.
-std::string environment_path(const std::string& cache, std::uint64_t key);
+/// The name of a prepared environment in the folder.
+std::string environment_name(std::uint64_t key);
 
 /// The files of --hdri-file: one, or the six squares of a cube map; none where it is not given.
 std::vector<std::string> environment_files(const RenderArgs& args);
 
-/// Stores an environment that the item's process has prepared, whole or not at all, so that several processes may store
-/// the same one at once. The cache is an optimisation: nothing happens where it cannot be written.
-void store_environment(const std::string& path, std::span<const std::uint8_t> bytes);
-
-/// Removes prepared environments from a folder, those that were not read for the longest time first, until at most
-/// `most` bytes of them are left. Several processes may do so at once.
-void trim_cache(const std::string& folder, std::uint64_t most);
+/// Stores an environment that the item's process has prepared, and removes others that exceed `most_cache_bytes`. The
+/// cache is an optimisation: nothing happens where it cannot be written.
+void store_environment(const std::string& cache, std::uint64_t key, std::span<const std::uint8_t> bytes);
 inline constexpr std::uint64_t most_cache_bytes = std::uint64_t{256} << 20;
 
 /// The environments of an item's process.

@@ -9,6 +9,7 @@
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/cli/render/film.h"
+#include "zoneplate/os/cache_folder.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/shade/environment/prepared_environment.h"
 
@@ -21,7 +22,7 @@ ItemLimits limits_of(const std::vector<RenderArgs>& items, LimitedChildren* sibl
   std::vector<std::string> readable = readable_paths(args.input, args.load);
   for (const RenderArgs& item : items) {
     for (std::string& path : environment_files(item)) readable.push_back(std::move(path));
-    if (!item.cache.empty()) readable.push_back(item.cache);
+    if (CacheFolder::open(item.cache)) readable.push_back(item.cache);
     if (!item.default_material.texture.empty()) readable.push_back(item.default_material.texture);
   }
   return {.name = args.input == "-" ? "standard input" : args.input,
@@ -88,7 +89,7 @@ Summary RenderItems::next() {
       throw Error(ErrorKind::Failed, args.input + ": an environment that no cache takes");
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
     read(bytes);
-    store_environment(environment_path(args.cache, key), bytes);
+    store_environment(args.cache, key, bytes);
   };
 
   Summary summary = unpack_summary(process_.next(std::move(events)));

@@ -2,6 +2,7 @@
 #include "zoneplate/shade/environment/prepared_environment.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
@@ -267,6 +268,17 @@ PreparedEnvironment::PreparedEnvironment(const CubeImage& cube, const std::funct
     greatest_ = {std::max(greatest_.x, c.x), std::max(greatest_.y, c.y), std::max(greatest_.z, c.z)};
 }
 
+namespace {
+
+bool are_finite(std::span<const float> values) {
+  constexpr std::uint32_t exponent = 0x7f800000;
+  std::uint32_t others = 0;
+  for (const float value : values) others |= (std::bit_cast<std::uint32_t>(value) & exponent) == exponent;
+  return others == 0;
+}
+
+}  // namespace
+
 std::vector<std::uint8_t> PreparedEnvironment::bytes() const {
   const std::span texels(reinterpret_cast<const std::uint8_t*>(texels_.data()), texels_.size() * sizeof(float));
   Header header{};
@@ -292,6 +304,10 @@ std::optional<PreparedEnvironment> PreparedEnvironment::from_bytes(std::span<con
   out.texels_.resize(floats);
   std::memcpy(out.texels_.data(), texels.data(), texels.size());
   out.mean_ = header.mean, out.greatest_ = header.greatest, out.has_sharp_lights_ = header.has_sharp_lights != 0;
+  // The hash is no secret: values that no image gives may have been stored with theirs.
+  const float3 a = header.mean, b = header.greatest;
+  const float limits[] = {a.x, a.y, a.z, b.x, b.y, b.z};
+  if (!are_finite(out.texels_) || !are_finite(limits)) return std::nullopt;
   return out;
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -418,6 +420,26 @@ TEST(PreparedEnvironment, TheLargestHasTheMostBytes) {
   const std::vector<std::uint8_t> bytes = environment.bytes();
   EXPECT_EQ(bytes.size(), PreparedEnvironment::most_bytes());
   EXPECT_TRUE(PreparedEnvironment::from_bytes(bytes).has_value());
+}
+
+// Bytes whose hash is right, as of a file of a cache that another program has written.
+TEST(PreparedEnvironment, BytesWithValuesThatAreNotFiniteAreDamaged) {
+  const PreparedEnvironment environment = prepare_equirectangular(Plane<float4>(64, 32, {0.5f, 1, 2, 1}));
+  constexpr std::size_t header = 48, hash = header - sizeof(std::uint64_t), mean = 16;
+  const auto is_accepted = [&](std::size_t at, float value) {
+    std::vector<std::uint8_t> bytes = environment.bytes();
+    std::memcpy(bytes.data() + at, &value, sizeof value);
+    const std::uint64_t number = content_hash(std::span(bytes).subspan(header));
+    std::memcpy(bytes.data() + hash, &number, sizeof number);
+    return PreparedEnvironment::from_bytes(bytes).has_value();
+  };
+  EXPECT_TRUE(is_accepted(header + 400, -1.5f));
+  EXPECT_TRUE(is_accepted(mean, 1.5f));
+  for (const float value : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(),
+                            -std::numeric_limits<float>::infinity()}) {
+    EXPECT_FALSE(is_accepted(header + 400, value));
+    EXPECT_FALSE(is_accepted(mean, value));
+  }
 }
 
 TEST(PreparedEnvironment, ConstantLightStaysConstant) {
