@@ -87,11 +87,8 @@ LinearImage sharpened(const LinearImage& image, float exposure, float sharpness,
       exposed(x, y) = {value(c.r), value(c.g), value(c.b), 1};
     }
   });
-  const RcasOptions rcas{.sharpness = exp2(2 * sharpness - 2),
-                         .limits_by_ring = true,
-                         .is_unbounded = true,
-                         .denoises = true,
-                         .reciprocals = Reciprocals::Approximate};
+  const RcasOptions rcas{
+      .sharpness = exp2(2 * sharpness - 2), .limits_by_ring = true, .is_unbounded = true, .denoises = true};
   for_rows(height, [&](int y) {
     const auto row = [&](int i) { return &exposed.row(y + i)[1].r; };
     RcasKernels::of().sharpen_row(row(0), row(1), row(2), rcas, &out.row(y).data()->r, static_cast<std::size_t>(width));

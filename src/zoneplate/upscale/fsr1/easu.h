@@ -10,8 +10,8 @@ namespace zoneplate {
 
 /// How reciprocals and reciprocal roots are computed.
 enum class Reciprocals {
-  Exact,        ///< correctly rounded
   Approximate,  ///< by subtraction from the bits of the float, as AMD's shaders do: off by up to 12 %
+  Exact,        ///< correctly rounded, as three.js does
 };
 
 /// The input of one output row of EASU.

@@ -6,6 +6,9 @@
 // input is to be antialiased, or the staircases of the input are enlarged with sharp steps. Weakness: fine texture
 // looks painted, and lines thinner than two input pixels break.
 //
+// AMD's shader approximates the reciprocals of both passes by integer arithmetic on the bits of floats, which is part
+// of what FSR 1 looks like: exact ones, as three.js' FSR1Node has them, change edges by up to a fifth of the range.
+//
 // Source: AMD, FidelityFX Super Resolution 1.0 (ffx_fsr1.h), 2021.
 #include "zoneplate/upscale/fsr1/fsr1.h"
 
@@ -129,13 +132,13 @@ class Fsr1 : public SpatialUpscaler {
 
 constexpr std::string_view sharpenings[] = {"rcas", "none"};
 constexpr std::string_view switches[] = {"off", "on"};
-constexpr std::string_view maths[] = {"exact", "approximate"};
+constexpr std::string_view maths[] = {"amd", "three"};
 constexpr Param params[] = {
     scale_param,
     {.name = "sharpen", .meaning = "the second pass", .value = 0, .names = sharpenings},
     real_param("sharpness", "stops below the strongest sharpening", 0.2, 0, 2),
     {.name = "denoise", .meaning = "sharpens single outliers less", .value = 0, .names = switches},
-    {.name = "math", .meaning = "reciprocals: exact, or approximate as in AMD's shader", .value = 0, .names = maths}};
+    {.name = "math", .meaning = "reciprocals: as AMD's shader, or as three.js", .value = 0, .names = maths}};
 
 }  // namespace
 
@@ -152,7 +155,7 @@ Upscaler fsr1() {
             Fsr1Options options{.sharpens = s.chosen("sharpen") == "rcas"};
             options.rcas.sharpness = exp2(-static_cast<float>(s.number("sharpness")));
             options.rcas.denoises = s.chosen("denoise") == "on";
-            options.rcas.reciprocals = s.chosen("math") == "exact" ? Reciprocals::Exact : Reciprocals::Approximate;
+            options.rcas.reciprocals = s.chosen("math") == "amd" ? Reciprocals::Approximate : Reciprocals::Exact;
             return std::make_unique<Fsr1>(options);
           }};
 }

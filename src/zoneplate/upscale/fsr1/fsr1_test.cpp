@@ -3,11 +3,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
 #include "zoneplate/antialias/charts_for_test.h"
+#include "zoneplate/base/isa.h"
 #include "zoneplate/base/shared_files_for_test.h"
+#include "zoneplate/math/elementary.h"
+#include "zoneplate/math/lanes.h"
+#include "zoneplate/math/random.h"
 
 namespace zoneplate::upscale {
 namespace {
@@ -24,8 +29,9 @@ DisplayImage upscaled_chart(const Fsr1Options& options) {
   return upscale_fsr1(chart, {64, 64, 0, 0, {96, 96, std::nullopt}}, options);
 }
 
-Fsr1Options with_rcas(float stops) {
+Fsr1Options with_rcas(float stops, Reciprocals reciprocals = Reciprocals::Approximate) {
   Fsr1Options options;
+  options.rcas.reciprocals = reciprocals;
   options.rcas.sharpness = std::exp2(-stops);
   return options;
 }
@@ -40,16 +46,16 @@ double sum_of(const DisplayImage& image, int border) {
   return sum;
 }
 
+Fsr1Options without_rcas(Reciprocals reciprocals) { return {.sharpens = false, .rcas = {.reciprocals = reciprocals}}; }
+
 // The sums are those of an implementation in double that agrees with three.js' FSR1Node.
 TEST(Fsr1, AgreesWithFiguresOfAnotherImplementation) {
-  const DisplayImage easu = upscaled_chart({.sharpens = false});
+  const DisplayImage easu = upscaled_chart(without_rcas(Reciprocals::Exact));
   EXPECT_NEAR(sum_of(easu, 0), 15528.7821, 2e-3);
   EXPECT_NEAR(sum_of(easu, 4), 13399.0127, 2e-3);
   EXPECT_NEAR(easu(48, 20).g, 0.90522, 1e-5);
-  Fsr1Options approximate{.sharpens = false};
-  approximate.rcas.reciprocals = Reciprocals::Approximate;
-  EXPECT_NEAR(sum_of(upscaled_chart(approximate), 0), 15529.8506, 2e-3);
-  const DisplayImage sharp = upscaled_chart(with_rcas(0.2f));
+  EXPECT_NEAR(sum_of(upscaled_chart(without_rcas(Reciprocals::Approximate)), 0), 15529.8506, 2e-3);
+  const DisplayImage sharp = upscaled_chart(with_rcas(0.2f, Reciprocals::Exact));
   EXPECT_NEAR(sum_of(sharp, 0), 15522.6649, 5e-3);
   EXPECT_NEAR(sharp(48, 20).r, 0.91731, 1e-5);
   EXPECT_NEAR(sharp(48, 20).g, 0.91726, 1e-5);
@@ -87,9 +93,9 @@ TEST_P(Fsr1Golden, AgreesWithThreeJs) {
   const std::string path = GetParam();
   const std::size_t name = path.find("rcas0.2_");
   const bool is_sharp = name != std::string::npos;
-  const DisplayImage image = is_sharp
-                                 ? sharpened(golden(std::string(path).replace(name, 8, "easu_")), with_rcas(0.2f).rcas)
-                                 : upscaled_chart({.sharpens = false});
+  const DisplayImage image = is_sharp ? sharpened(golden(std::string(path).replace(name, 8, "easu_")),
+                                                  with_rcas(0.2f, Reciprocals::Exact).rcas)
+                                      : upscaled_chart(without_rcas(Reciprocals::Exact));
   const std::vector<float> expected = golden(path);
   for (int y = 4; y < side - 4; ++y)
     for (int x = 4; x < side - 4; ++x) {
@@ -103,6 +109,57 @@ INSTANTIATE_TEST_SUITE_P(Shared, Fsr1Golden,
                          testing::ValuesIn(shared_files("methods/goldens", {"easu_96x96_rgb_f32_three187.bin",
                                                                             "rcas0.2_96x96_rgb_f32_three187.bin"})));
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Fsr1Golden);
+
+TEST(Fsr1, IsAmdsUnlessThreeJsIsAskedFor) {
+  const auto by_name = [](const char* method) {
+    const Rgba8Image codes = antialias::chart64();
+    DisplayImage chart(64, 64);
+    std::ranges::transform(codes.values(), chart.values().begin(), [](Rgba8 c) {
+      return Display{static_cast<float>(c.r) / 255, static_cast<float>(c.g) / 255, static_cast<float>(c.b) / 255, 1};
+    });
+    return make_spatial_upscaler(method)->upscale(chart, {64, 64, 0, 0, {96, 96, std::nullopt}});
+  };
+  const auto by_options = [](Reciprocals reciprocals) {
+    Fsr1Options options = with_rcas(0, reciprocals);
+    options.rcas.sharpness = exp2(-0.2f);
+    return upscaled_chart(options);
+  };
+  EXPECT_EQ(by_name("fsr1"), by_options(Reciprocals::Approximate));
+  EXPECT_EQ(by_name("fsr1:math=amd"), by_options(Reciprocals::Approximate));
+  EXPECT_EQ(by_name("fsr1:math=three"), by_options(Reciprocals::Exact));
+  EXPECT_NE(by_options(Reciprocals::Exact), by_options(Reciprocals::Approximate));
+}
+
+// Minima and maxima of 0 and -0 are the second operand on every instruction set, so that no bit depends on which of
+// them an instruction takes for the lesser.
+TEST(Fsr1, ZerosOfBothSignsHaveTheSameBitsOnEveryInstructionSet) {
+  constexpr int count = 3 * 3 * 3 * 3 * 3;  // all pixels and neighbours of 0, -0 and 1
+  DisplayImage rows[3] = {DisplayImage(count + 2, 1), DisplayImage(count + 2, 1), DisplayImage(count + 2, 1)};
+  for (int i = 0, rest = 0; i < count + 2; ++i) {
+    rest = i;
+    for (DisplayImage& row : rows) {
+      const auto value = [](int k) { return k % 3 == 0 ? 0.0f : k % 3 == 1 ? -0.0f : 1.0f; };
+      row(i, 0) = {value(rest), value(rest / 3), value(rest / 9), value(rest / 27)};
+      rest = static_cast<int>(hash(static_cast<std::uint32_t>(rest)) % 243);
+    }
+  }
+  for (const bool is_unbounded : {false, true})
+    for (const Reciprocals reciprocals : {Reciprocals::Approximate, Reciprocals::Exact}) {
+      const RcasOptions options{.is_unbounded = is_unbounded, .denoises = true, .reciprocals = reciprocals};
+      const auto bits_of = [&](Isa isa) {
+        std::vector<std::uint32_t> bits(std::size_t{4} * count);
+        with_isa(isa, [&] {
+          RcasKernels::of().sharpen_row(&rows[0](1, 0).r, &rows[1](1, 0).r, &rows[2](1, 0).r, options,
+                                        reinterpret_cast<float*>(bits.data()), count);
+        });
+        return bits;
+      };
+      for (const Isa isa : supported_isas()) EXPECT_EQ(bits_of(isa), bits_of(Isa::Scalar)) << name_of(isa);
+    }
+  using F = scalar::Float;
+  EXPECT_TRUE(std::signbit(min(F(0.0f), F(-0.0f)).v) && std::signbit(max(F(0.0f), F(-0.0f)).v));
+  EXPECT_FALSE(std::signbit(min(F(-0.0f), F(0.0f)).v) || std::signbit(max(F(-0.0f), F(0.0f)).v));
+}
 
 TEST(Fsr1, SharpeningStaysInRangeAndOrder) {
   const DisplayImage soft = upscaled_chart(with_rcas(2)), sharp = upscaled_chart(with_rcas(0));

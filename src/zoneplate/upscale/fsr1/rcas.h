@@ -13,14 +13,14 @@ struct RcasOptions {
   bool limits_by_ring = false;  ///< only the four neighbours limit the lobe, not the pixel itself, as in FSR 2
   bool is_unbounded = false;    ///< the result is not clamped to [0, 1], for inputs beyond
   bool denoises = false;        ///< weaker where the pixel differs from all of its neighbours
-  Reciprocals reciprocals = Reciprocals::Exact;
+  Reciprocals reciprocals = Reciprocals::Approximate;
 };
 
 /// Robust contrast-adaptive sharpening: subtracts a share of the four neighbours, the greatest one for which no channel
 /// leaves [0, 1].
 ///
 /// Exact     the same bits on every instruction set; the result is in [0, 1] unless it is unbounded, and a
-///           constant stays within rounding.
+///           constant stays within rounding, or with approximate reciprocals within 0.3 %.
 /// Source    AMD, FidelityFX Super Resolution 1.0, ffx_fsr1.h: FsrRcasF.
 struct RcasKernels : PerIsa<RcasKernels> {
   /// n pixels of four floats; alpha is sharpened by the colours' lobe, within its neighbours. `here` is valid from one
