@@ -9,6 +9,9 @@
 #include <string_view>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/codec/exr_header.h"
+#include "zoneplate/codec/inspect/color_space.h"
+#include "zoneplate/codec/inspect/image_format.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/formats/import/image_file.h"
 
@@ -38,6 +41,9 @@ void put_checksums_right(Bytes& png) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Bytes bytes(data, data + size);
   if (std::string_view(ZONEPLATE_FUZZ_FORMAT) == "png") put_checksums_right(bytes);
+  zoneplate::color_space_of(bytes);
+  zoneplate::count_frames(bytes);
+  zoneplate::read_exr_parts(bytes);
   try {
     if (std::string_view(ZONEPLATE_FUZZ_FORMAT) == "pfm") {
       zoneplate::decode_pfm(bytes, "image", max_pixels);  // no texture is one

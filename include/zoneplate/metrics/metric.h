@@ -63,13 +63,14 @@ struct Metric {
   std::string_view unit;                ///< "dB"; empty for a pure number
   Better better = Better::Lower;        ///< decides which of several values is the worst
   std::optional<double> perfect = 0.0;  ///< the value for identical images, if there is one
-  bool defines_alpha = false;           ///< it says itself what alpha means; else the worse of black and white counts
-  bool is_default = true;               ///< measured if the user names no metric
-  int frames = 1;                       ///< number of consecutive frames that are used together
-  bool starts_short = false;            ///< the first images are measured too, with fewer frames
-  int smallest = 1;                     ///< least width and height
-  Sizes sizes = Sizes::Same;            ///< required of reference and test
-  std::span<const Param> params = {};   ///< what may follow the name: ppd of `flip:ppd=30`
+  /// True if it says itself what alpha means; null: the worse of the values over black and over white counts.
+  bool (*defines_alpha)(const Settings&) = nullptr;
+  bool is_default = true;              ///< measured if the user names no metric
+  int frames = 1;                      ///< number of consecutive frames that are used together
+  bool starts_short = false;           ///< the first images are measured too, with fewer frames
+  int smallest = 1;                    ///< least width and height
+  Sizes sizes = Sizes::Same;           ///< required of reference and test
+  std::span<const Param> params = {};  ///< what may follow the name: ppd of `flip:ppd=30`
   /// Measures the newest test image against its reference.
   /// Requires  `frames` images each (fewer if starts_short), of the sizes that `sizes` and `smallest` require. Nothing if
   /// the images lack the measured feature; of a sequence, the other windows are measured.

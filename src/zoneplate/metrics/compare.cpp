@@ -110,7 +110,7 @@ constexpr const char* nothing_to_measure = "has nothing that it could measure";
 std::optional<Score> score_of(const Choice& choice, const Window& reference, const Window& test, std::size_t frames,
                               bool has_alpha) {
   const Metric& metric = *choice.metric;
-  if (!has_alpha || metric.defines_alpha)
+  if (!has_alpha || (metric.defines_alpha && metric.defines_alpha(choice.settings)))
     return metric.measure(reference.plain(frames), test.plain(frames), choice.settings);
   const auto on = [&](Backdrop backdrop) {
     return metric.measure(reference.on(backdrop, frames), test.on(backdrop, frames), choice.settings);

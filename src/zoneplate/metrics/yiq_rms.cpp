@@ -2,8 +2,9 @@
 // The root mean square of squared YIQ colour distances, in decibels: the measure of glTF's render fidelity collection,
 // where two rasterisers' images of a scene differ by -16 to -35 dB.
 //
-// The distance is squared twice, so that a few wrong pixels outweigh a slight error everywhere. It is not symmetric:
-// pixels that are empty in the test image are ignored.
+// The distance is squared twice, so that a few wrong pixels outweigh a slight error everywhere. As the collection
+// defines it, `empty=1`, images lie on white, and it is not symmetric: pixels that are empty in the test image are
+// ignored.
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -26,6 +27,13 @@ Codes codes_on_white(Display c) {
   return {blend(c.r), blend(c.g), blend(c.b)};
 }
 
+/// The codes of a pixel that is measured over a given backdrop: black, where it is not opaque.
+Codes codes_of(Display c, bool ignores_empty) {
+  if (ignores_empty || c.a == 1) return codes_on_white(c);
+  const Codes black = codes_on_black(c);
+  return {255 * black.r, 255 * black.g, 255 * black.b};
+}
+
 /// Squared distance of two colours, weighted by the eye's sensitivity to luma and the two chromas.
 double distance(Codes p, Codes q) {
   const double r = p.r - q.r, g = p.g - q.g, b = p.b - q.b;
@@ -35,14 +43,15 @@ double distance(Codes p, Codes q) {
   return 0.5053 * y * y + 0.299 * i * i + 0.1957 * c * c;
 }
 
-std::optional<Score> measure(const DisplayImage& reference, const DisplayImage& test) {
+std::optional<Score> measure(const DisplayImage& reference, const DisplayImage& test, bool ignores_empty) {
+  const auto is_seen = [&](const Display& c) { return !ignores_empty || c.a > 0; };
   Score score;
   score.map = Plane<float>(reference.width(), reference.height());
   const double sum = sum_rows(reference.height(), [&](int y) {
     double row = 0;
     for (int x = 0; x < reference.width(); ++x) {
-      if (!(test(x, y).a > 0)) continue;
-      const double d = distance(codes_on_white(reference(x, y)), codes_on_white(test(x, y)));
+      if (!is_seen(test(x, y))) continue;
+      const double d = distance(codes_of(reference(x, y), ignores_empty), codes_of(test(x, y), ignores_empty));
       row += d * d;
       score.map(x, y) = static_cast<float>(std::sqrt(d / greatest_distance));
     }
@@ -50,7 +59,7 @@ std::optional<Score> measure(const DisplayImage& reference, const DisplayImage& 
   });
   const double count = sum_rows(test.height(), [&](int y) {
     double row = 0;
-    for (const Display& c : test.row(y)) row += c.a > 0 ? 1 : 0;
+    for (const Display& c : test.row(y)) row += is_seen(c) ? 1 : 0;
     return row;
   });
   if (count == 0) return std::nullopt;
@@ -70,16 +79,23 @@ double pool(std::span<const double> frames) {
 }  // namespace
 
 Metric yiq_rms() {
+  static constexpr int flags[] = {0, 1};
+  static constexpr Param params[] = {
+      {.name = "empty",
+       .meaning = "1: over white, without pixels that are empty in the test image, as the collection defines it",
+       .value = 0,
+       .choices = flags}};
   return {.name = "yiq_rms",
-          .summary = "root mean square of squared YIQ distances, of codes on white, where the test is not empty",
+          .summary = "root mean square of squared YIQ distances",
           .source =
               "render fidelity tools of google/model-viewer; distance: Kotsarenko and Ramos, Measuring Perceived "
               "Color Difference Using YIQ NTSC Transmission Color Space in Mobile Applications, 2010",
           .unit = "dB",
           .perfect = -std::numeric_limits<double>::infinity(),
-          .defines_alpha = true,
-          .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
-            return measure(reference[0].display, test[0].display);
+          .defines_alpha = [](const Settings& settings) { return settings.number("empty") == 1; },
+          .params = params,
+          .measure = [](Frames reference, Frames test, const Settings& settings) -> std::optional<Score> {
+            return measure(reference[0].display, test[0].display, settings.number("empty") == 1);
           },
           .pool = pool};
 }

@@ -3,13 +3,14 @@
 
 #include <cmath>
 
+#include "zoneplate/metrics/compare.h"
 #include "zoneplate/metrics/metrics.h"
 
 namespace zoneplate::metrics {
 namespace {
 
 std::optional<Score> yiq(const DisplayImage& reference, const DisplayImage& test) {
-  const Choice choice = choose_metric(metrics(), "yiq_rms");
+  const Choice choice = choose_metric(metrics(), "yiq_rms:empty=1");
   const Picture a = make_picture(reference), b = make_picture(test);
   return choice.metric->measure({&a, 1}, {&b, 1}, choice.settings);
 }
@@ -28,6 +29,22 @@ TEST(YiqRms, OnlyWhatTheTestShowsCounts) {
   EXPECT_EQ(yiq(reference, test)->value, -std::numeric_limits<double>::infinity());
   EXPECT_GT(yiq(test, reference)->value, -10);  // black beside transparent, which is white
   EXPECT_FALSE(yiq(reference, DisplayImage(2, 1, nothing)));
+}
+
+TEST(YiqRms, WhatHasVanishedCountsByDefault) {
+  const auto value = [](const DisplayImage& reference, const DisplayImage& test) {
+    const Comparands pair{.count = 1,
+                          .reference = [&](std::size_t) { return make_picture(reference); },
+                          .test = [&](std::size_t) { return make_picture(test); }};
+    const Choice choice = choose_metric(metrics(), "yiq_rms");
+    return compare(pair, {&choice, 1}, Unfit::Refuse).results[0].value;
+  };
+  const double whole = 10 * std::log10(0.5053 * 255 * 255 / 35215);
+  for (const Display logo : {black, white}) {
+    EXPECT_NEAR(value(DisplayImage(2, 1, logo), DisplayImage(2, 1, nothing)), whole, 1e-6);
+    EXPECT_NEAR(value(DisplayImage(2, 1, nothing), DisplayImage(2, 1, logo)), whole, 1e-6);
+  }
+  EXPECT_NEAR(value(DisplayImage(2, 1, black), DisplayImage(2, 1, white)), whole, 1e-6);
 }
 
 TEST(YiqRms, PoolsTheRatiosOfFrames) {

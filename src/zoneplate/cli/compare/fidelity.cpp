@@ -105,7 +105,7 @@ std::vector<Scenario> read_scenarios(const std::string& path) {
 }
 
 double yiq_decibels(const metrics::Picture& reference, const metrics::Picture& test) {
-  const std::vector<metrics::Choice> metric = {metrics::choose_metric(metrics::metrics(), "yiq_rms")};
+  const std::vector<metrics::Choice> metric = {metrics::choose_metric(metrics::metrics(), "yiq_rms:empty=1")};
   const metrics::Comparands pictures{
       .count = 1, .reference = [&](std::size_t) { return reference; }, .test = [&](std::size_t) { return test; }};
   return metrics::compare(pictures, metric, metrics::Unfit::Refuse).results.at(0).value;

@@ -217,9 +217,9 @@ TEST_F(Equality, SilhouettesAreSeenOverBlackAndOverWhite) {
   save("gone.png", encode_png(Rgba8Image(32, 32, {0, 0, 0, 0})));
   save("black.png", encode_png(Rgba8Image(32, 32, {0, 0, 0, 255})));
   for (const char* other : {"gone.png", "black.png"})
-    for (const char* threshold :
-         {"ssim --threshold 0.999", "flip --threshold 0.001", "psnr --threshold 60", "mse --threshold 0",
-          "mae --threshold mae.max=0.5", "cvvdp --threshold 9.9", "edge_error --threshold 0.01"}) {
+    for (const char* threshold : {"ssim --threshold 0.999", "flip --threshold 0.001", "psnr --threshold 60",
+                                  "mse --threshold 0", "mae --threshold mae.max=0.5", "cvvdp --threshold 9.9",
+                                  "edge_error --threshold 0.01", "yiq_rms --threshold -40"}) {
       EXPECT_EQ(run(fmt::format("logo.png {} --metric {}", other, threshold)).code, 1) << other << threshold;
       EXPECT_EQ(run(fmt::format("logo.png logo.png --metric {}", threshold)).code, 0) << threshold;
     }
