@@ -200,6 +200,7 @@ void run_metrics(std::span<const std::string> arguments) {
     if (!path.empty()) check_savable(path);
 
   Judgement judgement;
+  bool is_pair = false;  // of two files, not of folders that hold one image each
   with_threads(args.threads, [&] {
     Progress progress(args.is_quiet ? ProgressKind::None : args.progress ? *args.progress : parse_progress("auto"));
     progress.begin("read", 0);
@@ -210,8 +211,9 @@ void run_metrics(std::span<const std::string> arguments) {
                                                 reference.is_directory ? "a directory" : "a file"));
     judgement = judge(reference, test, choices, verdicts, !args.report_path.empty(),
                       [&](double done) { progress.begin("compare", done); });
+    is_pair = !reference.is_directory && judgement.items.size() == 1;
   });
-  if (judgement.items.size() == 1 && judgement.items[0].outcome == Outcome::Unreadable)
+  if (is_pair && judgement.items[0].outcome == Outcome::Unreadable)
     throw Error(ErrorKind::Input, judgement.items[0].message);
   if (!args.map_path.empty()) save_map(args, judgement);
   if (!args.report_path.empty()) save_text(args.report_path, html_of(judgement, paths));
