@@ -74,31 +74,50 @@ template <class F>
   return {out.d, out.x * sx, out.y * sy};
 }
 
-/// Newton's method on the circle of curvature: the foot of the perpendicular from the evolute's centre is moved to the
-/// nearest point by the arc that the point spans.
+/// A lower bound of the t > 0 at which (n / (t + k))² + (z / t)² is 1, within a factor of 1.6 of it.
 ///
-/// Source    Carl Chatfield, A Simple Method for Distance to Ellipse, 2017.
+/// The bounds are that of each term alone, and of t² (t + k - n) ≥ k z² / 2, which holds because
+/// 1 - (n / (t + k))² ≤ 2 (t + k - n) / k. The latter is near where many points of the ellipse are nearly as near: at
+/// the cusps of its evolute.
+template <class F>
+[[gnu::always_inline]] inline F ellipse_bound(F n, float k, F z) {
+  const F zero(0.0f), half(0.5f), least(1e-37f), behind = F(k) - n, volume = max(F(0.5f * k) * z * z, least);
+  const F root = exp2(log2(volume) * F(1.0f / 3));
+  constexpr float half_root = 0.79f, rounding = 0.9999f;  // the cube root of 1/2
+  const F cusp =
+      select(behind > zero, min(sqrt(volume * half / max(behind, least)), root * F(half_root)), root * F(rounding));
+  return max(max(z, n - F(k)), cusp);
+}
+
+/// The nearest point of an ellipse with the radii a ≥ b has the coordinates a² x / (s + a²) and b² y / (s + b²), where
+/// the sum of their squares in units of the radii is 1. With s = b² (t - 1) that is ellipse_bound's equation; Newton's
+/// method on 1 / √(sum), which is nearly linear in t, rises to its root from below.
+///
+/// Exact     five steps: within 3e-7 of the greater radius and of the point's distance, for a / b up to 10⁵.
+/// Source    the equation: Eberly, Distance from a Point to an Ellipse, an Ellipsoid, or a Hyperellipsoid, 2013; the
+///           method: Moré and Sorensen, Computing a Trust Region Step, 1983.
 template <class F>
 [[gnu::always_inline]] inline LaneValue<F> ellipse_value(const Instruction& shape, LanePoint<F> p) {
-  constexpr int steps = 8;
-  const F a(shape.a), b(shape.b), zero(0.0f), one(1.0f), least(1e-30f);
-  const F px = abs(p.x), py = abs(p.y);
-  const float square = (shape.a - shape.b) * (shape.a + shape.b);
-  const F ea(square / shape.a), eb(-square / shape.b);
-  F tx(0.70710678f), ty(0.70710678f);
-  for (int k = 0; k < steps; ++k) {
-    const F ex = ea * (tx * tx * tx), ey = eb * (ty * ty * ty);
-    const F rx = a * tx - ex, ry = b * ty - ey, qx = px - ex, qy = py - ey;
-    const F ratio = sqrt((rx * rx + ry * ry) / max(qx * qx + qy * qy, least));
-    const F ux = min(max((qx * ratio + ex) / a, zero), one), uy = min(max((qy * ratio + ey) / b, zero), one);
-    const F norm = sqrt(max(ux * ux + uy * uy, least));
-    tx = ux / norm, ty = uy / norm;
+  constexpr int steps = 5;
+  const bool is_wide = shape.a >= shape.b;
+  const float a = is_wide ? shape.a : shape.b, b = is_wide ? shape.b : shape.a;
+  const F px = abs(is_wide ? p.x : p.y), py = abs(is_wide ? p.y : p.x), one(1.0f);
+  const float inverse = 1 / b, k = (a - b) * inverse * ((a + b) * inverse);
+  // On the long axis the nearest point may lie above or below: the point is moved off it by much less than rounding.
+  const F n = px * F(a * inverse * inverse), z = max(py * F(inverse), F(1e-18f));
+  const F low = ellipse_bound(n, k, z);
+  F t = low;
+  for (int i = 0; i < steps; ++i) {
+    const F inverse_t = one / t, inverse_s = one / (t + F(k));
+    const F x = n * inverse_s, y = z * inverse_t, xx = x * x, yy = y * y, sum = xx + yy;
+    t = max(t + (sqrt(sum) - one) * sum / (xx * inverse_s + yy * inverse_t), low);
   }
+  const F x = n / (t + F(k)), y = z / t, norm = one / sqrt(x * x + y * y);
   // Inside, the sign is that of the implicit equation.
-  const F nx = px / a, ny = py / b;
+  const F nx = px / F(a), ny = py / F(b);
   const F sign = select(nx * nx + ny * ny < one, F(-1.0f), one);
-  LaneValue<F> v = value_of_offset<F>(px - a * tx, py - b * ty, sign);
-  return {v.d, v.x * sign_of(p.x), v.y * sign_of(p.y)};
+  const LaneValue<F> v = value_of_offset<F>(px - F(a) * (x * norm), py - F(b) * (y * norm), sign);
+  return {v.d, (is_wide ? v.x : v.y) * sign_of(p.x), (is_wide ? v.y : v.x) * sign_of(p.y)};
 }
 
 /// The nearest point so far among the parts of an outline, and the winding number.

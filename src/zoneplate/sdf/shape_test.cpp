@@ -124,6 +124,60 @@ TEST(SdfShape, EllipseIsExact) {
   }
 }
 
+/// The distance to an ellipse with the radii a >= b, by bisection of the equation of its nearest point.
+double ellipse_distance(double a, double b, Point p) {
+  const double x = std::abs(p.x), y = std::abs(p.y), k = (a - b) * (a + b),
+               sign = x * x / (a * a) + y * y / (b * b) < 1 ? -1 : 1;
+  // The nearest point is (a² x / (t + k), b² y / t), where the squares of its coordinates over the radii have the
+  // sum 1.
+  const double least = std::max(b * y, a * x - k);
+  if (least <= 0 || y == 0) {
+    const double cosine = a * x / k;
+    return sign *
+           (cosine < 1 ? length(Point{x - a * cosine, b * std::sqrt((1 - cosine) * (1 + cosine))}) : std::abs(x - a));
+  }
+  double low = least, high = length(Point{a * x, b * y});
+  for (int i = 0; i < 200; ++i) {
+    const double t = high > 4 * low ? std::sqrt(low * high) : (low + high) / 2, u = a * x / (t + k), v = b * y / t;
+    (u * u + v * v > 1 ? low : high) = t;
+  }
+  return sign * length(Point{x - a * (a * x / (low + k)), y - b * (b * y / low)});
+}
+
+TEST(SdfShape, ThinEllipsesAreExact) {
+  const auto random = [](int i, std::uint32_t k) {
+    return static_cast<double>(unit_float(hash(static_cast<std::uint32_t>(i), k)));
+  };
+  for (const float ratio : {1.001f, 1.5f, 7.0f, 100.0f, 1e3f, 1e4f, 1e5f}) {
+    const double a = 0.75, b = static_cast<double>(0.75f / ratio), cusp = (a - b) * (a + b) / a;
+    std::vector<Point> wide = {{0, 0}, {a, 0}, {0, b}, {cusp, 0}, {a / 2, 0}, {a / 2, b / 2}, {a * 1.01, b / 4}};
+    for (int i = 0; i < 20'000; ++i) {
+      const double u = random(i, 0), v = random(i, 1), angle = std::pow(u, 3) * std::numbers::pi / 2;
+      const double cosine = std::cos(angle), sine = std::sin(angle);
+      const Point kinds[] = {
+          {u * 1.5, v * 1.5},                                             // anywhere
+          {u * a, v * b},                                                 // in the box of the ellipse
+          {u * 1.2 * a, v * 1e-3 * b},                                    // near the long axis
+          {a * (1 + (u - 0.5) * 0.01), v * 2 * b},                        // at its end
+          {cosine * a * (1 + v * 1e-3), sine * b * (1 + v * 1e-3)},       // at the boundary
+          {cusp * std::pow(cosine, 3), cusp * a / b * std::pow(sine, 3)}  // at the evolute
+      };
+      wide.push_back(kinds[i % 6]);
+    }
+    std::vector<Point> tall;
+    for (Point& p : wide) p = rounded(p), tall.push_back({-p.y, p.x});
+    const std::vector<float> of_wide = distances_at(ellipse(a, b), wide), of_tall = distances_at(ellipse(b, a), tall);
+    double worst = 0;
+    for (std::size_t i = 0; i < wide.size(); ++i) {
+      const double expected = ellipse_distance(a, b, wide[i]), size = std::max(1.0, length(wide[i]));
+      const double off = std::max(std::abs(static_cast<double>(of_wide[i]) - expected),
+                                  std::abs(static_cast<double>(of_tall[i]) - expected));
+      worst = std::max(worst, off / size);
+    }
+    EXPECT_LT(worst, 1e-6) << "1 to " << ratio;
+  }
+}
+
 TEST(SdfShape, PolygonsAreExact) {
   const Point rhombus_corners[] = {{0, -0.4}, {0.9, 0}, {0, 0.4}, {-0.9, 0}};
   expect_distances(rhombus(1.8, 0.8), 1.5, [&](Point p) { return polygon_distance(rhombus_corners, p); });
