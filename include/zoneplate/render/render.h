@@ -27,7 +27,7 @@ struct EnvironmentBackground {
 
 /// A scene and its camera at one point in time. Only the scene's meshes and instances are used.
 struct Moment {
-  std::shared_ptr<const Scene> scene;  ///< its meshes and instances correspond to those of the rendered scene
+  std::shared_ptr<const Scene> scene;  ///< of the rendered scene at that time: instances correspond by object and part
   Camera camera;                       ///< its pose at the same time
 };
 

@@ -17,10 +17,14 @@
 namespace zoneplate {
 
 /// An instance of a mesh in the world. Meshes of one node share its `object` index.
+///
+/// Object and part identify an instance at all moments of an animation: its index in Scene::instances changes where
+/// another one appears or vanishes.
 struct Instance {
   int mesh = 0;                ///< index into Scene::meshes
   int object = 0;              ///< index into Scene::objects
   float4x4 world_from_object;  ///< affine; the identity by default
+  int part = 0;                ///< which of the object's meshes it is; may be 0 for all where none vanishes
 };
 
 /// An animation of a file, and its time span.
@@ -35,7 +39,7 @@ struct AnimationSpan {
 struct Scene {
   std::vector<Mesh> meshes;          ///< drawn where instances place them
   std::vector<Instance> instances;   ///< in this order: of equal depths the first drawn is visible
-  NameList objects;                  ///< names of objects, for ids
+  NameList objects;                  ///< names of objects, for ids; also of those that are hidden at the moment
   std::vector<Material> materials;   ///< Mesh::material is an index into this list
   std::vector<TextureImage> images;  ///< TextureUse::image is an index into this list
   std::vector<Light> lights;         ///< none: see light_unlit

@@ -278,8 +278,7 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
     frame.instance = request.planes.object_id ? frame.object_id : std::move(frame.object_id);
     const Moment now{prepared.shared_scene(), camera};
     add_surface_points(now, request.planes, options, frame);
-    if (request.planes.was_visible)
-      last_visibility_.find(options.last ? *options.last : now, prepared.textures(), options, frame);
+    if (request.planes.was_visible) last_visibility_.find(now, prepared.textures(), options, frame);
   }
   for (std::uint32_t& id : frame.object_id.values())
     if (id != Frame::no_id) id = static_cast<std::uint32_t>(scene.instances[id].object);

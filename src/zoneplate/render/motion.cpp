@@ -12,6 +12,7 @@
 #include "zoneplate/raster/fragment/interpolate.h"
 #include "zoneplate/raster/geometry/triangle_facing.h"
 #include "zoneplate/ray/trace.h"
+#include "zoneplate/scene/counterparts.h"
 #include "zoneplate/shade/cast/casters.h"
 #include "zoneplate/shade/surface/material_plan.h"
 
@@ -31,14 +32,34 @@ struct Mixture {
   std::array<double, 3> weight{};
 };
 
-/// The matrix of a moment's camera, and its scene.
-struct Seen {
-  const Scene* scene = nullptr;
-  float4x4 clip_from_world;
+const Mesh& mesh_of(const Scene& scene, const Instance& instance) {
+  return scene.meshes[static_cast<std::size_t>(instance.mesh)];
+}
 
-  Seen(const Moment& moment, float aspect)
-      : scene(moment.scene.get()),
-        clip_from_world(moment.camera.clip_from_camera(aspect) * inverse(moment.camera.world_from_camera)) {}
+/// The matrix of a moment's camera, its scene, and where that has the instances of the rendered scene.
+class Seen {
+ public:
+  Seen(const Moment& moment, float aspect, const Scene& rendered)
+      : clip_from_world(moment.camera.clip_from_camera(aspect) * inverse(moment.camera.world_from_camera)),
+        scene(moment.scene.get()),
+        rendered_(rendered),
+        counterpart_(scene == &rendered ? std::vector<std::uint32_t>() : counterparts(rendered, *scene)) {}
+
+  /// An instance of the rendered scene at this moment; null if the scene lacks it, or has another mesh there.
+  const Instance* find(std::uint32_t instance) const {
+    const std::uint32_t there = scene == &rendered_ ? instance : counterpart_[instance];
+    if (there == no_instance) return nullptr;
+    const Instance& found = scene->instances[there];
+    const Mesh &mesh = mesh_of(*scene, found), &like = mesh_of(rendered_, rendered_.instances[instance]);
+    return mesh.position.size() == like.position.size() && mesh.topology == like.topology ? &found : nullptr;
+  }
+
+  float4x4 clip_from_world;
+  const Scene* scene;
+
+ private:
+  const Scene& rendered_;
+  std::vector<std::uint32_t> counterpart_;
 };
 
 float3 narrowed(Double3 p) { return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}; }
@@ -148,19 +169,18 @@ class PointFinder {
   std::vector<float4x4> clip_from_object_;
 };
 
-/// The world position of a weighted point of a mesh; nothing if the scene lacks that mesh.
-std::optional<Double3> place_of(const Mixture& point, std::uint32_t instance, const Scene& scene, const Mesh& like) {
-  if (instance >= scene.instances.size()) return std::nullopt;
-  const Instance& placed = scene.instances[instance];
-  const Mesh& mesh = scene.meshes[static_cast<std::size_t>(placed.mesh)];
-  if (mesh.position.size() != like.position.size() || mesh.topology != like.topology) return std::nullopt;
+/// The world position of a weighted point of an instance at a moment; nothing if the moment lacks it.
+std::optional<Double3> place_of(const Mixture& point, std::uint32_t instance, const Seen& seen) {
+  const Instance* const placed = seen.find(instance);
+  if (placed == nullptr) return std::nullopt;
+  const Mesh& mesh = mesh_of(*seen.scene, *placed);
   Double3 sum;
   for (std::size_t k = 0; k < 3; ++k) {
     const float3 p = mesh.position[point.vertex[k]];
     const double weight = point.weight[k];
     sum = {sum.x + weight * p.x, sum.y + weight * p.y, sum.z + weight * p.z};
   }
-  return transformed(placed.world_from_object, sum);
+  return transformed(placed->world_from_object, sum);
 }
 
 /// The way in texture coordinates, before any map, from a point at one moment to the point that has the same texel at
@@ -229,10 +249,9 @@ struct PointAt {
 };
 
 /// The motion on the screen from a point at one moment to a point at another.
-float2 step_between(const PointAt& from, const PointAt& to, std::uint32_t instance, const Mesh& mesh,
-                    Viewport viewport) {
+float2 step_between(const PointAt& from, const PointAt& to, std::uint32_t instance, Viewport viewport) {
   const auto at = [&](const PointAt& p) -> std::optional<Place> {
-    const std::optional<Double3> place = place_of(p.point, instance, *p.seen.scene, mesh);
+    const std::optional<Double3> place = place_of(p.point, instance, p.seen);
     return place ? on_screen(p.seen.clip_from_world, *place, viewport) : std::nullopt;
   };
   const auto start = at(from), end = at(to);
@@ -246,10 +265,11 @@ void add_surface_points(const Moment& now, const Planes& planes, const RenderOpt
   const int width = frame.instance.width(), height = frame.instance.height();
   const Viewport viewport{options.width, options.height};
   const float aspect = aspect_of(options);
-  const Seen seen(now, aspect), last(options.last ? *options.last : now, aspect),
-      next(options.next ? *options.next : now, aspect);
+  const Scene& scene = *now.scene;
+  const Seen seen(now, aspect, scene), last(options.last ? *options.last : now, aspect, scene),
+      next(options.next ? *options.next : now, aspect, scene);
   const PointFinder finder(seen, viewport);
-  const auto last_steps = texture_steps(*seen.scene, *last.scene), next_steps = texture_steps(*seen.scene, *next.scene);
+  const auto last_steps = texture_steps(scene, *last.scene), next_steps = texture_steps(scene, *next.scene);
   if (planes.position) frame.position = {width, height, float3{}};
   if (planes.motion) frame.motion = {width, height, float2{}};
   if (planes.flow) frame.flow = {width, height, float2{}};
@@ -263,26 +283,26 @@ void add_surface_points(const Moment& now, const Planes& planes, const RenderOpt
       const SamplePosition place = frame.data_position(x, y);
       const Mixture point = finder.find(instance, frame.primitive_id(x, y),
                                         {frame.x + x + place.x / 256.0, frame.y + y + place.y / 256.0});
-      const Mesh& mesh = now.scene->meshes[static_cast<std::size_t>(now.scene->instances[instance].mesh)];
-      if (planes.position) frame.position(x, y) = narrowed(*place_of(point, instance, *now.scene, mesh));
+      const Mesh& mesh = mesh_of(scene, scene.instances[instance]);
+      if (planes.position) frame.position(x, y) = narrowed(*place_of(point, instance, seen));
       const auto material = static_cast<std::size_t>(mesh.material);
       const auto stepped = [&](const auto& steps) {
         return steps[material] ? after_step(point, mesh, *steps[material]) : point;
       };
       const Mixture last_point = stepped(last_steps);
       if (!frame.last_position.empty()) {
-        const std::optional<Double3> before = place_of(last_point, instance, *last.scene, mesh);
-        frame.last_position(x, y) = narrowed(before ? *before : *place_of(point, instance, *now.scene, mesh));
+        const std::optional<Double3> before = place_of(last_point, instance, last);
+        frame.last_position(x, y) = narrowed(before ? *before : *place_of(point, instance, seen));
       }
-      if (planes.motion) frame.motion(x, y) = step_between({last, last_point}, {seen, point}, instance, mesh, viewport);
-      if (planes.flow)
-        frame.flow(x, y) = step_between({seen, point}, {next, stepped(next_steps)}, instance, mesh, viewport);
+      if (planes.motion) frame.motion(x, y) = step_between({last, last_point}, {seen, point}, instance, viewport);
+      if (planes.flow) frame.flow(x, y) = step_between({seen, point}, {next, stepped(next_steps)}, instance, viewport);
     }
   });
 }
 
 // A ray from the eye ends before the surface point itself, by more than the rounding of the point.
-void LastVisibility::find(const Moment& last, const TextureSet& textures, const RenderOptions& options, Frame& frame) {
+void LastVisibility::find(const Moment& now, const TextureSet& textures, const RenderOptions& options, Frame& frame) {
+  const Moment& last = options.last ? *options.last : now;
   constexpr float end = 1 - 0x1p-12f;
   if (scene_ != last.scene) {
     scene_ = nullptr;
@@ -292,8 +312,7 @@ void LastVisibility::find(const Moment& last, const TextureSet& textures, const 
   const CasterOpacity opacity(*scene_, textures);
   const float4x4& world = last.camera.world_from_camera;
   const float3 eye = xyz(world.column[3]), forward = -xyz(world.column[2]);
-  const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
-  const Seen seen(last, aspect);
+  const Seen seen(last, aspect_of(options), *now.scene);
   const Viewport viewport{options.width, options.height};
   const auto is_in_image = [&](float3 p) {
     const std::optional<Place> place = on_screen(seen.clip_from_world, {p.x, p.y, p.z}, viewport);
@@ -307,8 +326,9 @@ void LastVisibility::find(const Moment& last, const TextureSet& textures, const 
     std::vector<Ray> rays;
     std::vector<int> columns;
     for (int x = 0; x < width; ++x) {
+      const std::uint32_t instance = frame.instance(x, y);
       const float3 point = frame.last_position(x, y);
-      if (frame.instance(x, y) == Frame::no_id || !is_in_image(point)) continue;
+      if (instance == Frame::no_id || seen.find(instance) == nullptr || !is_in_image(point)) continue;
       const float3 from = last.camera.is_orthographic ? point - forward * dot(point - eye, forward) : eye;
       const float3 along = point - from;
       rays.push_back({{from.x, from.y, from.z}, {along.x, along.y, along.z}, end});

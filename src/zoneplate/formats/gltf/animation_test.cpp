@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/shared_files_for_test.h"
@@ -358,9 +359,32 @@ TEST(GltfNodes, InvisibleNodesHideTheirChildren) {
 
 TEST(GltfNodes, VisibilityIsAnimated) {
   GltfMaker m = pointing("/nodes/0/extensions/KHR_node_visibility/visible", "SCALAR", {1, 0}, "STEP");
-  m.nodes = R"({"mesh":0,"extensions":{"KHR_node_visibility":{}}})";
-  EXPECT_EQ(at(m, 2).instances.size(), 1u);
-  EXPECT_EQ(at(m, 3).instances.size(), 0u);
+  m.nodes = R"({"mesh":0,"extensions":{"KHR_node_visibility":{}}},{"mesh":0,"name":"after"})";
+  m.scene_nodes = "0,1";
+  const Scene shown = at(m, 2), hidden = at(m, 3);
+  ASSERT_EQ(shown.instances.size(), 2u);
+  ASSERT_EQ(hidden.instances.size(), 1u);
+  EXPECT_EQ(hidden.meshes.size(), 1u);
+  // The other object keeps its number.
+  EXPECT_EQ(shown.instances[1].object, 1);
+  EXPECT_EQ(hidden.instances[0].object, 1);
+  EXPECT_EQ(hidden.objects.size(), 2u);
+  EXPECT_EQ(hidden.objects[1], "after");
+}
+
+// A primitive that is dropped, here for vertices that are not finite, leaves the others' numbers.
+TEST(GltfNodes, InstancesOfANodeHaveTheNumbersOfTheirPrimitives) {
+  GltfMaker m;
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::string good = m.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}),
+                    bad = m.floats("VEC3", {nan, 0, 0, 1, 0, 0, 0, 1, 0});
+  m.meshes = R"({"primitives":[{"attributes":{"POSITION":)" + good + R"(}},{"attributes":{"POSITION":)" + bad +
+             R"(}},{"attributes":{"POSITION":)" + good + "}}]}";
+  const TestFolder folder;
+  const Scene s = load_gltf(folder.write("a.glb", m.glb()));
+  ASSERT_EQ(s.instances.size(), 2u);
+  EXPECT_EQ(s.instances[0].part, 0);
+  EXPECT_EQ(s.instances[1].part, 2);
 }
 
 }  // namespace

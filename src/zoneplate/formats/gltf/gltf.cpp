@@ -164,6 +164,7 @@ class SceneReader {
 
  private:
   void add_node(const GltfNode& node);
+  void add_light(const GltfNode& node, const JsonView& use);
   void add_mesh(const GltfNode& node, std::size_t mesh);
   void add_name(const GltfNode& node, std::size_t mesh);
   std::pair<std::size_t, std::size_t> find_meshes(const GltfNode& node, std::size_t mesh);
@@ -175,15 +176,17 @@ class SceneReader {
   std::optional<std::size_t> variant_;
   Scene scene_;
 
-  /// The bounds of all vertices of a mesh, and of those that are used, if that was needed.
-  struct Bounds {
+  /// A mesh in the scene: the number of its primitive, and the bounds of all of its vertices, and of those that are
+  /// used, if that was needed.
+  struct Part {
+    int number = 0;
     Box all;
     std::optional<Box> used = std::nullopt;
   };
   using MeshRange = std::pair<std::size_t, std::size_t>;  ///< [first, end) of the scene's meshes
   std::map<std::pair<std::size_t, std::optional<std::size_t>>, MeshRange> ready_;  ///< by the file's mesh and skin
   std::map<std::size_t, std::size_t> named_;  ///< by the file's mesh: an object that has its name
-  std::vector<Bounds> bounds_;                ///< for each mesh in the scene
+  std::vector<Part> parts_;                   ///< for each mesh in the scene
 };
 
 /// EXT_mesh_gpu_instancing: the transforms of copies relative to the node; without the extension, one identity.
@@ -253,9 +256,9 @@ std::pair<std::size_t, std::size_t> SceneReader::find_meshes(const GltfNode& nod
 
   if (key.second) pose.joints = nodes_.joints(node);
   const std::size_t first = scene_.meshes.size();
-  for (Mesh& m : load_gltf_mesh(file_, mesh, pose, scene_.materials)) {
-    bounds_.push_back({bounds_of(m.position)});
-    scene_.meshes.push_back(std::move(m));
+  for (GltfPrimitive& primitive : load_gltf_mesh(file_, mesh, pose, scene_.materials)) {
+    parts_.push_back({primitive.number, bounds_of(primitive.mesh.position)});
+    scene_.meshes.push_back(std::move(primitive.mesh));
   }
   const std::pair range(first, scene_.meshes.size());
   if (is_shared) ready_[key] = range;
@@ -265,14 +268,14 @@ std::pair<std::size_t, std::size_t> SceneReader::find_meshes(const GltfNode& nod
 /// Whether the used vertices of a mesh are near the origin. Unused vertices may have any position, so that the bounds
 /// of the used ones are computed if needed, once per mesh.
 bool SceneReader::is_near(std::size_t mesh, const float4x4& world_from_object) {
-  Bounds& bounds = bounds_[mesh];
-  if (zoneplate::is_near(bounds.all, world_from_object)) return true;
-  if (!bounds.used) {
+  Part& part = parts_[mesh];
+  if (zoneplate::is_near(part.all, world_from_object)) return true;
+  if (!part.used) {
     const Mesh& m = scene_.meshes[mesh];
-    bounds.used.emplace();
-    for (const std::uint32_t i : m.index) bounds.used->add(m.position[i]);
+    part.used.emplace();
+    for (const std::uint32_t i : m.index) part.used->add(m.position[i]);
   }
-  return zoneplate::is_near(*bounds.used, world_from_object);
+  return zoneplate::is_near(*part.used, world_from_object);
 }
 
 void SceneReader::add_instance(const GltfNode& node, std::size_t mesh, int object, const float4x4& world_from_object) {
@@ -280,7 +283,7 @@ void SceneReader::add_instance(const GltfNode& node, std::size_t mesh, int objec
     file_.warn(node.json.place() + ": lies farther than 1e18 from the origin or nowhere, dropped");
     return;
   }
-  scene_.instances.push_back({static_cast<int>(mesh), object, world_from_object});
+  scene_.instances.push_back({static_cast<int>(mesh), object, world_from_object, parts_[mesh].number});
 }
 
 /// Adds an object with the name of the node or else of its mesh; objects named after one mesh share the text.
@@ -298,9 +301,11 @@ void SceneReader::add_name(const GltfNode& node, std::size_t mesh) {
   scene_.objects.push_back(std::move(name));
 }
 
+/// Adds the objects of a node, and unless it is hidden their instances. A node that an animation hides keeps its
+/// objects, so that the others have the same numbers at all times.
 void SceneReader::add_mesh(const GltfNode& node, std::size_t mesh) {
   const bool is_skinned = node.json.has("skin");
-  const auto range = find_meshes(node, mesh);
+  const auto range = node.is_visible ? find_meshes(node, mesh) : MeshRange{};
   const Placements placements(file_, node);
   const std::size_t parts = range.second - range.first, first_object = scene_.objects.size();
   const std::uint64_t all = std::uint64_t{placements.size()} * parts;
@@ -322,6 +327,19 @@ void SceneReader::add_mesh(const GltfNode& node, std::size_t mesh) {
   }
 }
 
+void SceneReader::add_light(const GltfNode& node, const JsonView& use) {
+  const auto all = file_.root().extension("KHR_lights_punctual");
+  const std::size_t count = all ? all->count("lights") : 0;
+  const std::size_t light = use.index("light", count);
+  scene_.lights.push_back(read_light(all->element("lights", light, "light"), node.world_from_node));
+  if (!is_finite(scene_.lights.back().position)) {
+    file_.warn(node.json.place() + ": its light's place is not finite, dropped");
+    scene_.lights.pop_back();
+  } else {
+    file_.budget().take(2 * sizeof(Light) + scene_.lights.back().name.size());
+  }
+}
+
 void SceneReader::add_node(const GltfNode& node) {
   file_.budget().check_time();
   if (const auto camera = node.json.find_index("camera", file_.count("cameras"))) {
@@ -333,19 +351,7 @@ void SceneReader::add_node(const GltfNode& node) {
     }
     file_.budget().take(2 * sizeof(Camera) + scene_.cameras.back().name.size());
   }
-  if (!node.is_visible) return;
-  if (const auto use = node.json.extension("KHR_lights_punctual")) {
-    const auto all = file_.root().extension("KHR_lights_punctual");
-    const std::size_t count = all ? all->count("lights") : 0;
-    const std::size_t light = use->index("light", count);
-    scene_.lights.push_back(read_light(all->element("lights", light, "light"), node.world_from_node));
-    if (!is_finite(scene_.lights.back().position)) {
-      file_.warn(node.json.place() + ": its light's place is not finite, dropped");
-      scene_.lights.pop_back();
-    } else {
-      file_.budget().take(2 * sizeof(Light) + scene_.lights.back().name.size());
-    }
-  }
+  if (const auto use = node.json.extension("KHR_lights_punctual"); use && node.is_visible) add_light(node, *use);
   if (const auto mesh = node.json.find_index("mesh", file_.count("meshes"))) add_mesh(node, *mesh);
 }
 

@@ -284,19 +284,19 @@ Mesh read_primitive(GltfFile& file, const JsonView& json, const GltfPose& pose, 
 
 }  // namespace
 
-std::vector<Mesh> load_gltf_mesh(GltfFile& file, std::size_t number, const GltfPose& pose,
-                                 std::span<const Material> materials) {
+std::vector<GltfPrimitive> load_gltf_mesh(GltfFile& file, std::size_t number, const GltfPose& pose,
+                                          std::span<const Material> materials) {
   const JsonView json = file.root().element("meshes", number, "mesh");
   const std::vector<float> weights = pose.weights.empty() ? json.numbers("weights", 0) : pose.weights;
   const std::string name = json.text("name", "mesh " + std::to_string(number));
-  std::vector<Mesh> out;
+  std::vector<GltfPrimitive> out;
   for (std::size_t i = 0; i < json.count("primitives"); ++i) {
     file.budget().check_time();
     Mesh m = read_primitive(file, json.element("primitives", i, "primitive"), pose, weights, materials);
     if (m.index.empty()) continue;
     file.budget().take(3 * sizeof(Mesh) + name.size());  // growing lists have up to twice their size
     m.name = name;
-    out.push_back(std::move(m));
+    out.push_back({static_cast<int>(i), std::move(m)});
   }
   return out;
 }

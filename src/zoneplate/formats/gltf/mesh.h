@@ -19,12 +19,18 @@ struct GltfPose {
   std::optional<std::size_t> variant;  ///< index of a variant of KHR_materials_variants
 };
 
-/// Reads one mesh of the file: a Mesh for each primitive that is not empty.
+/// A primitive of a mesh of the file, by its number.
+struct GltfPrimitive {
+  int number = 0;
+  Mesh mesh;
+};
+
+/// Reads one mesh of the file: each primitive that is not empty.
 ///
 /// Strips, fans and loops become lists; morph targets and joints are applied; missing normals and tangents are
 /// generated. The material index of a primitive without a material is the size of `materials`.
 /// Errors    ErrorKind::Input naming mesh, primitive and attribute.
-std::vector<Mesh> load_gltf_mesh(GltfFile& file, std::size_t number, const GltfPose& pose,
-                                 std::span<const Material> materials);
+std::vector<GltfPrimitive> load_gltf_mesh(GltfFile& file, std::size_t number, const GltfPose& pose,
+                                          std::span<const Material> materials);
 
 }  // namespace zoneplate

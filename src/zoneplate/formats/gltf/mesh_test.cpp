@@ -5,26 +5,11 @@
 
 #include <limits>
 
-#include "zoneplate/formats/gltf/gltf.h"
+#include "zoneplate/formats/gltf/load_for_test.h"
 #include "zoneplate/formats/gltf/maker_for_test.h"
 
 namespace zoneplate {
 namespace {
-
-Scene load(const GltfMaker& m, const LoadLimits& limits = {}) {
-  const TestFolder folder;
-  return load_gltf(folder.write("f.glb", m.glb()), limits);
-}
-
-std::string error_of(const GltfMaker& m) {
-  try {
-    load(m);
-  } catch (const Error& e) {
-    const std::string text = e.what();
-    return text.substr(text.find("f.glb: ") + 7);
-  }
-  return "no error";
-}
 
 /// The corners of the unit square, (0,0) (1,0) (1,1) (0,1).
 const std::vector<float> square{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};

@@ -256,7 +256,8 @@ template <class S>
 void pass(S& s, Scene& scene) {
   const auto text = [&](std::string& t) { s.text(t); };
   s.list(scene.meshes, [&](Mesh& m) { pass(s, m); });
-  s.list(scene.instances, [&](Instance& i) { s.value(i.mesh), s.value(i.object), s.value(i.world_from_object); });
+  s.list(scene.instances,
+         [&](Instance& i) { s.value(i.mesh), s.value(i.object), s.value(i.world_from_object), s.value(i.part); });
   s.names(scene.objects);
   s.list(scene.materials, [&](Material& m) { pass(s, m); });
   s.list(scene.images, [&](TextureImage& i) { s.text(i.name), s.image(i.pixels); });
