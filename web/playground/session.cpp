@@ -227,7 +227,8 @@ void Session::set_model(const std::string& file) {
                 },
                 [scene_at](double seconds) {
                   return scene_at({.animation = 0, .time = seconds}, GltfModel::Images::Without);
-                }};
+                },
+                [model] { return on_one_thread([&] { return model->key_times({.animation = 0}); }); }};
   } else if (extension == ".obj") {
     made = on_one_thread([&] { return load_obj(file, limits); });
   } else if (extension == ".ply") {

@@ -53,6 +53,9 @@ class SceneSource {
   Scene load(const SceneChoice& choice);
   /// The same without images.
   Scene load_shape(const SceneChoice& choice);
+  /// Times, in seconds, at which the chosen animations may move something the farthest, the most important first: see
+  /// SceneLoader::key_times. None where the source does not know them.
+  std::vector<double> key_times(const SceneChoice& choice);
 
  private:
   struct OpenFile;

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/render/renderer.h"
@@ -24,13 +25,17 @@ struct SequenceTiming {
 struct SceneLoader {
   std::function<Scene(double)> load;        ///< the whole scene at a time
   std::function<Scene(double)> load_shape;  ///< the same without images
+  /// Times, in seconds, that a camera of the whole animation has to see, the most important first: those of keys. Empty
+  /// if they are not known.
+  std::function<std::vector<double>()> key_times = {};
 };
 
 /// The scenes and cameras of a sequence of frames. Frames are numbered from 0; fractional frame numbers are allowed.
 ///
-/// The camera of a whole-scene view is fixed and frames the whole animation, whichever frames are rendered. A camera of
-/// the scene follows its own animation. On a turntable of n frames the camera has turned by i / n of a revolution about
-/// the centre of the scene at frame i.
+/// The camera of a whole-scene view is fixed and frames the whole animation, whichever frames are rendered: what it
+/// sees of at most 256 moments, fewer of large scenes: evenly spaced ones, the loader's key times and the times of
+/// frames. Its near and far planes enclose the scene of each frame. A camera of the scene follows its own animation. On
+/// a turntable of n frames the camera has turned by i / n of a revolution about the centre of the scene at frame i.
 class Sequence {
  public:
   /// A static scene; only the camera may move.
@@ -57,7 +62,9 @@ class Sequence {
 
  private:
   Camera camera(const Scene& scene, double frame) const;
-  Scene all_poses();
+  bool is_seen_from_all_sides() const;
+  std::vector<double> pose_times() const;
+  Scene all_poses() const;
   float4x4 turned(float angle) const;
   void add_turns(Scene& all) const;
 

@@ -31,5 +31,9 @@ struct View {
 /// Errors    ErrorKind::Usage for an index outside the scene's cameras, or a position equal to the focal point.
 Camera choose_camera(const Scene& scene, const View& view, float aspect);
 
+/// The same view with near and far planes that also enclose the part of a scene in front of the camera. Planes that do
+/// so already stay as they are. An orthographic camera moves back until all of the scene is in front of it.
+Camera enclosing(Camera camera, const Scene& scene);
+
 }  // namespace zoneplate
 #pragma GCC visibility pop

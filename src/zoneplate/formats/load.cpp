@@ -175,4 +175,8 @@ Scene SceneSource::load_shape(const SceneChoice& choice) {
   return scene;
 }
 
+std::vector<double> SceneSource::key_times(const SceneChoice& choice) {
+  return file_->gltf ? file_->gltf->key_times(choice) : std::vector<double>();
+}
+
 }  // namespace zoneplate

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/render/sequence.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
 #include <utility>
 #include <vector>
 
+#include "zoneplate/math/spread_order.h"
 #include "zoneplate/math/transform.h"
 #include "zoneplate/signal/functions.h"
 
@@ -38,6 +41,55 @@ double normal_quantile(double part) {
   return (low + high) / 2;
 }
 
+constexpr int sides = 24;  // of a turntable, from which its scene has to be seen
+
+/// The poses of an animation in one scene, as far as a camera around them needs it: places without looks.
+class Poses {
+ public:
+  explicit Poses(bool has_sides) : cost_of_instance_(has_sides ? sides : 8) {}
+
+  void add(Scene scene) {
+    if (count_++ == 0) all_.cameras = scene.cameras;
+    std::vector<int> meshes(scene.meshes.size(), -1);  // of this pose, in all_
+    for (Instance instance : scene.instances) {
+      int& mesh = meshes[static_cast<std::size_t>(instance.mesh)];
+      int& last = last_.try_emplace({instance.object, instance.part}, -1).first->second;
+      if (mesh < 0) mesh = kept(scene.meshes[static_cast<std::size_t>(instance.mesh)], last);
+      instance.mesh = last = mesh;
+      all_.instances.push_back(instance);
+    }
+    cost_ += cost_of_instance_ * scene.instances.size();
+  }
+
+  /// Whether further poses would take too much time or memory.
+  bool are_enough() const {
+    constexpr std::size_t least = 16, most_cost = 1 << 22, most_kept = 1 << 20;
+    return count_ >= least && (cost_ >= most_cost || kept_ >= most_kept);
+  }
+
+  Scene take() { return std::move(all_); }
+
+ private:
+  /// The number of a mesh in all_, into which it moves unless it is the one that its instance had in the last pose.
+  int kept(Mesh& mesh, int last) {
+    cost_ += mesh.position.size();
+    if (last >= 0) {
+      const Mesh& before = all_.meshes[static_cast<std::size_t>(last)];
+      if (before.topology == mesh.topology && before.position == mesh.position && before.index == mesh.index)
+        return last;
+    }
+    kept_ += mesh.position.size();
+    Mesh& out = all_.meshes.emplace_back();
+    out.topology = mesh.topology, out.position = std::move(mesh.position), out.index = std::move(mesh.index);
+    return static_cast<int>(all_.meshes.size()) - 1;
+  }
+
+  Scene all_;
+  std::map<std::pair<int, int>, int> last_;  ///< by object and part of an instance: its last mesh in all_
+  std::size_t cost_of_instance_, count_ = 0;
+  std::size_t cost_ = 0, kept_ = 0;  ///< vertices that were loaded, and those of all_
+};
+
 }  // namespace
 
 Sequence::Sequence(PreparedScene scene, const SequenceTiming& timing) : timing_(timing), scene_(std::move(scene)) {}
@@ -50,7 +102,7 @@ void Sequence::set_view(const View& view, float aspect) {
   Scene all = loader_.load ? all_poses() : scene_->scene();
   const Box bounds = all.bounds();
   centre_ = bounds.empty() ? float3{} : bounds.centre();
-  if (timing_.turntable && !view.position && !view.index) add_turns(all);
+  if (is_seen_from_all_sides()) add_turns(all);
   still_ = choose_camera(all, view, aspect);
 }
 
@@ -73,25 +125,43 @@ Moment Sequence::moment(double frame) {
   return {shape, camera(*shape, frame)};
 }
 
+bool Sequence::is_seen_from_all_sides() const { return timing_.turntable && !view_.position && !view_.index; }
+
 Camera Sequence::camera(const Scene& scene, double frame) const {
   Camera camera = view_.index && loader_.load ? choose_camera(scene, view_, aspect_) : still_;
-  if (!timing_.turntable) return camera;
-  camera.world_from_camera = turned(static_cast<float>(tau * frame / *timing_.turntable)) * camera.world_from_camera;
-  return camera;
+  if (timing_.turntable)
+    camera.world_from_camera = turned(static_cast<float>(tau * frame / *timing_.turntable)) * camera.world_from_camera;
+  const bool is_new = loader_.load || (timing_.turntable && !is_seen_from_all_sides());
+  return is_new && !view_.index ? enclosing(std::move(camera), scene) : camera;
 }
 
-/// All poses of the animation in one scene. Its bounds do not depend on which frames are rendered.
-Scene Sequence::all_poses() {
-  constexpr int poses = 8;
-  Scene all;
-  for (int i = 0; i < poses; ++i) {
-    Scene scene = loader_.load_shape(timing_.start + timing_.duration * i / (poses - 1));
-    const auto before = static_cast<int>(all.meshes.size());
-    for (Mesh& mesh : scene.meshes) all.meshes.push_back(std::move(mesh));
-    for (Instance instance : scene.instances) instance.mesh += before, all.instances.push_back(instance);
-    if (i == 0) all.cameras = scene.cameras;
+/// The times of poses that the camera has to see, the most important first: evenly spaced ones, the loader's key times,
+/// and those of frames.
+std::vector<double> Sequence::pose_times() const {
+  constexpr int even = 8;
+  constexpr std::size_t most = 256;
+  std::vector<double> out;
+  const auto add = [&](double time) {
+    if (out.size() < most && std::ranges::find(out, time) == out.end()) out.push_back(time);
+  };
+  for (int i = 0; i < even; ++i) add(timing_.start + timing_.duration * i / (even - 1));
+  const std::vector<double> keys = loader_.key_times ? loader_.key_times() : std::vector<double>();
+  for (const double time : keys)
+    if (time > timing_.start && time < timing_.start + timing_.duration) add(time);
+  const double frames = std::min(std::floor(timing_.duration * timing_.rate + 1e-6), 1e6);
+  for (const std::size_t i : spread_order(static_cast<std::size_t>(frames) + 1, most))
+    add(seconds_of(static_cast<double>(i)));
+  return out;
+}
+
+/// The poses of the animation in one scene. Its bounds do not depend on which frames are rendered.
+Scene Sequence::all_poses() const {
+  Poses poses(is_seen_from_all_sides());
+  for (const double time : pose_times()) {
+    if (poses.are_enough()) break;
+    poses.add(loader_.load_shape(time));
   }
-  return all;
+  return poses.take();
 }
 
 float4x4 Sequence::turned(float angle) const {
@@ -100,11 +170,10 @@ float4x4 Sequence::turned(float angle) const {
 
 /// Adds the scene as seen from all positions of the turntable, relative to its first one.
 void Sequence::add_turns(Scene& all) const {
-  constexpr int steps = 24;
   const std::vector<Instance> once = all.instances;
-  for (int i = 1; i < steps; ++i)
+  for (int i = 1; i < sides; ++i)
     for (Instance instance : once) {
-      instance.world_from_object = turned(static_cast<float>(tau * i / steps)) * instance.world_from_object;
+      instance.world_from_object = turned(static_cast<float>(tau * i / sides)) * instance.world_from_object;
       all.instances.push_back(instance);
     }
 }

@@ -35,8 +35,28 @@ Pose turned(const Pose& pose, float azimuth, float elevation) {
           elevation == 0 ? pose.up : transform_vector(upwards, pose.up)};
 }
 
-// Sets near and far around the part of the scene in front of the camera. An orthographic camera moves back until all of
-// the scene is in front of it.
+// Reversed floating-point depth has enough precision for a far plane 100,000 times as far as the near one.
+constexpr float least_near = 1e-5f;
+
+// Sets near and far around distances along the view axis. An orthographic camera moves back until they are positive;
+// returns how far.
+float enclose(Camera& camera, AxisRange range) {
+  const float3 eye = xyz(camera.world_from_camera.column[3]), back = xyz(camera.world_from_camera.column[2]);
+  auto [nearest, farthest] = range;
+  const float margin = 0.01f * (farthest - nearest) + 1e-6f * std::max(std::abs(nearest), std::abs(farthest));
+  float step = 0;
+  if (camera.is_orthographic && nearest - 2 * margin <= 0) {
+    step = 3 * margin - nearest;
+    const float3 moved = eye + back * step;
+    camera.world_from_camera.column[3] = {moved.x, moved.y, moved.z, 1};
+    nearest += step, farthest += step;
+  }
+  camera.far = farthest + margin;
+  camera.near = std::max(nearest - margin, camera.far * least_near);
+  return step;
+}
+
+// Sets near and far around the part of the scene in front of the camera.
 void enclose(Camera& camera, const Box& box) {
   const float3 eye = xyz(camera.world_from_camera.column[3]), back = xyz(camera.world_from_camera.column[2]);
   float nearest = std::numeric_limits<float>::infinity(), farthest = -nearest;
@@ -45,20 +65,10 @@ void enclose(Camera& camera, const Box& box) {
     nearest = std::min(nearest, distance);
     farthest = std::max(farthest, distance);
   }
-  if (box.empty() || !(farthest > 0 || camera.is_orthographic)) {
+  if (box.empty() || !(farthest > 0 || camera.is_orthographic))
     camera.near = 0.01f, camera.far = 1000;
-    return;
-  }
-  const float margin = 0.01f * (farthest - nearest) + 1e-6f * std::max(std::abs(nearest), std::abs(farthest));
-  if (camera.is_orthographic && nearest - 2 * margin <= 0) {
-    const float step = 3 * margin - nearest;
-    const float3 moved = eye + back * step;
-    camera.world_from_camera.column[3] = {moved.x, moved.y, moved.z, 1};
-    nearest += step, farthest += step;
-  }
-  // Reversed floating-point depth has enough precision for a far plane 100,000 times as far as the near one.
-  camera.far = farthest + margin;
-  camera.near = std::max(nearest - margin, camera.far * 1e-5f);
+  else
+    enclose(camera, AxisRange{nearest, farthest});
 }
 
 Camera base_camera(const Scene& scene, const View& view, float aspect) {
@@ -108,6 +118,19 @@ Camera choose_camera(const Scene& scene, const View& view, float aspect) {
   }
   enclose(camera, box);
   return camera;
+}
+
+Camera enclosing(Camera camera, const Scene& scene) {
+  const std::optional<AxisRange> range = range_along_view(scene, camera);
+  if (!range || !(range->farthest > 0 || camera.is_orthographic)) return camera;
+  const bool is_before = range->nearest<camera.near, is_behind = range->farthest> camera.far;
+  if (!is_before && !is_behind) return camera;
+  Camera around = camera;
+  const float step = enclose(around, *range);
+  around.far = is_behind ? around.far : camera.far + step;
+  const float least = camera.is_orthographic ? 0 : around.far * least_near;
+  around.near = std::min(camera.near + step, is_before ? std::max(around.near, least) : camera.near + step);
+  return around;
 }
 
 }  // namespace zoneplate

@@ -113,5 +113,40 @@ TEST(ChooseCamera, AnEmptySceneHasACamera) {
   EXPECT_GT(camera.far, camera.near);
 }
 
+TEST(Enclosing, MovesOnlyPlanesThatCutTheSceneOff) {
+  // The cube of side 2 round (10, 0, 0) is 4 to 6 in front of its camera.
+  const Scene scene = cube();
+  Camera camera = scene.cameras[0];
+  camera.near = 1, camera.far = 20;
+  EXPECT_EQ(enclosing(camera, scene).near, 1);
+  EXPECT_EQ(enclosing(camera, scene).far, 20);
+  camera.near = 5;
+  EXPECT_GT(enclosing(camera, scene).near, 3.9f);
+  EXPECT_LT(enclosing(camera, scene).near, 4);
+  EXPECT_EQ(enclosing(camera, scene).far, 20);
+  camera.near = 1, camera.far = 5;
+  EXPECT_EQ(enclosing(camera, scene).near, 1);
+  EXPECT_GT(enclosing(camera, scene).far, 6);
+  EXPECT_LT(enclosing(camera, scene).far, 6.1f);
+  EXPECT_EQ(enclosing(camera, scene).world_from_camera, camera.world_from_camera);
+  EXPECT_EQ(enclosing(camera, Scene()).far, 5);
+}
+
+TEST(Enclosing, ReachesTheEyeAndMovesAnOrthographicCameraBack) {
+  const Scene scene = cube();
+  Camera camera = scene.cameras[0];
+  camera.world_from_camera.column[3] = {10, 0, 0, 1};  // inside of it
+  camera.near = 0.5f, camera.far = 20;
+  EXPECT_GT(enclosing(camera, scene).near, 0);
+  EXPECT_LT(enclosing(camera, scene).near, 0.001f);
+  camera.is_orthographic = true;
+  const Camera moved = enclosing(camera, scene);
+  const float step = eye_of(moved).z;
+  EXPECT_GT(step, 1);
+  EXPECT_LT(moved.near, step - 1);
+  EXPECT_GE(moved.far, 20 + step);
+  expect_near(forward_of(moved), forward_of(camera));
+}
+
 }  // namespace
 }  // namespace zoneplate

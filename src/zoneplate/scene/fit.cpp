@@ -119,4 +119,18 @@ Camera fit_camera(const Scene& scene, float picture_aspect, const AutoFit& fit) 
   return fit_camera(std::span<const float3>(all.point), picture_aspect, fit);
 }
 
+std::optional<AxisRange> range_along_view(const Scene& scene, const Camera& camera) {
+  UsedVertices used(scene);
+  const float3 back = xyz(camera.world_from_camera.column[2]), eye = xyz(camera.world_from_camera.column[3]);
+  const std::array axes = {back, -back};
+  constexpr float none = -std::numeric_limits<float>::infinity();
+  std::array<float, 2> reach = {none, none};
+  for (const std::size_t i : used.reaching(axes))
+    for (std::size_t a = 0; a < axes.size(); ++a)
+      reach[a] = std::max(reach[a], used.reach(scene.instances[i], axes[a]));
+  if (reach[0] == none) return std::nullopt;
+  const float own = dot(eye, back);
+  return AxisRange{own - reach[0], own + reach[1]};
+}
+
 }  // namespace zoneplate

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "zoneplate/scene/scene.h"
 
 namespace zoneplate {
@@ -12,5 +14,13 @@ namespace zoneplate {
 /// Exact     the tightest side touches the margin, as for all vertices; the other one is centred within 2% of the
 ///           image.
 Camera fit_camera(const Scene& scene, float picture_aspect, const AutoFit& fit);
+
+/// Distances along a camera's view axis, from its eye; negative behind it.
+struct AxisRange {
+  float nearest = 0, farthest = 0;
+};
+
+/// The distances between which the used vertices of a scene lie; nothing without any.
+std::optional<AxisRange> range_along_view(const Scene& scene, const Camera& camera);
 
 }  // namespace zoneplate

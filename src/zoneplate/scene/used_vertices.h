@@ -31,10 +31,13 @@ class UsedVertices {
   /// Cost      linear in instances and in the vertices of meshes, and of one instance per axis.
   std::vector<std::size_t> reaching(std::span<const float3> axes);
 
+  /// The greatest dot(axis, transform_point(world_from_object, position)) of the used vertices of an instance; minus
+  /// infinity without any.
+  float reach(const Instance& instance, float3 axis);
+
  private:
   Box bounds(const Instance& instance);
   const Box& local(int mesh);
-  float reach(const Instance& instance, float3 axis);
   std::vector<std::size_t> farthest_by_box(std::span<const float3> axes) const;
 
   const Scene& scene_;

@@ -234,15 +234,17 @@ std::string folder_name(const std::string& scene, const std::vector<SceneTrials>
 
 /// The frames of a scene: of its first animation, or at rest if it has none.
 Sequence sequence_of(const CompareArgs& args, SceneSource& source) {
-  const bool is_animated = !source.load({}).animations.empty();
-  const auto at = [&args, &source, is_animated](double seconds) {
-    SceneChoice choice;
-    if (is_animated) choice.animation = 0, choice.time = seconds;
+  SceneChoice choice;
+  if (!source.load({}).animations.empty()) choice.animation = 0;
+  const auto at = [&args, &source, choice](double seconds) mutable {
+    choice.time = seconds;
     Scene scene = source.load(choice);
     set_look(args.render, scene);
     return scene;
   };
-  return {{at, at}, args.render.mips, {.rate = trial_frame_rate, .duration = args.frames / trial_frame_rate}};
+  return {{at, at, [&source, choice] { return source.key_times(choice); }},
+          args.render.mips,
+          {.rate = trial_frame_rate, .duration = args.frames / trial_frame_rate}};
 }
 
 SceneTrials compare_scene(const CompareArgs& args, const std::string& name, const TrialOptions& options,

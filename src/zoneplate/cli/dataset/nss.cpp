@@ -129,27 +129,27 @@ class Shots {
 
  private:
   Scene at(double seconds) {
-    SceneChoice choice;
-    if (is_animated_) choice.animation = 0, choice.time = seconds;
-    Scene scene = source_.load(choice);
+    choice_.time = seconds;
+    Scene scene = source_.load(choice_);
     light_unlit(scene);
     return scene;
   }
   Sequence sequence_of(const NssSequence& s) {
     const Scene scene = source_.load({});
-    is_animated_ = !scene.animations.empty();
+    if (!scene.animations.empty()) choice_.animation = 0;
     const auto load = [this](double seconds) { return at(seconds); };
+    const auto key_times = [this] { return source_.key_times(choice_); };
     // A sequence begins early enough to end within the animation, if it is long enough.
     double duration = 0;
     for (const auto& animation : scene.animations) duration = std::max(duration, static_cast<double>(animation.end));
     const double length = static_cast<double>(s.frames) / s.rate;
     const double start = std::max(0.0, duration - length) * static_cast<double>(path_.start());
-    return {{load, load}, {}, {.rate = static_cast<double>(s.rate), .start = start, .duration = length}};
+    return {{load, load, key_times}, {}, {.rate = static_cast<double>(s.rate), .start = start, .duration = length}};
   }
 
   SceneSource source_;
   CameraPath path_;
-  bool is_animated_ = false;
+  SceneChoice choice_;
   Sequence sequence_;
   float distance_ = 1;
 };

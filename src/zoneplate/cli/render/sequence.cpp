@@ -62,7 +62,12 @@ class Plan {
       return scene;
     };
     const auto load_shape = [this](double seconds) { return load(&SceneSource::load_shape, seconds); };
-    return Sequence({load_scene, load_shape}, args_.mips, timing);
+    const auto key_times = [this] {
+      std::vector<double> times;
+      within_import_time(args_.input, args_.load.limits, [&] { times = source_.key_times(choice_); });
+      return times;
+    };
+    return Sequence({load_scene, load_shape, key_times}, args_.mips, timing);
   }
 
  private:

@@ -2,173 +2,22 @@
 #include "zoneplate/formats/gltf/animation.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <compare>
 #include <map>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "zoneplate/formats/gltf/accessor.h"
-#include "zoneplate/math/elementary.h"
+#include "zoneplate/formats/gltf/sampler.h"
 
 namespace zoneplate {
 namespace {
 
-enum class Path { Translation, Rotation, Scale, Weights };
-
-/// The kind of value that a channel animates.
-struct ValueShape {
-  std::size_t width = 1;     ///< floats of one value
-  bool is_list = false;      ///< a key has as many values as the output has elements for it
-  bool is_rotation = false;  ///< interpolated along great circles
-  auto operator<=>(const ValueShape&) const = default;
-};
-
-ValueShape shape_of(Path path) {
-  if (path == Path::Weights) return {.is_list = true};
-  return {.width = path == Path::Rotation ? 4u : 3u, .is_rotation = path == Path::Rotation};
-}
-
-enum class Interpolation { Step, Linear, CubicSpline };
-
-/// The position of a time among the keys: at `first`, plus the fraction `t` of the interval to the next key, which is
-/// `span` seconds long.
-struct Moment {
-  std::size_t first = 0;
-  float t = 0, span = 0;
-};
-
-Moment find_moment(const std::vector<float>& times, double time) {
-  const auto after =
-      std::upper_bound(times.begin(), times.end(), time, [](double a, float b) { return a < static_cast<double>(b); });
-  if (after == times.begin()) return {};
-  const auto first = static_cast<std::size_t>(after - times.begin()) - 1;
-  if (after == times.end()) return {first};
-  const double begin = static_cast<double>(times[first]), span = static_cast<double>(*after) - begin;
-  return {first, static_cast<float>((time - begin) / span), static_cast<float>(span)};
-}
-
-std::vector<float> read_times(GltfFile& file, const JsonView& sampler) {
-  std::vector<float> times = read_float(file, sampler, "input");
-  if (times.empty()) sampler.fail("input has no elements");
-  for (std::size_t i = 0; i < times.size(); ++i)
-    if (!(times[i] >= 0 && std::isfinite(times[i])) || (i > 0 && !(times[i] > times[i - 1])))
-      sampler.fail("input " + std::to_string(i) + " is " + std::to_string(times[i]) +
-                   ", expected growing times from 0");
-  return times;
-}
-
-/// A channel's values as a list of floats, `width` to a value.
-std::vector<float> read_values(GltfFile& file, const JsonView& sampler, std::size_t width, ElementRange range) {
-  std::vector<float> out;
-  if (width == 1) return read_float(file, sampler, "output", range);
-  if (width == 2)
-    for (const float2 v : read_float2(file, sampler, "output", range)) out.insert(out.end(), {v.x, v.y});
-  if (width == 3)
-    for (const float3 v : read_float3(file, sampler, "output", range)) out.insert(out.end(), {v.x, v.y, v.z});
-  if (width == 4)
-    for (const float4 v : read_float4(file, sampler, "output", range)) out.insert(out.end(), {v.x, v.y, v.z, v.w});
-  return out;
-}
-
-/// Interpolates linearly between two values.
-void mix_linear(const float* a, const float* b, float t, std::vector<float>& out) {
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = a[i] + (b[i] - a[i]) * t;
-}
-
-/// Interpolates along the shorter great circle; linearly if the two rotations are nearly equal.
-void mix_rotations(const float* a, const float* b, float t, std::vector<float>& out) {
-  float d = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
-  const float sign = d < 0 ? -1.0f : 1.0f;
-  d = std::min(d * sign, 1.0f);
-  float from = 1 - t, to = t;
-  if (d < 0.9995f) {
-    const float angle = acos(d), whole = sin(angle);
-    from = sin((1 - t) * angle) / whole;
-    to = sin(t * angle) / whole;
-  }
-  for (std::size_t i = 0; i < 4; ++i) out[i] = a[i] * from + b[i] * (to * sign);
-}
-
-/// The cubic Hermite spline through value and out-tangent of one key, in-tangent and value of the next (glTF 2.0,
-/// appendix C.5).
-void mix_cubic(const float* key, std::size_t width, const Moment& m, std::vector<float>& out) {
-  const float t = m.t, t2 = t * t, t3 = t2 * t;
-  for (std::size_t i = 0; i < width; ++i) {
-    const float value = key[width + i], leaving = key[2 * width + i] * m.span;
-    const float arriving = key[3 * width + i] * m.span, next = key[4 * width + i];
-    out[i] =
-        (2 * t3 - 3 * t2 + 1) * value + (t3 - 2 * t2 + t) * leaving + (3 * t2 - 2 * t3) * next + (t3 - t2) * arriving;
-  }
-}
-
-Interpolation read_interpolation(const JsonView& sampler) {
-  const std::string word = sampler.text("interpolation", "LINEAR");
-  if (word == "STEP") return Interpolation::Step;
-  if (word == "LINEAR") return Interpolation::Linear;
-  if (word != "CUBICSPLINE")
-    sampler.fail("interpolation is " + quoted(word) + ", expected STEP, LINEAR or CUBICSPLINE");
-  return Interpolation::CubicSpline;
-}
-
-/// The position among the keys of a sampler, and the number of keys.
-struct Keys {
-  Moment moment;
-  std::size_t count = 0;
-};
-
-Keys find_keys(GltfFile& file, const JsonView& sampler, double time) {
-  const std::vector<float> times = read_times(file, sampler);
-  file.budget().give_back(times.size() * sizeof(float));
-  return {find_moment(times, time), times.size()};
-}
-
-/// The value of a sampler; `width` floats, or for a list as many as a key has.
-std::vector<float> evaluate(GltfFile& file, const JsonView& sampler, const ValueShape& shape, const Keys& of_input) {
-  const Interpolation kind = read_interpolation(sampler);
-  const std::uint64_t parts = kind == Interpolation::CubicSpline ? 3 : 1, keys = of_input.count * parts;
-  const std::uint64_t elements = count_elements(file, sampler, "output");
-  const std::uint64_t per_key = shape.is_list ? elements / keys : 1;
-  if (elements < keys || per_key == 0)
-    sampler.fail("output has " + std::to_string(elements) + " elements, expected " + std::to_string(keys));
-
-  const Moment m = of_input.moment;
-  const std::uint64_t used = (m.t > 0 ? 2 : 1) * parts * per_key;
-  const std::vector<float> v = read_values(file, sampler, shape.width, {m.first * parts * per_key, used});
-  const std::size_t width = shape.is_list ? static_cast<std::size_t>(per_key) : shape.width;
-  if (v.size() < (m.t > 0 ? 2 : 1) * parts * width) sampler.fail("output ends too early");
-
-  const float* const key = v.data();
-  std::vector<float> out(width);
-  if (m.t == 0 || kind == Interpolation::Step) {
-    std::copy_n(key + (kind == Interpolation::CubicSpline ? width : 0), width, out.begin());
-  } else if (kind == Interpolation::CubicSpline) {
-    mix_cubic(key, width, m, out);
-  } else if (shape.is_rotation) {
-    mix_rotations(key, key + width, m.t, out);
-  } else {
-    mix_linear(key, key + width, m.t, out);
-  }
-  for (float& x : out)
-    if (!std::isfinite(x)) sampler.fail("output is not finite");
-  return out;
-}
-
-/// The property of a pose that a path names; nothing for an unknown path.
-std::optional<Path> find_path_kind(const std::string& word) {
-  constexpr const char* words[] = {"translation", "rotation", "scale", "weights"};
-  for (std::size_t i = 0; i < std::size(words); ++i)
-    if (word == words[i]) return static_cast<Path>(i);
-  return std::nullopt;
-}
-
-void set(GltfNodePose& pose, Path path, std::vector<float> v) {
-  if (path == Path::Translation) pose.translation = float3{v[0], v[1], v[2]};
-  if (path == Path::Scale) pose.scale = float3{v[0], v[1], v[2]};
-  if (path == Path::Rotation) pose.rotation = Quaternion{v[0], v[1], v[2], v[3]};
-  if (path == Path::Weights) pose.weights = std::move(v);
+void set(GltfNodePose& pose, GltfPath path, std::vector<float> v) {
+  if (path == GltfPath::Translation) pose.translation = float3{v[0], v[1], v[2]};
+  if (path == GltfPath::Scale) pose.scale = float3{v[0], v[1], v[2]};
+  if (path == GltfPath::Rotation) pose.rotation = Quaternion{v[0], v[1], v[2], v[3]};
+  if (path == GltfPath::Weights) pose.weights = std::move(v);
 }
 
 /// The last name of a JSON pointer; numbers, which are indices of elements, do not count.
@@ -206,7 +55,7 @@ bool is_mutable(std::string_view pointer) {
 }
 
 /// The shape of the values that a pointer's channel has: its accessor's, unless the property is a list of numbers.
-ValueShape shape_of(GltfFile& file, const JsonView& sampler, std::string_view pointer) {
+GltfValueShape shape_of(GltfFile& file, const JsonView& sampler, std::string_view pointer) {
   const std::size_t number = sampler.index("output", file.count("accessors"));
   const std::string type = file.root().element("accessors", number, "accessor").text("type");
   if (type == "SCALAR") return {.is_list = pointer.ends_with("/weights")};
@@ -218,7 +67,7 @@ ValueShape shape_of(GltfFile& file, const JsonView& sampler, std::string_view po
 }
 
 /// A property's value in the file.
-JsonValue json_of(const std::vector<float>& values, const ValueShape& shape, std::string_view pointer) {
+JsonValue json_of(const std::vector<float>& values, const GltfValueShape& shape, std::string_view pointer) {
   const auto number = [](float x) {
     return JsonValue{.kind = JsonValue::Kind::Number, .number = static_cast<double>(x)};
   };
@@ -273,7 +122,7 @@ class Samplers {
   Samplers(GltfFile& file, const JsonView& animation, double time) : file_(file), animation_(animation), time_(time) {}
 
   JsonView of(const JsonView& channel) const { return animation_.element("samplers", number_of(channel), "sampler"); }
-  const std::vector<float>& value(const JsonView& channel, const ValueShape& shape) {
+  const std::vector<float>& value(const JsonView& channel, const GltfValueShape& shape) {
     const auto [value, is_new] = values_.try_emplace({number_of(channel), shape});
     if (is_new) {
       const JsonView sampler = of(channel);
@@ -293,8 +142,8 @@ class Samplers {
   GltfFile& file_;
   const JsonView& animation_;
   double time_;
-  std::map<std::size_t, Keys> keys_;                                         // by accessor
-  std::map<std::pair<std::size_t, ValueShape>, std::vector<float>> values_;  // by sampler
+  std::map<std::size_t, GltfKeys> keys_;                                         // by accessor
+  std::map<std::pair<std::size_t, GltfValueShape>, std::vector<float>> values_;  // by sampler
 };
 
 /// KHR_animation_pointer: the property that a channel names takes its value in the file's JSON, from which all readers
@@ -310,7 +159,7 @@ void edit_property(GltfFile& file, const JsonView& channel, const JsonView& targ
   // An index of refraction of 0 is a mode of the material, which animations leave as it is.
   const JsonValue* const before = file.edits().find(pointer);
   if (pointer.ends_with("/ior") && before != nullptr && before->number == 0) return;
-  const ValueShape shape = shape_of(file, samplers.of(channel), pointer);
+  const GltfValueShape shape = shape_of(file, samplers.of(channel), pointer);
   JsonValue value = json_of(samplers.value(channel, shape), shape, pointer);
   if (before != nullptr && before->kind != value.kind) return ignore("has values of another kind");
   file.budget().take(sizeof(JsonValue) * (2 + value.items.size()) + 2 * pointer.size());
@@ -331,7 +180,7 @@ void animate(GltfFile& file, std::size_t animation, double time, GltfPoses& pose
       continue;
     }
     const auto node = target.find_index("node", file.count("nodes"));
-    const std::optional<Path> path = find_path_kind(word);
+    const std::optional<GltfPath> path = find_path(word);
     if (!path) file.warn(target.place() + ": path " + quoted(word) + " is not supported, ignored");
     if (node && path) set(poses[*node], *path, samplers.value(channel, shape_of(*path)));
   }

@@ -13,6 +13,7 @@
 #include "zoneplate/formats/gltf/accessor.h"
 #include "zoneplate/formats/gltf/animation.h"
 #include "zoneplate/formats/gltf/file.h"
+#include "zoneplate/formats/gltf/key_times.h"
 #include "zoneplate/formats/gltf/material.h"
 #include "zoneplate/formats/gltf/mesh.h"
 #include "zoneplate/formats/gltf/nodes.h"
@@ -397,6 +398,11 @@ Scene GltfModel::scene(const SceneChoice& choice, Images images) {
   open_->file.edits().undo();
   open_->file.forget_zeros();
   return SceneReader(open_->file, choice).read(open_->look, images);
+}
+
+std::vector<double> GltfModel::key_times(const SceneChoice& choice) {
+  open_->file.budget().restart(open_->left);
+  return zoneplate::key_times(open_->file, choice);
 }
 
 Scene load_gltf(const std::string& path, const LoadLimits& limits, const SceneChoice& choice) {

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "zoneplate/formats/import/load_options.h"
 #include "zoneplate/scene/scene.h"
@@ -30,6 +31,8 @@ class GltfModel {
   /// Loads a scene as load_gltf does. `Images::Without` omits the images, for callers that need only geometry.
   enum class Images { With, Without };
   Scene scene(const SceneChoice& choice, Images images = Images::With);
+  /// Times at which the chosen animations may move something the farthest, the most important first (key_times.h).
+  std::vector<double> key_times(const SceneChoice& choice);
 
  private:
   struct Open;

@@ -50,7 +50,7 @@ Sampler read_sampler(const JsonView& json) {
   return s;
 }
 
-float2 read_float2(const JsonView& json, const char* key, float2 otherwise) {
+float2 pair_of(const JsonView& json, const char* key, float2 otherwise) {
   const std::vector<float> v = json.numbers(key, 2);
   return v.empty() ? otherwise : float2{v[0], v[1]};
 }
@@ -59,8 +59,8 @@ float2 read_float2(const JsonView& json, const char* key, float2 otherwise) {
 std::uint64_t read_transform(const JsonView& json, std::uint64_t uv_set, TextureUse& use) {
   const auto transform = json.extension("KHR_texture_transform");
   if (!transform) return uv_set;
-  use.offset = read_float2(*transform, "offset", {0, 0});
-  use.scale = read_float2(*transform, "scale", {1, 1});
+  use.offset = pair_of(*transform, "offset", {0, 0});
+  use.scale = pair_of(*transform, "scale", {1, 1});
   use.rotation = transform->number("rotation", 0.0f);
   return transform->whole("texCoord", uv_set);
 }

@@ -2,6 +2,7 @@
 #include "zoneplate/formats/gltf/nodes.h"
 
 #include <limits>
+#include <numeric>
 #include <string>
 
 #include "zoneplate/formats/gltf/accessor.h"
@@ -49,6 +50,20 @@ int find_animation(GltfFile& file, const std::string& name) {
 
 }  // namespace
 
+std::vector<std::size_t> chosen_animations(GltfFile& file, const SceneChoice& choice) {
+  const std::size_t count = file.count("animations");
+  const std::optional<int> one =
+      choice.animation_name.empty() ? choice.animation : find_animation(file, choice.animation_name);
+  if (!one) return {};
+  if (*one != SceneChoice::all_animations || count == 0) {
+    check_number(one, count, "animation", "--animation-index");
+    return {static_cast<std::size_t>(*one)};
+  }
+  std::vector<std::size_t> all(count);
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  return all;
+}
+
 std::vector<std::size_t> GltfNodes::roots(const std::optional<int>& chosen) const {
   const std::size_t count = file_.count("nodes");
   if (chosen) return file_.root().element("scenes", static_cast<std::size_t>(*chosen), "scene").indices("nodes", count);
@@ -68,13 +83,7 @@ std::vector<std::size_t> GltfNodes::roots(const std::optional<int>& chosen) cons
 
 GltfNodes::GltfNodes(GltfFile& file, const SceneChoice& choice) : file_(file), place_(file.count("nodes"), none) {
   check_number(choice.scene, file.count("scenes"), "scene", "--scene");
-  const std::size_t animations = file.count("animations");
-  const std::optional<int> animation =
-      choice.animation_name.empty() ? choice.animation : find_animation(file, choice.animation_name);
-  const bool are_all = animation == SceneChoice::all_animations && animations > 0;
-  if (!are_all) check_number(animation, animations, "animation", "--animation-index");
-  for (std::size_t i = 0; animation && i < animations; ++i)
-    if (are_all || *animation == static_cast<int>(i)) animate(file, i, choice.time, poses_);
+  for (const std::size_t i : chosen_animations(file, choice)) animate(file, i, choice.time, poses_);
   struct Pending {
     std::size_t number;
     int depth;

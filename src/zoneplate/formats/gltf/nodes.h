@@ -11,6 +11,11 @@
 
 namespace zoneplate {
 
+/// The indices of the animations that a choice plays.
+///
+/// Errors    ErrorKind::Usage: an animation that the file does not have.
+std::vector<std::size_t> chosen_animations(GltfFile& file, const SceneChoice& choice);
+
 /// A node of the scene with its world transform.
 struct GltfNode {
   std::size_t number;  ///< index in the file
