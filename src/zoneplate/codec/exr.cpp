@@ -271,7 +271,8 @@ class ExrReader {
     if (!slot) return;
     const bool is_chroma = kind_ == Kind::Chroma && (*slot == 0 || *slot == 2);
     const int2 sampling{channel.x_sampling, channel.y_sampling};
-    if (const int most = is_chroma ? 2 : 1; sampling.x > most || sampling.y > most)
+    const int most = selection_.keeps_numbers ? std::max(sampling.x, sampling.y) : is_chroma ? 2 : 1;
+    if (sampling.x > most || sampling.y > most)
       throw Refusal{"has fewer samples in channel " + std::string(name) + " than " +
                     (is_chroma ? "in every second column and row" : "pixels") + ", which is not read"};
     if (window_.left % sampling.x != 0 || window_.width() % sampling.x != 0 || window_.top % sampling.y != 0 ||

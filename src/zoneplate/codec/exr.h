@@ -55,7 +55,7 @@ std::vector<Plane<float>> decode_exr_channels(std::span<const std::uint8_t> byte
                                               std::uint64_t max_pixels = std::uint64_t{1} << 28);
 
 /// The same channels of any part (codec/exr_header.h), at most four, as bits: of floats, to which halves are converted,
-/// or of whole numbers.
+/// or of whole numbers. Of channels with fewer samples than pixels, the pixels between these are 0.
 std::vector<Plane<std::uint32_t>> decode_exr_bits(std::span<const std::uint8_t> bytes, const std::string& name,
                                                   int part, std::span<const std::string> channels,
                                                   std::uint64_t max_pixels = std::uint64_t{1} << 28);

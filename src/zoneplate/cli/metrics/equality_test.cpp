@@ -115,13 +115,15 @@ TEST_F(Equality, IsOfLayersAndParts) {
   EXPECT_EQ(run("near.exr open.exr --metric psnr --threshold 40").code, 0);
   EXPECT_EQ(run("near.exr wrong.exr --metric psnr --threshold 40").code, 1);
 
-  const auto parts = [](float depth) {
-    return exr_of_parts(8, {{"left", {{"B", 0.5f}, {"G", 0.5f}, {"R", 0.5f}}},
+  const auto parts = [](float depth, float occlusion = 1) {
+    return exr_of_parts(8, {{"left", {{"AO", occlusion, 2}, {"B", 0.5f}, {"G", 0.5f}, {"R", 0.5f}}},
                             {"right", {{"B", 0.5f}, {"G", 0.5f}, {"R", 0.5f}, {"Z", depth}}}});
   };
   save("p3.exr", parts(3)), save("p9.exr", parts(9));
   expect_different("p3.exr p9.exr", "stored values differ: right.Z in 64 pixels");
-  EXPECT_TRUE(contains(run("p3.exr p9.exr").out, "equal: right.B, right.G, right.R"));
+  EXPECT_TRUE(contains(run("p3.exr p9.exr").out, "equal: AO, right.B, right.G, right.R"));
+  save("dark.exr", parts(3, 0));
+  expect_different("p3.exr dark.exr", "stored values differ: AO in 16 pixels");  // of half as many columns and rows
 }
 
 TEST_F(Equality, IsOfTheMeaningOfTheValues) {

@@ -146,7 +146,9 @@ std::string text_of(const Judgement& judgement) {
   for (const JudgedItem& item : judgement.items) {
     const std::vector<std::string> remarks = remarks_of(item);
     const bool is_listed = count > 1 && (!item.message.empty() || item.stored.has_news());
-    if (is_listed) text += fmt::format("{:<12}{}: {}\n", name_of(item.outcome), item.name, item.message);
+    if (is_listed)
+      text += fmt::format("{:<12}{}{}{}\n", name_of(item.outcome), item.name, item.message.empty() ? "" : ": ",
+                          item.message);
     if (is_listed || count == 1)
       for (const std::string& remark : remarks) text += fmt::format("  {}\n", remark);
   }

@@ -155,7 +155,7 @@ Syntax make_syntax(MetricsArgs& args) {
        [&](auto& text) {
          args.judges_mean = parse_choice(text, {"each", "mean"}) == 1;
        }},
-      {"--allow-missing", "", "Images that only one of two directories has do not fail", "Options", false,
+      {"--allow-missing", "", "Images and frames that only one side has do not fail", "Options", false,
        [&](auto&) { args.allows_missing = true; }},
       {"--map", "FILE",
        "Write the error map of the first metric that has one, as PNG; of several images, the worst one's", "Reports",

@@ -4,19 +4,26 @@
 #include <cstdint>
 #include <cstring>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace zoneplate {
 
-/// A part of an EXR with several, with channels of one value each.
+/// A channel of one value.
+struct ExrChannelForTest {
+  std::string name;
+  float value = 0;
+  int sampling = 1;  ///< the columns and rows to a sample
+};
+
+/// A part of an EXR with several.
 struct ExrPartForTest {
   std::string name;
-  std::vector<std::pair<std::string, float>> channels;  ///< sorted by name
+  std::vector<ExrChannelForTest> channels;  ///< sorted by name
 };
 
 /// An uncompressed EXR of several parts, which encode_exr does not write.
 ///
+/// Requires  a side that is a multiple of each channel's sampling.
 /// Source    OpenEXR File Layout, openexr.com: multi-part files.
 inline std::vector<std::uint8_t> exr_of_parts(int side, const std::vector<ExrPartForTest>& parts) {
   std::vector<std::uint8_t> out;
@@ -33,9 +40,10 @@ inline std::vector<std::uint8_t> exr_of_parts(int side, const std::vector<ExrPar
   put_int(20000630), put_int(2 | 0x1000);
   for (const ExrPartForTest& part : parts) {
     std::size_t size = 1;
-    for (const auto& [name, value] : part.channels) size += name.size() + 1 + 16;
+    for (const ExrChannelForTest& c : part.channels) size += c.name.size() + 1 + 16;
     attribute("channels", "chlist", size);
-    for (const auto& [name, value] : part.channels) put_text(name), put_int(2), put_int(0), put_int(1), put_int(1);
+    for (const ExrChannelForTest& c : part.channels)
+      put_text(c.name), put_int(2), put_int(0), put_int(c.sampling), put_int(c.sampling);
     out.push_back(0);
     attribute("chunkCount", "int", 4), put_int(side);
     attribute("compression", "compression", 1), out.push_back(0);
@@ -52,17 +60,23 @@ inline std::vector<std::uint8_t> exr_of_parts(int side, const std::vector<ExrPar
     out.push_back(0);
   }
   out.push_back(0);
-  const auto row_size = [&](const ExrPartForTest& part) {
-    return part.channels.size() * sizeof(float) * static_cast<std::size_t>(side);
+  const auto row_of = [&](const ExrPartForTest& part, int y) {
+    std::vector<float> row;
+    for (const ExrChannelForTest& c : part.channels)
+      if (y % c.sampling == 0) row.insert(row.end(), static_cast<std::size_t>(side / c.sampling), c.value);
+    return row;
   };
   std::uint64_t offset = out.size() + parts.size() * static_cast<std::size_t>(side) * sizeof offset;
   for (const ExrPartForTest& part : parts)
-    for (int y = 0; y < side; ++y, offset += 12 + row_size(part)) put(&offset, sizeof offset);
+    for (int y = 0; y < side; ++y) {
+      put(&offset, sizeof offset);
+      offset += 12 + row_of(part, y).size() * sizeof(float);
+    }
   for (std::size_t i = 0; i < parts.size(); ++i)
     for (int y = 0; y < side; ++y) {
-      put_int(static_cast<std::int32_t>(i)), put_int(y), put_int(static_cast<std::int32_t>(row_size(parts[i])));
-      for (const auto& [name, value] : parts[i].channels)
-        for (int x = 0; x < side; ++x) put_float(value);
+      const std::vector<float> row = row_of(parts[i], y);
+      put_int(static_cast<std::int32_t>(i)), put_int(y), put_int(static_cast<std::int32_t>(row.size() * sizeof(float)));
+      put(row.data(), row.size() * sizeof(float));
     }
   return out;
 }
