@@ -114,6 +114,11 @@ TEST_F(Equality, IsOfLayersAndParts) {
   save_exr("open.exr", grey, infinity), save_exr("wrong.exr", grey, std::nanf(""));
   EXPECT_EQ(run("near.exr open.exr --metric psnr --threshold 40").code, 0);
   EXPECT_EQ(run("near.exr wrong.exr --metric psnr --threshold 40").code, 1);
+  for (const char* folder : {"a", "b"}) {
+    fs::create_directories(place / folder);
+    for (const char* file : {"open.exr", "near.exr"}) fs::copy_file(place / file, place / folder / file);
+  }
+  EXPECT_FALSE(contains(run("a b --metric psnr").out, "open.exr")) << "nothing is to be said of it";
 
   const auto parts = [](float depth, float occlusion = 1) {
     return exr_of_parts(8, {{"left", {{"AO", occlusion, 2}, {"B", 0.5f}, {"G", 0.5f}, {"R", 0.5f}}},

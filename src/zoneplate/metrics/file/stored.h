@@ -40,10 +40,8 @@ struct StoredDifference {
   /// What else differs or is not compared, a line each: layers of one file alone, meanings of colours, animations.
   std::vector<std::string> notes;
 
-  /// True if there is more to say than that the values are equal.
-  bool has_news() const {
-    return !differing.empty() || !notes.empty() || !reference.channels.empty() || !test.channels.empty();
-  }
+  /// True if there is more to say than that the values are equal and in order.
+  bool has_news() const { return !differing.empty() || !notes.empty() || reference.is_wrong || test.is_wrong; }
 };
 
 /// Compares what two image files store: every channel of every part before any conversion, the meaning of the values
