@@ -72,6 +72,34 @@ has_new_packages() {
   return 1
 }
 
+# Removes from a build directory what is made of the packages in lines of "NAME OLD NEW", so that it is built again: the
+# objects that include their headers, and all archives, so that programs are linked again. Files of a package have the dates
+# of its maker: nothing else says that what they went into is old. The program stays until it is replaced.
+remove_outdated() {
+  local directory=$1 objects
+  objects=$(cd "$directory" && ninja -t deps 2>/dev/null | awk '
+    NR == FNR { header[$0]; next }
+    /^[^ ].*: #deps/ { object = $0; sub(/: #deps.*/, "", object); found = 1; next }
+    NF > 0 {
+      sub(/^ +/, "")
+      while (sub("/[^/]+/[.][.]/", "/")) { }
+      gsub("//+", "/")
+      if ($0 in header && !(object in outdated)) { outdated[object]; print object }
+    }
+    END { exit !found }' <(dpkg -L $(awk '{ print $1 }' <<<"$2") 2>/dev/null) -) ||
+    objects=$(cd "$directory" && find . -name '*.o' -o -name '*.gch')
+  (cd "$directory" && xargs -r -d '\n' rm -f -- <<<"$objects" && find . -name '*.a' -delete)
+}
+
+# True if the arguments ask for help or for the version.
+asks_for_help() {
+  local argument
+  for argument in "$@"; do
+    [[ $argument != --help && $argument != -h && $argument != --version ]] || return 0
+  done
+  [ "${1:-}" = help ]
+}
+
 # True if build/PRESET is not there or older than anything it is made from.
 is_stale() {
   local stamp=$root/build/$1/.zoneplate-built
@@ -93,10 +121,14 @@ build() {
     is_stale "$preset" || exit 0
     install_packages "$@"
     touch "$directory/.zoneplate-started" # what is saved during the build counts as newer than it
-    # Files of a package have the dates of its maker: nothing else says that what they went into is old.
-    if [ -e "$directory/.zoneplate-built" ] && has_new_packages "$preset"; then
-      run_quietly cmake --build "$directory" --target clean || exit 1
+    local versions=$directory/.zoneplate-packages changes
+    if [ -e "$versions" ] && has_new_packages "$preset"; then
+      changes=$(package_versions | LC_ALL=C join -a 1 -a 2 -e none -o 0,1.2,2.2 "$versions" - | awk '$2 != $3')
+      say "$(awk '{ printf "%s%s %s -> %s", (NR > 1 ? ", " : ""), $1, $2, $3 }' <<<"$changes"): building again"
+      rm -f "$directory/.zoneplate-built" # until it is built, also if the build is interrupted
+      remove_outdated "$directory" "$changes" || exit 1
     fi
+    package_versions >"$versions"
     say "building into build/$preset ($(nproc) jobs; a few minutes the first time)"
     cd "$root" && run_quietly cmake --preset "$preset" || exit 1
     if [ -t 2 ]; then
@@ -104,7 +136,10 @@ build() {
     else
       run_quietly cmake --build "$directory" --parallel "$(nproc)" || exit 1
     fi
-    package_versions >"$directory/.zoneplate-packages"
     mv "$directory/.zoneplate-started" "$directory/.zoneplate-built"
-  ) 9>"$directory/.zoneplate-lock" || { say "could not be built"; exit 1; }
+  ) 9>"$directory/.zoneplate-lock" || {
+    say "could not be built"
+    [ ! -x "$directory/zoneplate" ] || say "build/$preset/zoneplate is still that of the last build"
+    exit 1
+  }
 }
