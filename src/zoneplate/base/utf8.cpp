@@ -4,6 +4,36 @@
 #include <cstddef>
 
 namespace zoneplate {
+namespace {
+
+/// `code` is what take_code_point made of the bytes.
+bool is_obeyed(char32_t code, std::string_view bytes) {
+  const auto between = [](char32_t c, char32_t low, char32_t high) { return c >= low && c <= high; };
+  if (code == replacement_character && bytes.size() == 1) code = static_cast<unsigned char>(bytes[0]);
+  return code < 0x20 || between(code, 0x7f, 0x9f)                            // C0, DEL and C1
+         || between(code, 0x2028, 0x202e) || between(code, 0x2066, 0x2069);  // line breaks and directions of Unicode
+}
+
+std::string shown(std::string_view text, std::string_view kept) {
+  std::string out;
+  out.reserve(text.size());
+  while (!text.empty()) {
+    std::string_view rest = text;
+    const char32_t code = take_code_point(rest);
+    const std::string_view bytes = text.substr(0, text.size() - rest.size());
+    if (is_obeyed(code, bytes) && kept.find(bytes) == kept.npos)
+      out += '?';
+    else
+      out += bytes;
+    text = rest;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string printable(std::string_view text) { return shown(text, ""); }
+std::string printable_lines(std::string_view text) { return shown(text, "\n\t"); }
 
 char32_t take_code_point(std::string_view& text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };

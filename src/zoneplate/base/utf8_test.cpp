@@ -27,5 +27,19 @@ TEST(Utf8, ReplacesEachByteThatIsNotUtf8) {
   EXPECT_TRUE(text.empty());
 }
 
+TEST(Utf8, PrintableTextHasNoControlCharacters) {
+  EXPECT_EQ(printable("plain, Größe, 椅子"), "plain, Größe, 椅子");
+  EXPECT_EQ(printable("a\x1b]0;b\x07\x1b[31mc\x7f\n\t\r"), "a?]0;b??[31mc????");
+  EXPECT_EQ(printable("\xc2\x85\xc2\x9b"
+                      "1m\xc2\xa0"),
+            "??1m\xc2\xa0");  // C1, and a space that is none
+  EXPECT_EQ(printable("\x9b"
+                      "1m\xe9"),
+            "?1m\xe9");  // C1 as one byte, and a letter of Latin-1
+  EXPECT_EQ(printable("\u202egnp.exe\u2028\u2066"), "?gnp.exe??");
+  EXPECT_EQ(printable(std::string_view("\0", 1)), "?");
+  EXPECT_EQ(printable_lines("a\n\tb\x1b\r\n"), "a\n\tb??\n");
+}
+
 }  // namespace
 }  // namespace zoneplate

@@ -3,13 +3,13 @@
 
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <string_view>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/utf8.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -36,9 +36,7 @@ bool uses_color() {
 }
 
 // Each line is written by one call, so that lines of several processes do not mix.
-void say(std::string_view kind, std::string_view color, std::string message) {
-  std::replace_if(
-      message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < 32 || c == 127; }, '?');
+void say(std::string_view kind, std::string_view color, std::string_view message) {
   std::string line = "zoneplate: ";
   if (!kind.empty()) {
     if (uses_color())
@@ -46,13 +44,21 @@ void say(std::string_view kind, std::string_view color, std::string message) {
     else
       line.append(kind).append(": ");
   }
-  write_all(STDERR_FILENO, line + message + '\n');
+  write_all(STDERR_FILENO, line + printable(message) + '\n');
 }
 
 }  // namespace
 
 void print(const std::string& text) {
-  if (!write_all(STDOUT_FILENO, text)) throw Error(ErrorKind::Output, std::string("stdout: ") + std::strerror(errno));
+  if (!write_all(STDOUT_FILENO, printable_lines(text)))
+    throw Error(ErrorKind::Output, std::string("stdout: ") + std::strerror(errno));
+}
+
+void print_report(const std::string& text, bool is_stdout_taken) {
+  if (is_stdout_taken)
+    write_all(STDERR_FILENO, printable_lines(text));
+  else
+    print(text);
 }
 
 void say_error(const std::string& message) { say("error", "\x1b[1;31m", message); }

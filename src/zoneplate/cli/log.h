@@ -6,13 +6,17 @@
 namespace zoneplate::cli {
 
 /// Writes text to stdout, completely or with an error. All other writes of the program to stdout are images for "-".
+/// Control characters but line breaks and tabs are replaced by '?' (base/utf8.h); names in it are `printable`.
 ///
 /// Errors    ErrorKind::Output if stdout is closed or full.
 void print(const std::string& text);
 
+/// Writes a report to stdout, or to stderr where stdout is the image.
+void print_report(const std::string& text, bool is_stdout_taken);
+
 enum class Verbosity { Quiet, Normal, Verbose };
 
-/// Prints one line to stderr: `zoneplate: warning: ...`. Control characters are replaced by '?'.
+/// Prints one line to stderr: `zoneplate: warning: ...`, of the printable message (base/utf8.h).
 ///
 /// The kind of line is coloured on a terminal; NO_COLOR and TERM=dumb disable colours, CLICOLOR_FORCE enables them
 /// everywhere.

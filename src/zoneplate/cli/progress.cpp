@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/report/json.h"
@@ -25,7 +26,7 @@ void Progress::begin(std::string_view stage, double done) {
   } else {
     constexpr int cells = 24;
     const int full = static_cast<int>(done * cells);
-    line = fmt::format("{}[{:#<{}}{:.<{}}] {}", wipe, "", full, "", cells - full, stage);
+    line = fmt::format("{}[{:#<{}}{:.<{}}] {}", wipe, "", full, "", cells - full, printable(stage));
     const double seconds = watch_.ms() / 1000, left = done > 0 ? seconds / done - seconds : 0;
     if (seconds > 2 && left >= 1)
       line += left < 100 ? fmt::format(", {:.0f} s left", left) : fmt::format(", {:.0f} min left", left / 60);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/report/json.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -40,7 +42,22 @@ struct JsonWriter {
   }
 
   static std::string text(const Json& json, int indent) {
-    return write(json).dump(indent, ' ', false, Out::error_handler_t::replace);
+    return escaped(write(json).dump(indent, ' ', false, Out::error_handler_t::replace));
+  }
+
+  /// Escapes the control characters that JSON allows in strings, and terminals obey: DEL and C1.
+  static std::string escaped(const std::string& text) {
+    std::string out;
+    for (std::size_t at = 0; at < text.size(); ++at) {
+      const auto byte = [&](std::size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+      if (byte(at) == 0x7f)
+        out += "\\u007f";
+      else if (byte(at) == 0xc2 && byte(at + 1) < 0xa0)
+        out += fmt::format("\\u{:04x}", byte(++at));
+      else
+        out += text[at];
+    }
+    return out;
   }
 };
 

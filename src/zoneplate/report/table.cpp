@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/report/typeface.h"
 
 namespace zoneplate {
@@ -31,12 +32,13 @@ auto widths_of(const Table& table, Measure measure) {
 }  // namespace
 
 std::string table_text(const Table& table) {
-  const auto widths = widths_of(table, [](const std::string& cell, bool) { return length_of(cell); });
+  const auto widths = widths_of(table, [](const std::string& cell, bool) { return length_of(printable(cell)); });
   std::string text;
   const auto add = [&](const std::vector<std::string>& row) {
     for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string blank(widths[i] - length_of(row[i]), ' ');
-      text += i == 0 ? row[i] + blank : "  " + blank + row[i];
+      const std::string cell = printable(row[i]);
+      const std::string blank(widths[i] - length_of(cell), ' ');
+      text += i == 0 ? cell + blank : "  " + blank + cell;
     }
     text.erase(text.find_last_not_of(' ') + 1);
     text += '\n';

@@ -3,6 +3,7 @@
 #include "zoneplate/cli/compare/report.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/base/utf8.h"
 
 #include <fmt/format.h>
 
@@ -258,8 +259,9 @@ std::string report_text(const std::vector<SceneTrials>& scenes) {
   const std::vector<Column> columns = columns_of(scenes);
   std::string text;
   for (const SceneTrials& s : scenes) {
-    text += fmt::format("{}{}, {}x{}, against {}{}\n", s.scene, s.failure.empty() ? "" : " (" + s.failure + ")",
-                        s.reference_picture.width(), s.reference_picture.height(), s.reference, reference_cost(s));
+    text +=
+        fmt::format("{}{}, {}x{}, against {}{}\n", printable(s.scene), s.failure.empty() ? "" : " (" + s.failure + ")",
+                    s.reference_picture.width(), s.reference_picture.height(), s.reference, reference_cost(s));
     text += table_text(marked_table(s, columns)) + fewer_turns(s) + '\n';
   }
   if (scenes.size() > 1) text += means_text(scenes) + '\n';

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/cli/report_version.h"
 
 namespace zoneplate::cli {
@@ -135,22 +136,24 @@ std::string text_of(const Judgement& judgement) {
     text += fmt::format("  {:<14}{:>12} {:<13}", pooled.metric->name, number_text(pooled.value), pooled.metric->unit);
     std::string more;
     if (pooled.values.size() > 1)
-      more = fmt::format("worst {} in {}", number_text(pooled.values[pooled.worst]), name_of_worst(judgement, pooled));
+      more = fmt::format("worst {} in {}", number_text(pooled.values[pooled.worst]),
+                         printable(name_of_worst(judgement, pooled)));
     for (const metrics::Figure& figure : pooled.score.more)
       more += fmt::format("{}{} {}", more.empty() ? "" : ", ", figure.name, number_text(figure.value));
     text += (more.empty() ? "" : " " + more);
     text.erase(text.find_last_not_of(' ') + 1);
     text += '\n';
   }
-  if (!judgement.not_compared.empty()) text += fmt::format("not compared: {}\n", joined(judgement.not_compared));
+  if (!judgement.not_compared.empty())
+    text += fmt::format("not compared: {}\n", printable(joined(judgement.not_compared)));
   for (const JudgedItem& item : judgement.items) {
     const std::vector<std::string> remarks = remarks_of(item);
     const bool is_listed = count > 1 && (!item.message.empty() || item.stored.has_news());
     if (is_listed)
-      text += fmt::format("{:<12}{}{}{}\n", name_of(item.outcome), item.name, item.message.empty() ? "" : ": ",
-                          item.message);
+      text += fmt::format("{:<12}{}{}{}\n", name_of(item.outcome), printable(item.name),
+                          item.message.empty() ? "" : ": ", printable(item.message));
     if (is_listed || count == 1)
-      for (const std::string& remark : remarks) text += fmt::format("  {}\n", remark);
+      for (const std::string& remark : remarks) text += fmt::format("  {}\n", printable(remark));
   }
   return text;
 }

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <map>
@@ -218,18 +217,14 @@ void run_contact_sheet(std::span<const std::string> arguments) {
   };
   with_isa(args.render.isa, [&] { with_threads(args.render.threads, render_all); });
   save_bytes(args.output, encode_picture(sheet, args.output, args.render.file));
-  if (args.render.prints_json) {
-    const std::string line = Json(Json::Object{{"format", "zoneplate-contact-sheet"},
-                                               {"version", report_version},
-                                               {"output", args.output},
-                                               {"items", std::move(items)}})
-                                 .text() +
-                             '\n';
-    if (args.output == "-")
-      std::fwrite(line.data(), 1, line.size(), stderr);
-    else
-      print(line);
-  }
+  if (args.render.prints_json)
+    print_report(Json(Json::Object{{"format", "zoneplate-contact-sheet"},
+                                   {"version", report_version},
+                                   {"output", args.output},
+                                   {"items", std::move(items)}})
+                         .text() +
+                     '\n',
+                 args.output == "-");
   if (failed > 0) throw PartialFailure(fmt::format("{} of {} models failed", failed, names.size()));
 }
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/cli/args.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/packed.h"
@@ -129,7 +130,10 @@ Json info_json(const std::string& input, const Scene& scene) {
 std::string info_text(const std::string& input, const Scene& scene) {
   const Counts counts = count(scene);
   const Box box = scene.bounds();
-  std::string text = input + '\n';
+  const auto name_of = [](const auto& named) {
+    return named.name.empty() ? std::string("unnamed") : printable(named.name);
+  };
+  std::string text = printable(input) + '\n';
   text += fmt::format("  triangles   {} drawn, {} stored in {} meshes, {} instances\n", counts.triangles,
                       counts.stored_triangles, scene.meshes.size(), scene.instances.size());
   if (counts.lines + counts.points > 0)
@@ -141,23 +145,22 @@ std::string info_text(const std::string& input, const Scene& scene) {
 
   text += fmt::format("  materials   {}\n", scene.materials.size());
   for (const Material& m : scene.materials)
-    text += fmt::format("    {} ({}, {}{})\n", m.name.empty() ? "unnamed" : m.name, model_name(m.model),
-                        alpha_name(m.alpha_mode), m.double_sided ? ", double-sided" : "");
+    text += fmt::format("    {} ({}, {}{})\n", name_of(m), model_name(m.model), alpha_name(m.alpha_mode),
+                        m.double_sided ? ", double-sided" : "");
   text += fmt::format("  textures    {}\n", scene.images.size());
   for (const TextureImage& image : scene.images)
-    text += fmt::format("    {} {}x{}\n", image.name, image.pixels.width(), image.pixels.height());
+    text += fmt::format("    {} {}x{}\n", printable(image.name), image.pixels.width(), image.pixels.height());
   text += fmt::format("  lights      {}\n", scene.lights.size());
   for (const Light& light : scene.lights)
-    text += fmt::format("    {} ({}, {:.6g})\n", light.name.empty() ? "unnamed" : light.name, light_name(light.kind),
-                        light.intensity);
+    text += fmt::format("    {} ({}, {:.6g})\n", name_of(light), light_name(light.kind), light.intensity);
   text += fmt::format("  cameras     {}\n", scene.cameras.size());
   for (const Camera& camera : scene.cameras)
-    text += fmt::format("    {} ({})\n", camera.name.empty() ? "unnamed" : camera.name,
-                        camera.is_orthographic ? "orthographic" : "perspective");
+    text += fmt::format("    {} ({})\n", name_of(camera), camera.is_orthographic ? "orthographic" : "perspective");
   if (!scene.animations.empty()) text += fmt::format("  animations  {}\n", scene.animations.size());
   for (const AnimationSpan& a : scene.animations)
-    text += fmt::format("    {} ({:.6g} to {:.6g} s)\n", a.name.empty() ? "unnamed" : a.name, a.begin, a.end);
-  if (!scene.variants.empty()) text += fmt::format("  variants    {}\n", fmt::join(scene.variants, ", "));
+    text += fmt::format("    {} ({:.6g} to {:.6g} s)\n", name_of(a), a.begin, a.end);
+  if (!scene.variants.empty())
+    text += fmt::format("  variants    {}\n", printable(fmt::format("{}", fmt::join(scene.variants, ", "))));
   return text;
 }
 

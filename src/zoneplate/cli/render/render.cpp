@@ -26,11 +26,7 @@ void print_summary(const RenderArgs& args, const Summary& summary) {
     say_note(
         fmt::format("{}: {} × {}, {:.2f} s", args.output, summary.width, summary.height, summary.total_ms() / 1000));
   if (!args.prints_json) return;
-  const std::string line = Json(summary_json(args, summary)).text() + '\n';
-  if (args.output == "-")
-    std::fwrite(line.data(), 1, line.size(), stderr);
-  else
-    print(line);
+  print_report(Json(summary_json(args, summary)).text() + '\n', args.output == "-");
 }
 
 }  // namespace

@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <cstdio>
-
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/report_version.h"
@@ -106,8 +104,7 @@ void print_result(const SignalArgs& args, const std::string& text, const Json::O
   Json::Object report{{"format", args.report}, {"version", report_version}};
   report.insert(report.end(), json.begin(), json.end());
   const std::string line = args.prints_json ? Json(std::move(report)).text() + '\n' : text;
-  if (args.output != "-") return print(line);
-  if (args.prints_json) std::fwrite(line.data(), 1, line.size(), stderr);
+  if (args.output != "-" || args.prints_json) print_report(line, args.output == "-");
 }
 
 std::vector<int> parse_whole_list(const std::string& text, int low, int high) {
