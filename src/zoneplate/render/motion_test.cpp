@@ -14,10 +14,10 @@
 namespace zoneplate {
 namespace {
 
-constexpr int side = 60;
+constexpr int frame_side = 60;
 constexpr Planes planes{.object_id = true, .motion = true, .flow = true, .last_position = true, .was_visible = true};
 
-/// Squares of one mesh side by side, one for each object of the list; the scene has three objects.
+/// Squares of one mesh frame_side by frame_side, one for each object of the list; the scene has three objects.
 Scene squares(std::initializer_list<int> objects, float3 moved = {}) {
   Scene scene;
   scene.materials.emplace_back().double_sided = true;
@@ -38,7 +38,7 @@ Moment moment_of(const Scene& scene) {
 }
 
 Frame rendered(const Scene& now, const Scene& last, const Scene& next) {
-  RenderOptions options{.width = side, .height = side};
+  RenderOptions options{.width = frame_side, .height = frame_side};
   options.last = moment_of(last), options.next = moment_of(next);
   return render(PreparedScene(now), moment_of(now).camera, {.planes = planes}, options);
 }
@@ -51,7 +51,7 @@ struct Seen {
 
 /// The data at the middle of an object's square.
 Seen at(const Frame& frame, int object) {
-  const int x = side / 2 + (object - 1) * side / 3, y = side / 2;
+  const int x = frame_side / 2 + (object - 1) * frame_side / 3, y = frame_side / 2;
   return {frame.object_id(x, y), frame.motion(x, y), frame.flow(x, y), frame.was_visible(x, y) != 0};
 }
 
@@ -73,7 +73,7 @@ TEST(Motion, ObjectsAtRestStayWhereOthersAppearAndVanish) {
 }
 
 TEST(Motion, ObjectsMoveByThemselvesWhereOthersAppearAndVanish) {
-  const float pixels = 0.5f * side / 6;
+  const float pixels = 0.5f * frame_side / 6;
   const Frame frame = rendered(squares({1, 2}), squares({0, 1, 2}, {-0.5f, 0, 0}), squares({2}, {0, 0.5f, 0}));
   const Seen first = at(frame, 1), second = at(frame, 2);
   EXPECT_EQ(first.object, 1u);

@@ -76,7 +76,8 @@ TEST(Sequence, ItsCameraSeesTheWholeAnimationAndStays) {
 Scene cubes_at(float3 place) {
   Scene scene;
   Mesh& mesh = scene.meshes.emplace_back();
-  for (int i = 0; i < 8; ++i) mesh.position.push_back({(i & 1) - 0.5f, (i >> 1 & 1) - 0.5f, (i >> 2 & 1) - 0.5f});
+  for (int i = 0; i < 8; ++i)
+    mesh.position.push_back({i & 1 ? 0.5f : -0.5f, i & 2 ? 0.5f : -0.5f, i & 4 ? 0.5f : -0.5f});
   mesh.index = {0, 1, 2, 3, 4, 5, 6, 7, 0};
   scene.materials.emplace_back();
   scene.objects.push_back("still"), scene.objects.push_back("moving");
