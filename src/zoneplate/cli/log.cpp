@@ -10,18 +10,18 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/utf8.h"
+#include "zoneplate/os/file.h"
 
 namespace zoneplate::cli {
 namespace {
 
-bool write_all(int file, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t written = ::write(file, text.data(), text.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    text.remove_prefix(static_cast<std::size_t>(written));
-  }
-  return true;
+// 0, or the errno of the failure.
+int write_text(int file, std::string_view text) {
+  return write_fully(file, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+void check_written(const char* stream, int error) {
+  if (error != 0) throw Error(ErrorKind::Output, std::string(stream) + ": " + std::strerror(error));
 }
 
 std::string_view environment(const char* name) {
@@ -44,22 +44,24 @@ void say(std::string_view kind, std::string_view color, std::string_view message
     else
       line.append(kind).append(": ");
   }
-  write_all(STDERR_FILENO, line + printable(message) + '\n');
+  write_to_stderr(line + printable(message) + '\n');
 }
 
 }  // namespace
 
 void print(const std::string& text) {
-  if (!write_all(STDOUT_FILENO, printable_lines(text)))
-    throw Error(ErrorKind::Output, std::string("stdout: ") + std::strerror(errno));
+  const int error = write_text(STDOUT_FILENO, printable_lines(text));
+  check_written("stdout", error == EPIPE ? 0 : error);
 }
 
 void print_report(const std::string& text, bool is_stdout_taken) {
   if (is_stdout_taken)
-    write_all(STDERR_FILENO, printable_lines(text));
+    check_written("stderr", write_text(STDERR_FILENO, printable_lines(text)));
   else
-    print(text);
+    check_written("stdout", write_text(STDOUT_FILENO, printable_lines(text)));
 }
+
+void write_to_stderr(std::string_view text) { static_cast<void>(write_text(STDERR_FILENO, text)); }
 
 void say_error(const std::string& message) { say("error", "\x1b[1;31m", message); }
 void say_warning(const std::string& message) { say("warning", "\x1b[1;33m", message); }

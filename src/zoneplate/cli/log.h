@@ -2,17 +2,25 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace zoneplate::cli {
 
 /// Writes text to stdout, completely or with an error. All other writes of the program to stdout are images for "-".
 /// Control characters but line breaks and tabs are replaced by '?' (base/utf8.h); names in it are `printable`.
 ///
+/// For output that has no purpose without a reader, such as a list or a help text: nothing is written, without an
+/// error, to a pipe whose reader has ended.
 /// Errors    ErrorKind::Output if stdout is closed or full.
 void print(const std::string& text);
 
-/// Writes a report to stdout, or to stderr where stdout is the image.
-void print_report(const std::string& text, bool is_stdout_taken);
+/// Writes the report of a run that makes files, as `print`: to stdout, or to stderr where stdout is the image.
+///
+/// Errors    ErrorKind::Output if it cannot be written; also for a pipe without a reader.
+void print_report(const std::string& text, bool is_stdout_taken = false);
+
+/// Writes text to stderr; errors are ignored.
+void write_to_stderr(std::string_view text);
 
 enum class Verbosity { Quiet, Normal, Verbose };
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <atomic>
-#include <cstdio>
 #include <memory>
 #include <utility>
 
@@ -31,11 +30,11 @@ void Progress::begin(std::string_view stage, double done) {
     if (seconds > 2 && left >= 1)
       line += left < 100 ? fmt::format(", {:.0f} s left", left) : fmt::format(", {:.0f} min left", left / 60);
   }
-  std::fwrite(line.data(), 1, line.size(), stderr);
+  write_to_stderr(line);
 }
 
 void Progress::clear() {
-  if (kind_ == ProgressKind::Bar) std::fwrite(wipe.data(), 1, wipe.size(), stderr);
+  if (kind_ == ProgressKind::Bar) write_to_stderr(wipe);
 }
 
 std::function<void(double)> percents(double begin, double end, std::function<void(double)> report) {

@@ -259,18 +259,7 @@ class PipeSignalBlocked {
 };
 
 void write_all(int fd, std::span<const std::uint8_t> bytes, const std::string& name) {
-  const PipeSignalBlocked guard;
-  while (!bytes.empty()) {
-    const ssize_t n = ::write(fd, bytes.data(), std::min(bytes.size(), std::size_t{1} << 30));
-    if (n > 0) {
-      bytes = bytes.subspan(static_cast<std::size_t>(n));
-    } else if (n < 0 && errno == EAGAIN) {
-      pollfd wait{fd, POLLOUT, 0};
-      ::poll(&wait, 1, -1);
-    } else if (n == 0 || errno != EINTR) {
-      throw write_error(name, n == 0 ? "nothing more is accepted" : cause_of(errno));
-    }
-  }
+  if (const int error = write_fully(fd, bytes); error != 0) throw write_error(name, cause_of(error));
 }
 
 /// Opens an existing device or pipe and writes to it.
@@ -317,6 +306,22 @@ bool is_written_in_place(const std::filesystem::path& target, const struct stat*
 }
 
 }  // namespace
+
+int write_fully(int file, std::span<const std::uint8_t> bytes) {
+  const PipeSignalBlocked guard;
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(file, bytes.data(), std::min(bytes.size(), std::size_t{1} << 30));
+    if (n > 0) {
+      bytes = bytes.subspan(static_cast<std::size_t>(n));
+    } else if (n < 0 && errno == EAGAIN) {
+      pollfd wait{file, POLLOUT, 0};
+      ::poll(&wait, 1, -1);
+    } else if (n == 0 || errno != EINTR) {
+      return n == 0 ? EIO : errno;
+    }
+  }
+  return 0;
+}
 
 FileWriter::FileWriter(std::string path) : path_(std::move(path)) {
   if (path_ == "-") return;

@@ -59,6 +59,10 @@ class FileWriter {
   std::vector<std::uint8_t> kept_;
 };
 
+/// Writes all bytes to a descriptor; if it is non-blocking, waits until its reader goes on. A closed pipe is an error
+/// of the call and not a signal. Returns 0, or the `errno` of the failure.
+int write_fully(int file, std::span<const std::uint8_t> bytes);
+
 /// Writes `bytes` as a FileWriter does.
 void save_bytes(const std::string& path, std::span<const std::uint8_t> bytes);
 

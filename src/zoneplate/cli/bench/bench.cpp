@@ -192,17 +192,17 @@ void run_bench(std::span<const std::string> arguments) {
   const bool prints_json = args.prints_json || names_one;
   const auto time_all = [&] {
     MachineLimits limits;
-    if (!prints_json && !args.simulates) print(limits_text(limits = measure_limits()));
+    if (!prints_json && !args.simulates) print_report(limits_text(limits = measure_limits()));
     for (const std::string& scene : args.scenes)
       for (const int samples : counts) {
         BenchWork work = args.work;
         work.scene = scene, work.samples = samples;
         if (args.simulates) {
-          print(schedule_text(work, time_frame_loops(work)));
+          print_report(schedule_text(work, time_frame_loops(work)));
           continue;
         }
         const BenchTiming timing = time_frames(work);
-        print(prints_json ? timing_json(args, work, timing).text() + '\n' : timing_text(work, timing, limits));
+        print_report(prints_json ? timing_json(args, work, timing).text() + '\n' : timing_text(work, timing, limits));
       }
   };
   with_isa(args.isa, [&] { with_threads(args.threads, time_all); });

@@ -377,7 +377,7 @@ void run_compare(std::span<const std::string> arguments) {
     save_folder(args.render.output, made.files, args.replaced());  // without other threads, as it requires
   if (!args.page.empty()) save_bytes(args.page, bytes_of(made.page));
   if (args.render.verbosity != Verbosity::Quiet || args.render.prints_json)
-    print(args.render.prints_json ? made.json : made.text);
+    print_report(args.render.prints_json ? made.json : made.text);
 }
 
 }  // namespace zoneplate::cli

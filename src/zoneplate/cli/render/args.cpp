@@ -65,7 +65,7 @@ constexpr const char* notes =
     "Colours are sRGB: red, #f80, #ff8800, #ff880080 or 1,0.5,0.\n"
     "\n"
     "Exit codes: 0 success, 1 rendering failed, 2 wrong usage, 3 input missing, corrupt or unsupported,\n"
-    "4 output cannot be written, 5 some of several items failed, 128+n terminated by signal n. No partial files\n"
+    "4 output or reports cannot be written, 5 some of several items failed, 128+n terminated by signal n. No partial files\n"
     "remain.\n";
 
 using Choices = std::vector<std::string_view>;

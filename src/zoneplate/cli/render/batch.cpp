@@ -139,6 +139,7 @@ class Batch {
   void finish() {
     while (!groups_.empty()) report_first();
     if (failed_ > 0) throw PartialFailure(fmt::format("{} of {} items failed", failed_, count_));
+    if (!trouble_.empty()) throw Error(ErrorKind::Output, "not all reports could be printed: " + trouble_);
   }
 
  private:
@@ -273,13 +274,24 @@ class Batch {
     if (line.back().first != "seconds") line.emplace_back("seconds", watch.ms() / 1000);
     ++count_;
     progress_.clear();
-    if (common_.verbosity != Verbosity::Quiet && !prints_text_) print(Json(std::move(line)).text() + '\n');
+    if (!prints_text_) print_line(Json(std::move(line)).text());
   }
 
   // One line for a person at a terminal; failures are reported on stderr alone.
   void print_text(const std::string& text) {
     progress_.clear();
-    if (common_.verbosity != Verbosity::Quiet && prints_text_) print(text + '\n');
+    if (prints_text_) print_line(text);
+  }
+
+  // The first line that cannot be printed is the last that is tried: the images matter more than their reports.
+  void print_line(const std::string& text) {
+    if (common_.verbosity == Verbosity::Quiet || !trouble_.empty()) return;
+    try {
+      print_report(text + '\n');
+    } catch (const Error& error) {
+      trouble_ = error.what();
+      say_error(trouble_ + "; the batch goes on without reports");
+    }
   }
 
   const RenderArgs& common_;
@@ -291,6 +303,7 @@ class Batch {
   LimitedChildren processes_{[this] { start_some(); }};
   std::deque<Group> groups_;  ///< those that are not yet reported
   std::uint64_t count_ = 0, failed_ = 0;
+  std::string trouble_;  ///< why reports are no longer printed; empty if they are
 };
 
 // The items of the command line, or of the manifest.
