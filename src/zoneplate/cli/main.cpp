@@ -17,6 +17,7 @@
 #include "zoneplate/cli/version.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/mapped_file_guard.h"
+#include "zoneplate/os/run_program.h"
 #include "zoneplate/scene/builtin/builtin.h"
 
 namespace zoneplate::cli {
@@ -98,10 +99,11 @@ void shorten_stacks_of_threads() {
 
 bool has_progress_bar = false;
 
-// Signal handler: removes temporary files and exits with the shell's code for the signal. On a terminal the prompt
-// follows on a new line, below the progress bar.
+// Signal handler: removes temporary files, ends the programs that were started, and exits with the shell's code for the
+// signal. On a terminal the prompt follows on a new line, below the progress bar.
 extern "C" void leave(int signal) {
   remove_temporaries();
+  end_programs();
   if (has_progress_bar) static_cast<void>(!::write(STDERR_FILENO, "\n", 1));
   ::_exit(128 + signal);
 }

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -90,6 +91,11 @@ std::string path_of(const std::string& program) {
   fail(program, "is not installed");
 }
 
+/// The process groups of running programs, for end_programs: a signal handler has no parameter for them. A program
+/// beyond their number is not killed by a signal; it then finds its stdin closed.
+static_assert(std::atomic<pid_t>::is_always_lock_free);
+constinit std::array<std::atomic<pid_t>, 8> groups;
+
 /// A child process. The destructor kills it unless it has ended.
 class Child {
  public:
@@ -107,14 +113,24 @@ class Child {
     ::posix_spawn_file_actions_init(&actions);
     for (const auto& [from, to] : {std::pair{in, 0}, {out, 1}, {complaints, 2}})
       ::posix_spawn_file_actions_adddup2(&actions, from, to);
-    const int error = ::posix_spawn(&id_, path.c_str(), &actions, nullptr, words.data(), variables.data());
+    // A process group of its own, so that the programs that it starts are killed with it.
+    posix_spawnattr_t attributes;
+    ::posix_spawnattr_init(&attributes);
+    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    const int error = ::posix_spawn(&id_, path.c_str(), &actions, &attributes, words.data(), variables.data());
+    ::posix_spawnattr_destroy(&attributes);
     ::posix_spawn_file_actions_destroy(&actions);
     if (error != 0) fail(program, std::strerror(error));
+    for (std::atomic<pid_t>& group : groups) {
+      pid_t none = 0;
+      if (group.compare_exchange_strong(none, id_)) break;
+    }
   }
   ~Child() {
     if (id_ <= 0) return;
-    ::kill(id_, SIGKILL);
+    ::kill(-id_, SIGKILL);
     ::waitpid(id_, nullptr, 0);
+    forget();
   }
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
@@ -123,12 +139,20 @@ class Child {
   bool has_ended(int& code) {
     int status = 0;
     if (::waitpid(id_, &status, WNOHANG) == 0) return false;
+    forget();
     id_ = 0;
     code = WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
     return true;
   }
 
  private:
+  void forget() {
+    for (std::atomic<pid_t>& group : groups) {
+      pid_t own = id_;
+      group.compare_exchange_strong(own, 0);
+    }
+  }
+
   pid_t id_ = 0;
 };
 
@@ -176,6 +200,7 @@ class RunningProgram::Process {
 
  private:
   void check_time(const Stopwatch& watch) const {
+    if (limits_.check_time) limits_.check_time();
     if (watch.ms() > limits_.milliseconds) fail(program_, "did not answer in time");
   }
 
@@ -213,6 +238,11 @@ RunningProgram::~RunningProgram() = default;
 void RunningProgram::write(std::span<const std::uint8_t> bytes) { process_->write(bytes); }
 
 ProgramResult RunningProgram::finish() { return process_->finish(); }
+
+void end_programs() {
+  for (const std::atomic<pid_t>& group : groups)
+    if (const pid_t id = group.load(); id > 0) ::kill(-id, SIGKILL);
+}
 
 ProgramResult run_child(const std::string& program, const std::vector<std::string>& arguments, const std::string& input,
                         const ProgramLimits& limits) {

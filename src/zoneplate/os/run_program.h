@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -19,12 +20,15 @@ struct ProgramResult {
 struct ProgramLimits {
   int milliseconds = 20000;                  ///< the program is killed after this time
   std::size_t bytes = std::size_t{1} << 28;  ///< maximum size of stdout; the program is killed when it exceeds it
+  /// Called while this process waits; may throw when a limit of its own is exceeded, for which the program is killed.
+  std::function<void()> check_time = {};
 };
 
 /// Runs an installed program without a shell, with `input` as its stdin.
 ///
 /// The program is searched in the absolute folders of PATH, then in /usr/local/bin, /usr/bin and /bin. Its environment
 /// has only these folders and the C locale in UTF-8: without HOME, so that settings of the user have no effect.
+/// It and the programs that it starts are killed when a limit is exceeded, or a signal handler calls `end_programs`.
 /// Errors    ErrorKind::Failed naming the program if it cannot be started or exceeds a limit.
 ProgramResult run_child(const std::string& program, const std::vector<std::string>& arguments, const std::string& input,
                         const ProgramLimits& limits = {});
@@ -51,5 +55,8 @@ class RunningProgram {
   class Process;
   std::unique_ptr<Process> process_;
 };
+
+/// Kills the programs that are running; async-signal-safe.
+void end_programs();
 
 }  // namespace zoneplate

@@ -106,8 +106,10 @@ std::unique_ptr<AnimationEncoder> make_film_encoder(const std::string& output, c
   return std::filesystem::path(output).extension() == ".webp" ? make_webp_encoder(format) : make_apng_encoder(format);
 }
 
-FfmpegFilm::FfmpegFilm(const std::string& output, int width, int height, const AnimationFormat& format)
-    : ffmpeg_("ffmpeg", arguments_for(output, width, height, format), {.milliseconds = longest_wait_ms}) {}
+FfmpegFilm::FfmpegFilm(const std::string& output, int width, int height, const AnimationFormat& format,
+                       std::function<void()> check_time)
+    : ffmpeg_("ffmpeg", arguments_for(output, width, height, format),
+              {.milliseconds = longest_wait_ms, .check_time = std::move(check_time)}) {}
 
 void FfmpegFilm::add(std::span<const std::uint8_t> pixels) { ffmpeg_.write(pixels); }
 

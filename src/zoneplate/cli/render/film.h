@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -26,8 +27,10 @@ std::unique_ptr<AnimationEncoder> make_film_encoder(const std::string& output, c
 /// A film that ffmpeg encodes while further frames are drawn.
 class FfmpegFilm {
  public:
+  /// `check_time` is called while ffmpeg keeps this process waiting; ffmpeg is killed if it throws.
   /// Errors    ErrorKind::Failed if ffmpeg is not installed.
-  FfmpegFilm(const std::string& output, int width, int height, const AnimationFormat& format);
+  FfmpegFilm(const std::string& output, int width, int height, const AnimationFormat& format,
+             std::function<void()> check_time);
 
   /// Appends pixels in the order of the frames, RGBA, 8 bits per channel, rows from the top; in parts of any size.
   ///

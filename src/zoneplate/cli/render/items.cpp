@@ -63,6 +63,12 @@ Summary RenderItems::next() {
   const Stopwatch total;
   double write_ms = 0;
   Progress progress(progress_of(args));
+  const auto check_time = [&] {
+    if (total.ms() / 1000 > args.max_seconds)
+      throw Error(ErrorKind::Failed,
+                  fmt::format("{}: waits for ffmpeg longer than the limit of {:.6g} s (--max-seconds)", args.input,
+                              args.max_seconds));
+  };
   std::optional<FfmpegFilm> film;
   ItemEvents events;
   events.progress = [&](std::string_view stage, double done) { progress.begin(stage, done); };
@@ -80,7 +86,7 @@ Summary RenderItems::next() {
     const int width = crop ? crop->width : args.options.width, height = crop ? crop->height : args.options.height;
     if (size != std::uint64_t{4} * static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height))
       throw Error(ErrorKind::Failed, args.input + ": a frame of another size than the film's");
-    if (!film) film.emplace(args.output, width, height, film_format(args.sequence.rate));
+    if (!film) film.emplace(args.output, width, height, film_format(args.sequence.rate), check_time);
     for_parts(size, read, [&](std::span<const std::uint8_t> part) { film->add(part); });
   };
 
