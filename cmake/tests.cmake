@@ -47,6 +47,11 @@ foreach(pattern RANGE 5)
   set_tests_properties(million_triangles_${pattern} PROPERTIES TIMEOUT 3600 FAIL_REGULAR_EXPRESSION "Running 0 tests")
 endforeach()
 
+# A hundred runs of a batch that are ended at some moment, and resumed.
+add_test(NAME killed_batch CONFIGURATIONS Long
+         COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=KilledBatch.DISABLED_IsResumedAHundredTimes)
+set_tests_properties(killed_batch PROPERTIES TIMEOUT 3600 FAIL_REGULAR_EXPRESSION "Running 0 tests")
+
 # The tables of docs/environment.md.
 add_test(NAME environment_error CONFIGURATIONS Long
          COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=EnvironmentError.*)

@@ -23,8 +23,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   events.progress = [](std::string_view, double done) {
     if (!(done >= 0 && done <= 1)) std::abort();
   };
-  events.file = [&](int frame, int layer, std::uint64_t bytes, const cli::ItemEvents::Read& read) {
-    if (frame < -1 || layer < -1) std::abort();
+  events.file = [&](int, int layer, std::uint64_t bytes, const cli::ItemEvents::Read& read) {
+    if (layer < -1) std::abort();
     take_all(bytes, read);
   };
   events.film_frame = take_all;

@@ -125,6 +125,18 @@ FileBytes::FileBytes(int fd, const std::string& path, std::uint64_t limit) {
   bytes_ = read_all(fd, path, limit);
 }
 
+void read_parts(const std::string& path, const std::function<bool(std::span<const std::uint8_t>)>& take) {
+  const bool is_stdin = path == "-";
+  const Descriptor file(is_stdin ? -1 : open_retrying(path.c_str(), O_RDONLY));
+  const int fd = is_stdin ? STDIN_FILENO : file.fd();
+  if (fd < 0) throw read_error(path, cause_of(errno));
+  std::vector<std::uint8_t> part(std::size_t{1} << 20);
+  for (bool wants_more = true; wants_more;) {
+    const std::size_t size = read_some(fd, part.data(), part.size(), path);
+    wants_more = take(std::span(part).first(size)) && size == part.size();
+  }
+}
+
 FileBytes::~FileBytes() {
   if (mapped_) {
     leave_mapping(bytes_.data());
@@ -322,6 +334,8 @@ int write_fully(int file, std::span<const std::uint8_t> bytes) {
   }
   return 0;
 }
+
+std::string link_target(const std::string& path) { return follow_links(path).string(); }
 
 FileWriter::FileWriter(std::string path) : path_(std::move(path)) {
   if (path_ == "-") return;

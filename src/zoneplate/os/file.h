@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -36,6 +37,12 @@ class FileBytes {
   bool mapped_ = false;
 };
 
+/// Reads a file, or stdin for "-", in parts of at most 1 MB, until its end or until `take` returns false. Unlike
+/// FileBytes it keeps none of them.
+///
+/// Errors    ErrorKind::Input naming the file and the cause, as FileBytes; those of `take`.
+void read_parts(const std::string& path, const std::function<bool(std::span<const std::uint8_t>)>& take);
+
 /// Writes a file in parts, completely or not at all: to a temporary name in the same directory, which is then renamed.
 /// "-" is stdout.
 ///
@@ -62,6 +69,11 @@ class FileWriter {
 /// Writes all bytes to a descriptor; if it is non-blocking, waits until its reader goes on. A closed pipe is an error
 /// of the call and not a signal. Returns 0, or the `errno` of the failure.
 int write_fully(int file, std::span<const std::uint8_t> bytes);
+
+/// The file that a FileWriter for `path` makes or replaces: the end of a chain of symbolic links, which need not exist.
+///
+/// Errors    ErrorKind::Output for a loop of links.
+std::string link_target(const std::string& path);
 
 /// Writes `bytes` as a FileWriter does.
 void save_bytes(const std::string& path, std::span<const std::uint8_t> bytes);

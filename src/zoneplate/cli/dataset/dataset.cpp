@@ -9,10 +9,10 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/args.h"
+#include "zoneplate/cli/batch/shard.h"
 #include "zoneplate/cli/dataset/nss.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/progress.h"
-#include "zoneplate/cli/render/shard.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/scene/builtin/builtin.h"
@@ -92,8 +92,9 @@ Syntax make_syntax(DatasetArgs& args) {
        [&](auto& text) { s.reference = text; }},
       {"--seed", "N", "Chooses moments and camera paths; default 1", group, false,
        [&](auto& text) { s.seed = static_cast<std::uint32_t>(parse_whole(text, 0, 1 << 30)); }},
-      {"--shard", "I/N", "Make every Nth sequence, beginning with number I; auto: as Slurm or Kubernetes say", group,
-       false, [&](auto& text) { args.shard = parse_shard(text); }},
+      {"--shard", "I/N",
+       "Make every Nth sequence, beginning with number I; auto/N: I is the index of the task in an array, as of Slurm",
+       group, false, [&](auto& text) { args.shard = parse_shard(text); }},
       {"--threads,-t", "N", "Maximum number of threads; 0, the default: the CPUs allowed by affinity and quota", group,
        false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }},
       {"--progress", "KIND", "Progress on stderr: auto (a bar on a terminal), bar, json (one line per frame) or none",

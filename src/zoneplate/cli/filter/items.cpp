@@ -11,7 +11,7 @@
 #include <set>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/cli/render/frame_name.h"
+#include "zoneplate/cli/batch/frame_name.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/codec/save.h"
 #include "zoneplate/metrics/file/picture_file.h"
@@ -35,13 +35,15 @@ std::string output_in_folder(const std::string& folder, const std::string& input
 
 std::string output_of(const std::string& output, const std::string& input, std::optional<std::uint64_t> frame) {
   constexpr std::uint64_t most = 999'999'999;
-  if (!has_frame_number(fs::path(output).filename().string())) return output_in_folder(output, input);
+  const std::size_t name = output.rfind('/') + 1;
+  const std::optional<FramePlace> place = find_frame_place(output.substr(name));
+  if (!place) return output_in_folder(output, input);
   if (!frame)
     throw Error(ErrorKind::Usage, fmt::format("{}: has a place for a frame number, and {} is no frame of a sequence, "
                                               "as f.####.png: give a folder",
                                               output, input));
   if (*frame > most) throw Error(ErrorKind::Usage, fmt::format("{}: its number is greater than {}", input, most));
-  return frame_name(output, static_cast<int>(*frame));
+  return output.substr(0, name) + frame_name(output.substr(name), *place, static_cast<int>(*frame));
 }
 
 /// "2, 4, 6-9".

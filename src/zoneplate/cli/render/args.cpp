@@ -57,7 +57,7 @@ constexpr const char* notes =
     "and extension of IN), {dir} (its folder), {index} or {index:4} (its number). Each item prints one line, which is\n"
     "JSON if stdout is not a terminal. Two items never write the same file. A folder as IN stands for all models in "
     "it\n"
-    "and in its folders; the folders of outputs with placeholders are created.\n"
+    "and in its folders; the folders of outputs are created.\n"
     "\n"
     "Configuration: lines of the form `size = 512` or `no-background` are options of every run; those after a line\n"
     "[NAME] belong to --preset NAME. Options of the command line take precedence.\n"
@@ -65,7 +65,8 @@ constexpr const char* notes =
     "Colours are sRGB: red, #f80, #ff8800, #ff880080 or 1,0.5,0.\n"
     "\n"
     "Exit codes: 0 success, 1 rendering failed, 2 wrong usage, 3 input missing, corrupt or unsupported,\n"
-    "4 output or reports cannot be written, 5 some of several items failed, 128+n terminated by signal n. No partial files\n"
+    "4 output or reports cannot be written, 5 some of several items failed, 128+n terminated by signal n. No partial "
+    "files\n"
     "remain.\n";
 
 using Choices = std::vector<std::string_view>;
@@ -262,9 +263,12 @@ std::vector<Option> batch_options(RenderArgs& a) {
       {"--manifest", "FILE", "File of jobs, one JSON object per line: input, output, and options by their names", group,
        false, [&](auto& text) { a.manifest = text; }},
       {"--shard", "I/N",
-       "Run only every Nth job, from job I (0 to N-1); auto: from the variables of Slurm or Kubernetes", group, false,
-       [&](auto& text) { a.shard = parse_shard(text); }},
-      {"--skip-existing", "", "Skip jobs whose output exists", group, false, [&](auto&) { a.skip_existing = true; }},
+       "Run only every Nth job, from job I (0 to N-1); auto/N: I is the index of the task in an array of Slurm, "
+       "Kubernetes, AWS Batch, Cloud Run, Google Batch, PBS, Grid Engine or LSF; auto: N too, where the engine gives "
+       "it",
+       group, false, [&](auto& text) { a.shard = parse_shard(text); }},
+      {"--skip-existing", "", "Skip jobs, and frames, whose files exist and are whole: the image and its data passes",
+       group, false, [&](auto&) { a.skip_existing = true; }},
   };
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <string>
@@ -9,10 +10,11 @@
 #include "zoneplate/base/isa.h"
 #include "zoneplate/cli/aov.h"
 #include "zoneplate/cli/args.h"
+#include "zoneplate/cli/batch/frame_name.h"
+#include "zoneplate/cli/batch/shard.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/look/default_material.h"
 #include "zoneplate/cli/progress.h"
-#include "zoneplate/cli/render/shard.h"
 #include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/save.h"
 #include "zoneplate/formats/load.h"
@@ -26,6 +28,9 @@
 
 namespace zoneplate::cli {
 
+/// The most frames of a sequence.
+inline constexpr int most_frames = 100'000;
+
 /// The frames to be rendered.
 struct SequenceArgs {
   std::optional<int> turntable, count, first, last;
@@ -36,8 +41,14 @@ struct SequenceArgs {
   int shutter_samples = 16;
   ShutterFilter shutter_filter = ShutterFilter::Box;
   int warm_up = 0;  ///< frames before the first that are rendered for a method with history, and not written
+  std::vector<int> finished = {};  ///< sorted; frames that are not rendered again
 
-  bool is_sequence() const { return turntable || count || first || last || is_film; }
+  bool is_sequence() const { return requests_frames() || is_film; }
+  /// Whether the options ask for frames, whatever the output is.
+  bool requests_frames() const { return turntable || count || first || last; }
+  std::int64_t first_frame() const { return first.value_or(0); }
+  /// The last frame, if it does not depend on the animation.
+  std::optional<std::int64_t> last_frame() const;
 };
 
 /// How files of encoded images are compressed.
@@ -51,7 +62,8 @@ struct FileOptions {
 /// The arguments of `zoneplate render`.
 struct RenderArgs {
   std::string input, output;
-  std::vector<std::string> inputs;  ///< all inputs; `input` is the first
+  std::optional<FramePlace> frame_place;  ///< of the frame number in `output`
+  std::vector<std::string> inputs;        ///< all inputs; `input` is the first
   std::string manifest;
   bool has_placeholders = false;  ///< the output's name depends on its input
   Shard shard;
@@ -123,11 +135,16 @@ void check_args(RenderArgs& args);
 /// Errors    ErrorKind::Usage.
 void check_environment(RenderArgs& args);
 
+/// Sets the output of an item from the text of --output, by its input and its number in the batch.
+///
+/// Errors    those of output_name.
+void set_output(RenderArgs& args, const std::string& pattern, std::uint64_t index);
+
+/// True for the endings of images that can be written: ".png" and others.
+bool is_picture_ending(const std::string& extension);
+
 /// Errors    ErrorKind::Usage for a name whose ending is not that of an image that can be written.
 void check_picture_ending(const std::string& output);
-
-/// True if a file of that name exists.
-bool exists(const std::string& path);
 
 /// Parses and checks the whole command line of the verb; nothing after printing the help.
 ///

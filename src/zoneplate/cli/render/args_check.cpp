@@ -6,12 +6,12 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/spec.h"
+#include "zoneplate/cli/batch/frame_name.h"
+#include "zoneplate/cli/batch/input_names.h"
+#include "zoneplate/cli/batch/output_name.h"
 #include "zoneplate/cli/config/config.h"
 #include "zoneplate/cli/render/args.h"
 #include "zoneplate/cli/render/film.h"
-#include "zoneplate/cli/render/frame_name.h"
-#include "zoneplate/cli/render/input_names.h"
-#include "zoneplate/cli/render/output_name.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {
@@ -39,7 +39,7 @@ bool is_one_of(const std::string& word, std::initializer_list<const char*> words
 void check_output(RenderArgs& args) {
   if (args.output.empty()) throw Error(ErrorKind::Usage, "no output: give -o OUT.png, or -o - for stdout");
   const bool is_film = extension_of(args.output) == ".apng" || is_encoded_by_ffmpeg(args.output);
-  args.sequence.is_film = is_film || has_frame_number(args.output);
+  args.sequence.is_film = is_film || args.frame_place;
   if (args.output == "-") {
     if (!args.aovs.empty() && args.stdout_format != "exr")
       throw Error(ErrorKind::Usage, "--aov writes files next to OUT, which cannot be -; an .exr contains the passes");
@@ -58,7 +58,7 @@ void check_effects(const RenderArgs& args, const std::string& ending) {
   const auto refuse = [](const std::string& cause) { throw Error(ErrorKind::Usage, cause); };
   const SequenceArgs& sequence = args.sequence;
   const bool is_linear = ending == ".exr" || ending == ".pfm";
-  const bool is_frame = !sequence.is_sequence() || has_frame_number(args.output);
+  const bool is_frame = !sequence.is_sequence() || args.frame_place;
   if (args.file.jpeg_quality && ending != ".jpg" && ending != ".jpeg")
     refuse("--jpeg-quality is for .jpg; --webp-quality is for .webp, and --png-compression for .png");
   if (args.file.webp_quality && (ending != ".webp" || !is_frame)) refuse("--webp-quality is for .webp with one image");
@@ -90,8 +90,12 @@ void check_effects(const RenderArgs& args, const std::string& ending) {
 
 }  // namespace
 
+bool is_picture_ending(const std::string& extension) {
+  return is_one_of(extension, {".png", ".jpg", ".jpeg", ".webp", ".pfm", ".exr", ".rgba"});
+}
+
 void check_picture_ending(const std::string& output) {
-  if (output != "-" && !is_one_of(extension_of(output), {".png", ".jpg", ".jpeg", ".webp", ".pfm", ".exr", ".rgba"}))
+  if (output != "-" && !is_picture_ending(extension_of(output)))
     throw Error(
         ErrorKind::Usage,
         fmt::format("--output: {} is not a format that can be written (images: .png, .jpg, .webp, .exr, .pfm, .rgba; "
@@ -120,9 +124,16 @@ void check_environment(RenderArgs& args) {
       Environment{.color = {1, 1, 1}, .rotation = args.hdri_rotation, .strength = args.hdri_intensity};
 }
 
-bool exists(const std::string& path) {
-  std::error_code ignored;
-  return path != "-" && std::filesystem::exists(path, ignored);
+std::optional<std::int64_t> SequenceArgs::last_frame() const {
+  if (last) return *last;
+  if (count) return first_frame() + std::int64_t{*count - 1} * jump;
+  if (turntable) return std::int64_t{*turntable} - 1;
+  return std::nullopt;
+}
+
+void set_output(RenderArgs& args, const std::string& pattern, std::uint64_t index) {
+  OutputName name = output_name(pattern, args.input, index, args.sequence.requests_frames());
+  args.output = std::move(name.text), args.frame_place = name.frame;
 }
 
 void check_args(RenderArgs& args) {
@@ -189,12 +200,12 @@ std::optional<RenderArgs> parse_render_args(std::span<const std::string> argumen
   args.has_placeholders = names_input(args.output);
   if (args.inputs.size() > 1 && !args.has_placeholders) refuse_single_output(args);
   args.input = args.inputs.front();
-  const std::string pattern = args.output;
-  args.output = first.output = output_name(pattern, args.input, 0);
-  check_effects(first, extension_of(args.named_output()));
-  check_args(args);
-  if (args.is_batch()) args.output = pattern;
-  return args;
+  RenderArgs item = args;
+  set_output(item, args.output, 0);
+  first.output = item.output, first.frame_place = item.frame_place;
+  check_effects(first, extension_of(item.named_output()));
+  check_args(item);
+  return args.is_batch() ? args : item;  // each item of a batch is checked by its own name
 }
 
 }  // namespace zoneplate::cli

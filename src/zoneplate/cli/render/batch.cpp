@@ -16,41 +16,22 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/cli/render/frame_name.h"
-#include "zoneplate/cli/render/input_names.h"
+#include "zoneplate/cli/batch/input_names.h"
+#include "zoneplate/cli/batch/manifest.h"
+#include "zoneplate/cli/batch/output_files.h"
+#include "zoneplate/cli/batch/output_name.h"
+#include "zoneplate/cli/render/item_files.h"
 #include "zoneplate/cli/render/items.h"
-#include "zoneplate/cli/render/output_name.h"
 #include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/formats/json/json.h"
-#include "zoneplate/os/file.h"
 #include "zoneplate/os/memory_limit.h"
 
 namespace zoneplate::cli {
 namespace {
 
-// A non-empty line of the manifest, and its name for messages.
-struct Line {
-  std::string text, place;
-};
-
-std::vector<Line> lines_of(const std::string& path) {
-  const FileBytes file(path, std::uint64_t{1} << 30);
-  const std::string_view text(reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size());
-  std::vector<Line> lines;
-  std::size_t number = 0;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    const std::string_view line = text.substr(at, end - at);
-    ++number;
-    if (line.find_first_not_of(" \t\r") != line.npos)
-      lines.push_back({std::string(line), fmt::format("{}: line {}", path == "-" ? "standard input" : path, number)});
-    at = end + 1;
-  }
-  return lines;
-}
-
-// Parses the jobs of a manifest: each has the options of the command line, overridden by its own.
+// Parses the jobs of a manifest: each has the options of the command line, overridden by its own. A manifest may come
+// from a stranger: a line cannot lift the sandbox, nor raise a limit of the command line.
 class Jobs {
  public:
   explicit Jobs(const RenderArgs& common) : common_(common), syntax_(render_syntax(args_)) {}
@@ -58,15 +39,14 @@ class Jobs {
   Jobs& operator=(const Jobs&) = delete;
 
   // Errors    ErrorKind::Input or Usage, naming the line.
-  RenderArgs read(const Line& line, std::uint64_t index) {
-    ImportBudget budget(line.place, common_.load.limits);
-    const JsonValue job =
-        parse_json({reinterpret_cast<const std::uint8_t*>(line.text.data()), line.text.size()}, budget);
+  RenderArgs read(std::string_view text, const std::string& place, std::uint64_t index) {
+    ImportBudget budget(place, common_.load.limits);
+    const JsonValue job = parse_json({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, budget);
     try {
-      return read(job, JsonView(job, line.place), index);
+      return read(job, JsonView(job, place), index);
     } catch (const Error& error) {
       if (error.kind() != ErrorKind::Usage) throw;
-      throw Error(ErrorKind::Usage, line.place + ": " + error.what());
+      throw Error(ErrorKind::Usage, place + ": " + error.what());
     }
   }
 
@@ -77,9 +57,23 @@ class Jobs {
     for (std::size_t i = 0; i < job.items.size(); ++i) set(job.keys[i], job.items[i], view);
     if (args_.input.empty()) view.fail("has no input");
     args_.inputs = {args_.input};
-    args_.output = output_name(args_.output, args_.input, index);
+    check_limits(view);
+    set_output(args_, args_.output, index);
     check_args(args_);
     return args_;
+  }
+
+  void check_limits(const JsonView& view) const {
+    const auto check = [&view](const char* option, auto limit, auto most) {
+      if (limit > most)
+        view.fail(fmt::format("{} can only be lowered by a line, and is {:.6g} on the command line", option,
+                              static_cast<double>(most)));
+    };
+    const LoadLimits &limits = args_.load.limits, &most = common_.load.limits;
+    check("max-memory", limits.memory, most.memory);
+    check("max-pixels", limits.pixels, most.pixels);
+    check("max-import-seconds", limits.seconds, most.seconds);
+    check("max-seconds", args_.max_seconds, common_.max_seconds);
   }
 
   void set(const std::string& key, const JsonValue& value, const JsonView& view) {
@@ -90,6 +84,8 @@ class Jobs {
     if (text.find('\0') != text.npos) view.fail(key + " has a character of code 0");
     for (const char* common : {"manifest", "shard", "preset", "no-config", "dry-run"})
       if (key == common) view.fail(key + " is for all jobs together, not for one");
+    for (const char* right : {"no-sandbox", "allow-path"})
+      if (key == right) view.fail(key + " is for the command line alone, because a manifest may come from a stranger");
     if (key == "input" && value.kind != Kind::Boolean)
       args_.input = text;
     else if (value.kind != Kind::Boolean)
@@ -182,7 +178,7 @@ class Batch {
     group.is_started = true;
     std::vector<RenderArgs> to_render;
     for (Item& item : group.items) {
-      item.is_rendered = !item.error && !common_.is_dry_run && !is_skipped(item.args);
+      item.is_rendered = !item.error && !common_.is_dry_run && !is_finished(item.args);
       if (item.is_rendered) to_render.push_back(item.args);
     }
     if (to_render.empty()) return;
@@ -223,7 +219,7 @@ class Batch {
     try {
       Summary summary;
       with_threads(group.threads, [&] { summary = group.process->next(); });
-      print_text(fmt::format("{} -> {}, {} × {}, {:.0f} ms", item.name, item.args.output, summary.width, summary.height,
+      print_text(fmt::format("{} -> {}, {} × {}, {:.0f} ms", item.name, summary.output, summary.width, summary.height,
                              summary.total_ms()));
       Json::Object line = summary_json(item.args, summary);
       line.emplace(line.begin() + 4, "status", "done");
@@ -234,15 +230,12 @@ class Batch {
     }
   }
 
-  static bool is_skipped(const RenderArgs& args) {
-    return args.skip_existing && !has_frame_number(args.output) && exists(args.output);
-  }
   Json::Object skipped(const Item& item) {
     print_text(fmt::format("{}: {} exists already", item.name, item.args.output));
     return plan_json(item.args, "skipped");
   }
   Json::Object planned(const Item& item) {
-    const bool is_left_out = is_skipped(item.args);
+    const bool is_left_out = is_finished(item.args);
     print_text(is_left_out ? fmt::format("{}: {} exists already", item.name, item.args.output) : plan_text(item.args));
     return plan_json(item.args, is_left_out ? "skipped" : "planned");
   }
@@ -309,46 +302,57 @@ class Batch {
 // The items of the command line, or of the manifest.
 class BatchItems {
  public:
-  explicit BatchItems(const RenderArgs& common) : common_(common), jobs_(common) {
-    if (!common.manifest.empty()) lines_ = lines_of(common.manifest);
+  explicit BatchItems(RenderArgs common)
+      : inputs_(std::exchange(common.inputs, {})), common_(std::move(common)), jobs_(common_) {
+    constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30;
+    if (!common_.manifest.empty())
+      manifest_.emplace(common_.manifest, std::min(most_bytes, common_.load.limits.memory / 2));
   }
 
-  std::uint64_t count() const { return common_.manifest.empty() ? common_.inputs.size() : lines_.size(); }
-  const std::string& name(std::uint64_t i) const {
-    return common_.manifest.empty() ? common_.inputs[i] : lines_[i].place;
-  }
+  std::uint64_t count() const { return manifest_ ? manifest_->size() : inputs_.size(); }
+  std::string name(std::uint64_t i) const { return manifest_ ? manifest_->place(i) : inputs_[i]; }
   // Errors    ErrorKind::Input or Usage, naming the line.
   RenderArgs args(std::uint64_t i) {
-    if (!common_.manifest.empty()) return jobs_.read(lines_[i], i);
+    if (manifest_) return jobs_.read(manifest_->text(i), manifest_->place(i), i);
     RenderArgs args = common_;
-    args.input = common_.inputs[i];
-    args.output = output_name(args.output, args.input, i);
+    args.input = inputs_[i];
+    set_output(args, args.output, i);
+    check_args(args);
     return args;
   }
 
  private:
-  const RenderArgs& common_;
+  const std::vector<std::string> inputs_;
+  const RenderArgs common_;  ///< without the inputs
   Jobs jobs_;
-  std::vector<Line> lines_;
+  std::optional<Manifest> manifest_;
 };
 
-// Fails before the first item is rendered if two items have the same output.
-void check_output_names(BatchItems& items) {
-  OutputNames names;
+// Fails before the first item is rendered if two items would write the same file, or one a file that another reads.
+void check_files(BatchItems& items, const std::string& output) {
+  OutputFiles files;
   for (std::uint64_t i = 0; i < items.count(); ++i) {
-    std::optional<RenderArgs> args;
     try {
-      args = items.args(i);
-    } catch (const Error&) {
-      continue;  // fails alone, when its turn comes
+      add_files(items.args(i), i, files);
+    } catch (const Error&) {  // fails alone, when its turn comes
     }
-    names.add(*args, items.name(i));
   }
+  const std::optional<OutputFiles::Collision> found = files.find_collision();
+  if (!found) return;
+  if (found->is_read)
+    throw Error(ErrorKind::Usage, fmt::format("{} would be written to {}, which {} reads", items.name(found->first),
+                                              found->path, items.name(found->second)));
+  throw Error(
+      ErrorKind::Usage,
+      fmt::format("{} and {} would both be written to {}{}", items.name(found->first), items.name(found->second),
+                  found->path, names_input(output) ? ": use {dir}, {ext} or {index} in the output's name" : ""));
 }
 
-// Makes the folder of an output whose name depends on its input, such as thumbs/{dir}/{model}.png.
-void make_folder(const std::string& output) {
-  const std::filesystem::path folder = std::filesystem::path(output).parent_path();
+// Makes the folder of an output, up to a folder whose name has the number of a frame.
+void make_folder(const RenderArgs& args) {
+  const std::filesystem::path folder =
+      std::filesystem::path(args.output.substr(0, args.frame_place ? args.frame_place->begin : args.output.npos))
+          .parent_path();
   if (folder.empty()) return;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -359,7 +363,7 @@ void make_folder(const std::string& output) {
 
 void render_batch(const RenderArgs& common) {
   BatchItems items(common);
-  check_output_names(items);
+  check_files(items, common.output);
   Batch batch(common, common.shard.size_of(items.count()));
   for (std::uint64_t i = 0; i < items.count(); ++i) {
     if (!common.shard.has(i)) continue;
@@ -369,7 +373,7 @@ void render_batch(const RenderArgs& common) {
         check_input(args.input, args.load.format);
         return args;
       }
-      if (names_input(common.output)) make_folder(args.output);
+      make_folder(args);
       check_outputs(args);
       return args;
     });

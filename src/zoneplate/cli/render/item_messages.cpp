@@ -145,7 +145,7 @@ std::optional<std::vector<std::uint8_t>> receive_message(const std::string& plac
     events.has_read();
   } else if (header.kind == Kind::BeginsToRead && events.begins_to_read) {
     events.begins_to_read();
-  } else if (header.kind == Kind::File && events.file && header.first >= -1 && header.second >= -1) {
+  } else if (header.kind == Kind::File && events.file && header.second >= -1) {
     events.file(header.first, header.second, header.size, read);
   } else if (header.kind == Kind::FilmFrame && events.film_frame) {
     events.film_frame(header.size, read);

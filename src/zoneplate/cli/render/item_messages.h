@@ -34,7 +34,7 @@ class ItemSender {
   /// which the limit begins anew. A job begins by reading.
   void has_read();
   void begins_to_read();
-  /// Sends a whole file. `frame` is its number in a sequence, or -1; `layer` is its index among the data passes, or -1
+  /// Sends a whole file. `frame` is its number in a sequence; `layer` is its index among the data passes, or -1
   /// for the image. The receiver determines the file's name from both.
   void file(int frame, int layer, std::span<const std::uint8_t> bytes);
   /// A function that sends the progress of a stage which begins at `from` and ends at `to`, in whole per cents that

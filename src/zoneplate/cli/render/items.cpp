@@ -9,6 +9,7 @@
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/cli/render/film.h"
+#include "zoneplate/cli/render/item_files.h"
 #include "zoneplate/os/cache_folder.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/shade/environment/prepared_environment.h"
@@ -48,10 +49,15 @@ void for_parts(std::uint64_t size, const ItemEvents::Read& read, Take take) {
   }
 }
 
+std::vector<RenderArgs> with_finished_frames(std::vector<RenderArgs> items) {
+  for (RenderArgs& item : items) item.sequence.finished = finished_frames(item);
+  return items;
+}
+
 }  // namespace
 
 RenderItems::RenderItems(std::vector<RenderArgs> items, LimitedChildren* siblings)
-    : items_(std::move(items)),
+    : items_(with_finished_frames(std::move(items))),
       process_(limits_of(items_, siblings), items_.size(),
                [this, jobs = std::make_shared<RenderJobs>()](std::size_t i, ItemSender& sender) {
                  if (progress_of(items_[i]) == ProgressKind::None) sender.mute_progress();
@@ -62,6 +68,7 @@ Summary RenderItems::next() {
   const RenderArgs& args = items_[next_++];
   const Stopwatch total;
   double write_ms = 0;
+  std::string last_image;
   Progress progress(progress_of(args));
   const auto check_time = [&] {
     if (total.ms() / 1000 > args.max_seconds)
@@ -76,9 +83,11 @@ Summary RenderItems::next() {
     const Stopwatch watch;
     if (layer >= static_cast<int>(args.aovs.size()))
       throw Error(ErrorKind::Failed, args.input + ": an unknown data pass");
-    FileWriter file(output_path(args, frame, layer));
+    const std::string path = output_path(args, frame, layer);
+    FileWriter file(path);
     for_parts(size, read, [&](std::span<const std::uint8_t> part) { file.write(part); });
     file.commit();
+    if (layer < 0) last_image = path;
     write_ms += watch.ms();
   };
   events.film_frame = [&](std::uint64_t size, const ItemEvents::Read& read) {
@@ -105,6 +114,7 @@ Summary RenderItems::next() {
     save_bytes(args.output, film->encode());
     write_ms += watch.ms();
   }
+  summary.output = summary.frames == 1 && !last_image.empty() ? last_image : args.output;
   for (auto& [name, ms] : summary.times) {
     if (name == "write") ms = write_ms;
     if (name == "total") ms = std::max(ms + write_ms, total.ms());  // `total` is short if the process began earlier

@@ -98,8 +98,8 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   summary.times.emplace_back("encode", encode_watch.ms());
   out.progress("write", 0.99);
   const Stopwatch write_watch;
-  out.file(-1, -1, bytes);
   for (const LayerFile& file : picture.layers) out.file(-1, file.aov, file.bytes);
+  out.file(-1, -1, bytes);  // last: --skip-existing looks for it
   summary.times.emplace_back("write", write_watch.ms());
   summary.times.emplace_back("total", total_watch.ms());
   summary.peak_memory = peak_memory();
@@ -109,11 +109,11 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
 Json::Object summary_json(const RenderArgs& args, const Summary& summary) {
   Json::Object times, passes;
   for (const auto& [name, ms] : summary.times) times.emplace_back(name, ms);
-  for (const Aov* aov : args.aovs) passes.emplace_back(aov->name, aov_path(args.output, aov->name));
+  for (const Aov* aov : args.aovs) passes.emplace_back(aov->name, aov_path(summary.output, aov->name));
   return Json::Object{{"format", "zoneplate-render"},
                       {"version", report_version},
                       {"input", args.input},
-                      {"output", args.output},
+                      {"output", summary.output},
                       {"data_passes", std::move(passes)},
                       {"width", summary.width},
                       {"height", summary.height},

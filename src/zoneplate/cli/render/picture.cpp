@@ -12,9 +12,9 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/batch/frame_name.h"
 #include "zoneplate/cli/look/solid_texture.h"
 #include "zoneplate/cli/render/exr_header.h"
-#include "zoneplate/cli/render/frame_name.h"
 #include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/pfm.h"
@@ -104,14 +104,14 @@ std::string aov_path(const std::string& output, std::string_view name) {
 }
 
 std::string output_path(const RenderArgs& args, int frame, int layer) {
-  const std::string picture = frame < 0 ? args.output : frame_name(args.output, frame);
+  const std::string picture = args.frame_place ? frame_name(args.output, *args.frame_place, frame) : args.output;
   return layer < 0 ? picture : aov_path(picture, args.aovs.at(static_cast<std::size_t>(layer))->name);
 }
 
 void check_outputs(const RenderArgs& args) {
   if (args.output == "-" && ::isatty(STDOUT_FILENO) == 1)
     throw Error(ErrorKind::Usage, "an image will not be written to a terminal");
-  const int frame = args.sequence.is_sequence() && has_frame_number(args.output) ? args.sequence.first.value_or(0) : -1;
+  const int frame = args.sequence.first.value_or(0);
   for (int layer = -1; layer < static_cast<int>(args.aovs.size()); ++layer)
     check_savable(output_path(args, frame, layer));
 }

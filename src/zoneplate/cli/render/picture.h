@@ -40,7 +40,7 @@ std::string aov_path(const std::string& output, std::string_view name);
 /// Errors    ErrorKind::Output; ErrorKind::Usage for a terminal.
 void check_outputs(const RenderArgs& args);
 
-/// The name of a file of the item. `frame` is its number in a sequence, or -1; `layer` is the index of a data pass in
+/// The name of a file of the item. `frame` is its number, if the output has one; `layer` is the index of a data pass in
 /// `args.aovs`, or -1 for the image.
 std::string output_path(const RenderArgs& args, int frame, int layer);
 

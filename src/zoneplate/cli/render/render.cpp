@@ -3,8 +3,9 @@
 
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/batch/input_names.h"
 #include "zoneplate/cli/render/batch.h"
-#include "zoneplate/cli/render/input_names.h"
+#include "zoneplate/cli/render/item_files.h"
 #include "zoneplate/cli/render/items.h"
 #include "zoneplate/cli/usage.h"
 #include "zoneplate/cli/verbs.h"
@@ -17,14 +18,14 @@ void print_summary(const RenderArgs& args, const Summary& summary) {
   if (args.verbosity == Verbosity::Verbose) {
     std::string times;
     for (const auto& [name, ms] : summary.times) times += fmt::format("{} {:.1f} ms, ", name, ms);
-    say_note(fmt::format("{}: {}x{}, {}, {} triangles, {} threads, {}", args.output, summary.width, summary.height,
+    say_note(fmt::format("{}: {}x{}, {}, {} triangles, {} threads, {}", summary.output, summary.width, summary.height,
                          args.method, summary.counts.triangles, summary.threads, name_of(args.isa)));
     say_note(fmt::format("{}peak memory {} MB", times, summary.peak_memory >> 20));
   }
   const bool is_silent = args.verbosity != Verbosity::Normal || args.prints_json || args.output == "-";
   if (!is_silent && stderr_is_terminal())
     say_note(
-        fmt::format("{}: {} × {}, {:.2f} s", args.output, summary.width, summary.height, summary.total_ms() / 1000));
+        fmt::format("{}: {} × {}, {:.2f} s", summary.output, summary.width, summary.height, summary.total_ms() / 1000));
   if (!args.prints_json) return;
   print_report(Json(summary_json(args, summary)).text() + '\n', args.output == "-");
 }
@@ -46,7 +47,12 @@ void run_render(std::span<const std::string> arguments) {
     return print(args.prints_json ? Json(plan_json(args, "planned")).text() + '\n' : plan_text(args) + '\n');
   }
   check_outputs(args);
-  if (args.skip_existing && exists(args.output)) return;
+  OutputFiles files;
+  add_files(args, 0, files);
+  if (const auto collision = files.find_collision())
+    throw Error(ErrorKind::Usage,
+                fmt::format("{} would be written to {}, which is read as well", args.input, collision->path));
+  if (is_finished(args)) return;
   Summary summary;
   with_isa(args.isa, [&] { with_threads(args.threads, [&] { summary = RenderItems({args}).next(); }); });
   if (args.verbosity != Verbosity::Quiet)

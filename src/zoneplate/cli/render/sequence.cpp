@@ -5,20 +5,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <optional>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/background.h"
 #include "zoneplate/cli/render/film.h"
-#include "zoneplate/cli/render/frame_name.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/render/sequence.h"
 
 namespace zoneplate::cli {
 namespace {
 
-constexpr int most_frames = 100'000;
 // The frames to render, and their animation.
 class Plan {
  public:
@@ -99,14 +98,14 @@ class Plan {
   void list_frames() {
     const SequenceArgs& s = args_.sequence;
     const int first = s.first.value_or(0);
-    const bool has_last = s.turntable || s.count || s.last;
-    int last = s.turntable ? *s.turntable - 1 : has_last ? 0 : last_of_animation(first);
-    if (s.count) last = first + (*s.count - 1) * s.jump;
-    if (s.last) last = *s.last;
+    const std::optional<std::int64_t> asked = s.last_frame();
+    const std::int64_t last = asked ? *asked : last_of_animation(first);
     if (last < first) throw Error(ErrorKind::Usage, fmt::format("there is no frame from {} to {}", first, last));
+    if (last > std::numeric_limits<int>::max())
+      throw Error(ErrorKind::Usage, fmt::format("no frame has the number {}", last));
     if ((last - first) / s.jump >= most_frames)
       throw Error(ErrorKind::Usage, fmt::format("more than {} frames", most_frames));
-    for (int f = first; f <= last; f += s.jump) frames_.push_back(f);
+    for (std::int64_t f = first; f <= last; f += s.jump) frames_.push_back(static_cast<int>(f));
   }
 
   const RenderArgs& args_;
@@ -182,7 +181,7 @@ bool is_film(const std::string& output) {
 }
 
 void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSender& out, Summary& summary) {
-  const bool has_number = has_frame_number(args.output);
+  const bool has_number = args.frame_place.has_value();
   if (!has_number && !is_film(args.output) && !is_one_frame(args.sequence))
     throw Error(ErrorKind::Usage,
                 args.output +
@@ -230,7 +229,7 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
     out.progress(stage, begin);
     ++done;
     const std::string output = is_numbered ? output_path(args, frame, -1) : args.output;
-    if (is_numbered && args.skip_existing && exists(output)) {
+    if (std::ranges::binary_search(args.sequence.finished, frame)) {
       renderer.begin_sequence();
       continue;
     }
@@ -248,8 +247,8 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
     if (is_numbered) {
       const auto send = [&out, picture = std::make_shared<Rendered>(std::move(picture)), output, frame,
                          compression = args.file] {
-        out.file(frame, -1, encode_picture(*picture, output, compression));
         for (const LayerFile& file : picture->layers) out.file(frame, file.aov, file.bytes);
+        out.file(frame, -1, encode_picture(*picture, output, compression));  // last: --skip-existing looks for it
       };
       // PNG encoding uses all threads itself.
       if (extension_of(output) == ".png")

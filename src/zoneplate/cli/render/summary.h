@@ -18,6 +18,7 @@ struct Summary {
   std::vector<std::pair<std::string, double>> times;
   std::vector<std::string> warnings;
   int frames = 1;
+  std::string output = {};        ///< the written file; of several frames, the name in the arguments
   float exposure = 1;             ///< the factor that was applied, DisplayOptions::exposure
   std::uint64_t peak_memory = 0;  ///< peak resident memory of the process that did the work, in bytes
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/render/input_names.h"
+#include "zoneplate/cli/batch/input_names.h"
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/cli/log.h"
 #include "zoneplate/codec/save.h"
 #include "zoneplate/formats/assimp/assimp.h"
 #include "zoneplate/formats/load.h"
@@ -20,12 +22,26 @@ bool is_model(const std::string& path) {
   return std::ranges::any_of(scene_formats(), has_it) || std::ranges::any_of(assimp_formats(), has_it);
 }
 
+// The models of a folder and of those in it, which links do not belong to. A folder that cannot be read is left out
+// with a warning, unless it is the first.
 std::vector<std::string> models_in(const std::string& folder) {
   std::vector<std::string> found;
-  std::error_code error;
-  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    if (entry->is_regular_file(error) && is_model(entry->path())) found.push_back(entry->path());
-  if (error) throw Error(ErrorKind::Input, folder + ": " + error.message());
+  std::vector<fs::path> folders{folder};
+  while (!folders.empty()) {
+    const fs::path place = std::move(folders.back());
+    folders.pop_back();
+    std::error_code error, ignored;
+    for (fs::directory_iterator entry(place, error), end; !error && entry != end; entry.increment(error)) {
+      if (entry->is_directory(ignored) && !entry->is_symlink(ignored))
+        folders.push_back(entry->path());
+      else if (is_model(entry->path()) && (entry->is_regular_file(ignored) || !entry->exists(ignored)))
+        found.push_back(entry->path());  // also a link that leads nowhere, whose item then fails
+    }
+    if (!error) continue;
+    const std::string cause = place.string() + ": " + error.message();
+    if (place == folder) throw Error(ErrorKind::Input, cause);
+    say_warning(cause + "; its models are left out");
+  }
   if (found.empty()) throw Error(ErrorKind::Input, folder + ": a folder without models (zoneplate list formats)");
   std::ranges::sort(found);
   return found;

@@ -6,7 +6,8 @@
 
 namespace zoneplate::cli {
 
-/// The inputs, with each folder replaced by the models in it and in its folders, sorted by name.
+/// The inputs, with each folder replaced by the models in it and in its folders, sorted by name. Folders in it that
+/// cannot be read are left out with a warning.
 ///
 /// Errors    ErrorKind::Input for a folder without models, or one that cannot be read.
 std::vector<std::string> with_folders_listed(const std::vector<std::string>& inputs);

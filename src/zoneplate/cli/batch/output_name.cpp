@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/render/output_name.h"
+#include "zoneplate/cli/batch/output_name.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,6 @@
 
 #include "zoneplate/base/closest.h"
 #include "zoneplate/base/error.h"
-#include "zoneplate/cli/render/frame_name.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -41,12 +40,23 @@ std::optional<Placeholder> find_placeholder(const std::string& text, std::size_t
 
 std::string model_of(const std::string& input) {
   std::string stem = input == "-" ? "stdin" : std::filesystem::path(input).stem().string();
+  const bool is_dots = stem.find_first_not_of('.') == stem.npos;
   for (char& c : stem)
-    if (c == ':' || c == '/') c = '_';
-  return stem;
+    if (c == ':' || c == '/' || is_dots) c = '_';
+  return stem.empty() ? "_" : stem;
 }
 
-std::string value_of(const Placeholder& place, const std::string& input, std::uint64_t index) {
+// The folder of an input, as a path that does not lead upwards.
+std::string folder_of(const std::string& input) {
+  const std::filesystem::path whole = std::filesystem::path(input).parent_path().lexically_normal();
+  std::filesystem::path out;
+  for (const std::filesystem::path& part : whole.relative_path())
+    if (part != ".." && !part.empty()) out /= part;
+  return out.empty() ? "." : out.string();
+}
+
+// `is_beginning`: the placeholder is the folder at the beginning of the whole name.
+std::string value_of(const Placeholder& place, const std::string& input, std::uint64_t index, bool is_beginning) {
   const std::filesystem::path path(input);
   const bool has_digits = !place.digits.empty() && place.digits.size() <= 2 &&
                           place.digits.find_first_not_of("0123456789") == std::string::npos;
@@ -55,10 +65,8 @@ std::string value_of(const Placeholder& place, const std::string& input, std::ui
   if (place.digits.empty() && place.name == "model") return model_of(input);
   if (place.digits.empty() && place.name == "ext")
     return path.has_extension() ? path.extension().string().substr(1) : std::string();
-  if (place.digits.empty() && place.name == "dir") {
-    const std::string folder = path.parent_path().string();
-    return folder.empty() ? "." : folder;
-  }
+  if (place.digits.empty() && place.name == "dir")
+    return is_beginning && path.has_parent_path() ? path.parent_path().string() : folder_of(input);
   const std::string_view near = closest(place.name, placeholders);
   throw Error(ErrorKind::Usage,
               fmt::format("--output: there is no placeholder {{{}}}; {}", place.name,
@@ -78,31 +86,31 @@ bool names_input(const std::string& output) {
   return false;
 }
 
-std::string output_name(const std::string& output, const std::string& input, std::uint64_t index) {
-  std::string out = output.ends_with('/') ? output + "{model}.png" : output;
-  std::size_t at = 0;
-  while (const std::optional<Placeholder> place = find_placeholder(out, at)) {
-    if (place->name == "frame") {
-      at = place->begin + place->size;
-      continue;
-    }
-    const std::string value = value_of(*place, input, index);
-    out.replace(place->begin, place->size, value);
-    at = place->begin + value.size();
+OutputName output_name(const std::string& output, const std::string& input, std::uint64_t index, bool is_sequence) {
+  const std::string pattern =
+      output.ends_with('/') ? output + (is_sequence ? "{model}.####.png" : "{model}.png") : output;
+  const std::optional<FramePlace> frame = find_frame_place(pattern);
+  OutputName out;
+  const auto copy = [&](std::size_t begin, std::size_t end) {
+    if (frame && frame->begin >= begin && frame->begin < end)
+      out.frame = FramePlace{out.text.size() + frame->begin - begin, frame->size, frame->digits};
+    out.text.append(pattern, begin, end - begin);
+  };
+  std::size_t copied = 0, at = 0;
+  while (const std::optional<Placeholder> place = find_placeholder(pattern, at)) {
+    at = place->begin + place->size;
+    if (place->name == "frame") continue;
+    copy(copied, place->begin);
+    const bool is_beginning = place->begin == 0 && pattern.substr(at, 1) == "/";
+    out.text += value_of(*place, input, index, is_beginning);
+    copied = at;
   }
+  copy(copied, pattern.size());
+  const std::size_t end = out.frame ? out.frame->begin + out.frame->size : out.text.size();
+  if (end < out.text.size() && out.text[end] >= '0' && out.text[end] <= '9')
+    throw Error(ErrorKind::Usage,
+                fmt::format("--output: {}: a digit follows the frame number; put another character between", out.text));
   return out;
-}
-
-void OutputNames::add(const RenderArgs& args, const std::string& name) {
-  std::string key = args.output;
-  const SequenceArgs& s = args.sequence;
-  if (has_frame_number(key))  // jobs may share the frames of one sequence
-    key += fmt::format("\n{} {} {} {}", s.first.value_or(0), s.last.value_or(-1), s.count.value_or(-1), s.jump);
-  const auto [place, is_new] = owner_.emplace(std::move(key), name);
-  if (is_new) return;
-  throw Error(ErrorKind::Usage, fmt::format("{} and {} would both be written to {}: use {{dir}}, {{ext}} or {{index}} "
-                                            "in the output's name",
-                                            place->second, name, args.output));
 }
 
 }  // namespace zoneplate::cli

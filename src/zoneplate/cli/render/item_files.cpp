@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/cli/render/item_files.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <limits>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/cli/batch/whole_file.h"
+#include "zoneplate/cli/render/picture.h"
+#include "zoneplate/os/file.h"
+
+namespace zoneplate::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_whole(const RenderArgs& args, const std::string& path) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return false;
+  try {
+    const FileBytes file(path);
+    if (extension_of(path) != ".rgba") return is_whole_file(extension_of(path), file.bytes());
+    const std::optional<Crop>& crop = args.options.crop;
+    const auto width = static_cast<std::uint64_t>(crop ? crop->width : args.options.width);
+    const auto height = static_cast<std::uint64_t>(crop ? crop->height : args.options.height);
+    return file.bytes().size() == width * height * (args.bit_depth == 16 ? 8 : 4);
+  } catch (const Error&) {  // without permission to read it, for example
+    return false;
+  }
+}
+
+bool are_whole(const RenderArgs& args, int frame) {
+  for (int layer = -1; layer < static_cast<int>(args.aovs.size()); ++layer)
+    if (!is_whole(args, output_path(args, frame, layer))) return false;
+  return true;
+}
+
+// The name of a data pass of frames: its ending follows the frame number.
+std::string with_layer(const RenderArgs& args, const Aov& aov) {
+  const std::size_t end = args.frame_place->begin + args.frame_place->size;
+  return args.output.substr(0, end) + aov_path('0' + args.output.substr(end), aov.name).substr(1);
+}
+
+}  // namespace
+
+void add_files(const RenderArgs& args, std::uint64_t item, OutputFiles& files) {
+  for (const std::string& read : {args.input, args.hdri_file, args.default_material.texture})
+    if (is_picture_ending(extension_of(read))) files.add(read, item, true);
+  if (!args.frame_place) {
+    for (int layer = -1; layer < static_cast<int>(args.aovs.size()); ++layer)
+      files.add(output_path(args, 0, layer), item);
+    return;
+  }
+  const SequenceArgs& s = args.sequence;
+  const std::int64_t first = s.first_frame(), longest = std::int64_t{most_frames - 1} * s.jump;
+  const FrameNumbers frames{first, s.last_frame().value_or(first + longest), s.jump};
+  files.add(args.output, *args.frame_place, frames, item);
+  for (const Aov* aov : args.aovs)
+    if (const std::string name = with_layer(args, *aov); name != args.output)
+      files.add(name, *args.frame_place, frames, item);
+}
+
+bool is_finished(const RenderArgs& args) {
+  return args.skip_existing && !args.frame_place && args.output != "-" && are_whole(args, 0);
+}
+
+std::vector<int> finished_frames(const RenderArgs& args) {
+  std::vector<int> frames;
+  if (!args.skip_existing || !args.frame_place) return frames;
+  // The frame number is in the name of a file, or of a folder of files.
+  const std::string& path = args.output;
+  const std::size_t place = args.frame_place->begin, place_end = place + args.frame_place->size;
+  const std::size_t begin = place == 0 ? 0 : path.rfind('/', place - 1) + 1;
+  const std::string before = path.substr(begin, place - begin);
+  const std::string after = path.substr(place_end, std::min(path.find('/', place_end), path.size()) - place_end);
+  std::error_code error;
+  fs::directory_iterator entry(begin == 0 ? "." : path.substr(0, begin), error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    if (name.size() < before.size() + after.size() || !name.starts_with(before) || !name.ends_with(after)) continue;
+    const auto frame =
+        frame_of(std::string_view(name).substr(before.size(), name.size() - before.size() - after.size()),
+                 args.frame_place->digits);
+    const std::int64_t last = args.sequence.last_frame().value_or(std::numeric_limits<int>::max());
+    if (!frame || *frame < args.sequence.first_frame() || *frame > last) continue;
+    if (are_whole(args, static_cast<int>(*frame))) frames.push_back(static_cast<int>(*frame));
+  }
+  std::ranges::sort(frames);
+  return frames;
+}
+
+}  // namespace zoneplate::cli
