@@ -293,7 +293,7 @@ TEST_F(Cli, ErrorsAreOneLineWithTheDocumentedCode) {
        "triangles: --camera-index: the scene has cameras 0 to 0, not 7"},
       {1,
        {"triangles", "-o", "a.png", "--size", "16384,16384", "--max-memory", "1G"},
-       "triangles: an image of 16384x16384 needs 11264 MB of memory, --max-memory allows 1024 MB"},
+       "triangles: an image of 16384x16384 needs 11 GB of memory, --max-memory allows 1 GB"},
       {2,
        {"list", "method"},
        "'method' is not one of methods, scenes, formats, texture-filters, upscalers; did you mean methods?"},

@@ -19,7 +19,9 @@
 #include <system_error>
 #include <utility>
 
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/size_text.h"
 #include "zoneplate/os/mapped_file_guard.h"
 
 namespace zoneplate {
@@ -77,7 +79,7 @@ std::size_t read_some(int fd, std::uint8_t* out, std::size_t count, const std::s
 }
 
 Error too_large(const std::string& path, std::uint64_t limit) {
-  return read_error(path, "larger than the limit of " + std::to_string(limit) + " bytes");
+  return read_error(path, "larger than the limit of " + size_text(limit));
 }
 
 /// Reads to the end of the file into a buffer whose capacity doubles.
@@ -85,6 +87,7 @@ std::span<const std::uint8_t> read_all(int fd, const std::string& path, std::uin
   std::size_t capacity = std::size_t{1} << 16, size = 0;
   auto buffer = std::make_unique<std::uint8_t[]>(capacity);
   while (true) {
+    check_deadline();
     size += read_some(fd, buffer.get() + size, capacity - size, path);
     if (size > limit) throw too_large(path, limit);
     if (size < capacity) return {buffer.release(), size};

@@ -4,6 +4,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -61,6 +62,14 @@ std::string with_options(const std::string& text, const LimitedChild::Limits& li
   return text + (limits.options.empty() ? "" : " (" + limits.options + ")");
 }
 
+void confine(const Task& task) {
+  try {
+    enter_sandbox(task.limits.readable);
+  } catch (const Error& error) {
+    throw Error(error.kind(), task.place + ": the sandbox of its process cannot be entered: " + error.what());
+  }
+}
+
 [[noreturn]] void be_child(int pipe, pid_t parent, int threads, const Task& task) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);
@@ -71,8 +80,7 @@ std::string with_options(const std::string& text, const LimitedChild::Limits& li
     if (task.open) task.open();
     is_child = true;
     limit_resources(task.limits.memory, task.limits.seconds * threads);
-    if (task.limits.is_sandboxed && !enter_sandbox(task.limits.readable))
-      throw Error(ErrorKind::Failed, task.place + ": the system has no filter for system calls");
+    if (task.limits.is_sandboxed) confine(task);
     with_threads(threads, [&] {
       task.work(answer);
       ::_exit(0);  // _exit ends the other threads faster than they could be joined
@@ -94,8 +102,13 @@ std::string cause_of(int status, const LimitedChild::Limits& limits) {
     case SIGSYS:
       return limits.worker + " made a system call that it has no right to, and was ended";
     case SIGXCPU:
-    case SIGKILL:
-      return with_options(limits.worker + " ran out of time or memory", limits);
+    case SIGKILL: {
+      // The child's own limit of time is infinite or lower than that of this process.
+      rlimit time{};
+      const bool is_limited = ::getrlimit(RLIMIT_CPU, &time) == 0 && time.rlim_cur != RLIM_INFINITY;
+      return with_options(limits.worker + " ran out of time or memory" + (is_limited ? " (ulimit -t is set)" : ""),
+                          limits);
+    }
     default:
       return limits.worker + " crashed (signal " + std::to_string(WTERMSIG(status)) + ")";
   }
@@ -123,10 +136,10 @@ LimitedChild::LimitedChild(std::string place, Limits limits, const std::function
   const auto no = [&](int error) {
     throw Error(ErrorKind::Failed, place_ + ": no process for it: " + std::strerror(error));
   };
+  if (limits_.is_sandboxed) sandbox_lacks();
   int ends[2];
   if (::pipe2(ends, O_CLOEXEC) != 0) no(errno);
   ::fcntl(ends[1], F_SETPIPE_SZ, pipe_bytes);
-  if (limits_.is_sandboxed) prepare_sandbox();
   const pid_t parent = ::getpid();
   const int threads = thread_limit();
   id_ = ::fork();

@@ -9,6 +9,8 @@
 #include <charconv>
 #include <fstream>
 
+#include "zoneplate/base/size_text.h"
+
 namespace zoneplate {
 namespace {
 
@@ -39,6 +41,18 @@ void limit_memory(std::uint64_t bytes) {
   const rlim_t requested = pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + bytes;
   limit.rlim_cur = std::min(requested, limit.rlim_max);
   ::setrlimit(RLIMIT_DATA, &limit);
+}
+
+std::string memory_limit_text(std::uint64_t bytes, const char* option) {
+  std::uint64_t least = bytes;
+  const char* name = option;
+  const auto lower = [&](std::uint64_t limit, const char* of) {
+    if (limit < least) least = limit, name = of;
+  };
+  rlimit space{}, data{};
+  if (::getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY) lower(space.rlim_cur, "ulimit -v");
+  if (::getrlimit(RLIMIT_DATA, &data) == 0 && data.rlim_max != RLIM_INFINITY) lower(data.rlim_max, "ulimit -d");
+  return size_text(least) + " (" + name + ")";
 }
 
 std::uint64_t machine_memory() {

@@ -15,9 +15,12 @@
 
 #include <cerrno>
 #include <cmath>
+#include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
+#include "zoneplate/base/error.h"
 #include "zoneplate/os/memory_limit.h"
 
 namespace zoneplate {
@@ -105,20 +108,21 @@ class Filter {
   Filter(const Filter&) = delete;
   Filter& operator=(const Filter&) = delete;
 
-  /// The kernel's form of the filter, in which `any_process` stands for the process that it is installed in; empty if
-  /// it cannot be made.
+  /// The kernel's form of the filter, in which `any_process` stands for the process that it is installed in.
+  ///
+  /// Errors    std::system_error if it cannot be made.
   std::vector<sock_filter> program() const {
-    std::vector<sock_filter> program;
+    const auto fail = [](int error) { throw std::system_error(error, std::system_category()); };
+    if (!is_complete_) fail(ENOMEM);
     int ends[2];
-    if (!is_complete_ || ::pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) return program;
+    if (::pipe2(ends, O_CLOEXEC | O_NONBLOCK) != 0) fail(errno);
     // A pipe takes 64 KB, and the kernel no program that is longer.
-    if (::seccomp_export_bpf(filter_, ends[1]) == 0) {
-      std::vector<sock_filter> all(BPF_MAXINSNS);
-      const ssize_t size = ::read(ends[0], all.data(), all.size() * sizeof(sock_filter));
-      all.resize(size > 0 ? static_cast<std::size_t>(size) / sizeof(sock_filter) : 0);
-      program = std::move(all);
-    }
+    std::vector<sock_filter> program(BPF_MAXINSNS);
+    const int error = ::seccomp_export_bpf(filter_, ends[1]);
+    const ssize_t size = ::read(ends[0], program.data(), program.size() * sizeof(sock_filter));
     ::close(ends[0]), ::close(ends[1]);
+    if (error != 0 || size <= 0) fail(error != 0 ? -error : EIO);
+    program.resize(static_cast<std::size_t>(size) / sizeof(sock_filter));
     return program;
   }
 
@@ -140,33 +144,44 @@ const std::vector<sock_filter>& filter_program() {
   return program;
 }
 
-bool install_filter() {
-  std::vector<sock_filter> program = filter_program();
-  bool has_process = false;
+std::string refusal_of(int error) { return std::system_category().message(error); }
+
+/// Installs the filter on this thread; the cause if that fails.
+std::string install_filter() {
+  // Without a program, the call fails because of its address where it is permitted.
+  const auto install = [](const sock_fprog* program) {
+    return ::syscall(SYS_seccomp, SECCOMP_SET_MODE_FILTER, 0, program) == 0 ? 0 : errno;
+  };
+  if (const int error = install(nullptr); error != EFAULT) return refusal_of(error);
+  std::vector<sock_filter> program;
+  try {
+    program = filter_program();
+  } catch (const std::system_error& error) {
+    return error.code().message();
+  }
   for (sock_filter& instruction : program)
-    if (BPF_CLASS(instruction.code) == BPF_JMP && instruction.k == Filter::any_process) {
+    if (BPF_CLASS(instruction.code) == BPF_JMP && instruction.k == Filter::any_process)
       instruction.k = static_cast<std::uint32_t>(::getpid());
-      has_process = true;
-    }
-  if (!has_process) return false;
   const sock_fprog whole{static_cast<unsigned short>(program.size()), program.data()};
-  return ::syscall(SYS_seccomp, SECCOMP_SET_MODE_FILTER, 0, &whole) == 0;
+  const int error = install(&whole);
+  return error == 0 ? "" : refusal_of(error);
 }
 
 /// The file-system rights that the first version of Landlock supports.
 constexpr std::uint64_t first_rights = (std::uint64_t{1} << 13) - 1;
 
-long landlock_version() { return ::syscall(SYS_landlock_create_ruleset, nullptr, 0, LANDLOCK_CREATE_RULESET_VERSION); }
-
-/// Confines this process to reading these files and folders. A path that does not exist is ignored.
-void limit_files(const std::vector<std::string>& readable) {
+/// Confines this thread to reading these files and folders; the cause if that fails. A path that does not exist is
+/// ignored.
+std::string limit_files(const std::vector<std::string>& readable) {
   constexpr std::uint64_t reading = LANDLOCK_ACCESS_FS_READ_FILE | LANDLOCK_ACCESS_FS_READ_DIR;
   landlock_ruleset_attr all{};
   all.handled_access_fs = first_rights;
   const int rules = static_cast<int>(::syscall(SYS_landlock_create_ruleset, &all, sizeof all.handled_access_fs, 0));
-  if (rules < 0) return;
+  if (rules < 0) return refusal_of(errno);
+  int error = 0;
   for (const std::string& path : readable) {
     const int file = ::open(path.c_str(), O_PATH | O_CLOEXEC);
+    if (file < 0 && (errno == EMFILE || errno == ENFILE)) error = errno;
     if (file < 0) continue;
     landlock_path_beneath_attr rule{.allowed_access = reading, .parent_fd = file};
     if (::syscall(SYS_landlock_add_rule, rules, LANDLOCK_RULE_PATH_BENEATH, &rule, 0) != 0) {
@@ -175,22 +190,46 @@ void limit_files(const std::vector<std::string>& readable) {
     }
     ::close(file);
   }
-  ::syscall(SYS_landlock_restrict_self, rules, 0);
+  if (error == 0 && ::syscall(SYS_landlock_restrict_self, rules, 0) != 0) error = errno;
   ::close(rules);
+  return error == 0 ? "" : refusal_of(error);
+}
+
+/// Enters the sandbox on a new thread, as a process that this one forks would on its only one: a thread's restrictions
+/// end with it.
+SandboxLacks try_sandbox() {
+  SandboxLacks lacks;
+  // The process that this one forks holds so many files more: the ends of its pipe, and the model.
+  const int more[] = {::open("/", O_PATH | O_CLOEXEC), ::open("/", O_PATH | O_CLOEXEC)};
+  try {
+    std::thread([&] {
+      if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) lacks.filter = lacks.files = refusal_of(errno);
+      if (lacks.files.empty()) lacks.files = limit_files({"/"});
+      if (lacks.filter.empty()) lacks.filter = install_filter();
+    }).join();
+  } catch (const std::system_error& error) {
+    lacks.filter = lacks.files = error.code().message();
+  }
+  for (const int file : more)
+    if (file >= 0) ::close(file);
+  return lacks;
 }
 
 }  // namespace
 
-SandboxSupport sandbox_support() {
-  return {.filters_calls = ::prctl(PR_GET_SECCOMP, 0, 0, 0, 0) >= 0, .limits_files = landlock_version() >= 1};
+const SandboxLacks& sandbox_lacks() {
+  static const SandboxLacks lacks = try_sandbox();
+  return lacks;
 }
 
-void prepare_sandbox() { filter_program(); }
-
-bool enter_sandbox(const std::optional<std::vector<std::string>>& readable) {
-  if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return false;
-  if (readable && landlock_version() >= 1) limit_files(*readable);
-  return install_filter();
+void enter_sandbox(const std::optional<std::vector<std::string>>& readable) {
+  const SandboxLacks& lacks = sandbox_lacks();
+  const auto check = [](const char* part, const std::string& cause) {
+    if (!cause.empty()) throw Error(ErrorKind::Failed, std::string(part) + " is refused: " + cause);
+  };
+  if (::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0 && lacks.filter.empty()) check("the sandbox", refusal_of(errno));
+  if (readable && lacks.files.empty()) check("Landlock", limit_files(*readable));
+  if (lacks.filter.empty()) check("seccomp", install_filter());
 }
 
 void limit_resources(std::uint64_t bytes, double seconds) {

@@ -8,16 +8,16 @@
 
 namespace zoneplate {
 
-/// The kernel's features for confining a process.
-struct SandboxSupport {
-  bool filters_calls = false;  ///< seccomp, Linux 3.5
-  bool limits_files = false;   ///< Landlock, Linux 5.13
+/// What confining a process lacks here, in a container, or with the limits of this process: the causes, which are empty
+/// for a complete sandbox.
+struct SandboxLacks {
+  std::string filter;  ///< for system calls: seccomp, Linux 3.5
+  std::string files;   ///< the confinement to files: Landlock, Linux 5.13
 };
-SandboxSupport sandbox_support();
 
-/// Makes the filter for system calls that enter_sandbox installs, so that processes which this one forks need not make
-/// it again. Optional.
-void prepare_sandbox();
+/// Tries the sandbox, on a thread that ends afterwards, at the first call; it also makes the filter for system calls,
+/// so that processes which this one forks need not make it again.
+const SandboxLacks& sandbox_lacks();
 
 /// Permanently drops all rights of this process that reading and rendering a model does not need.
 ///
@@ -26,11 +26,11 @@ void prepare_sandbox();
 /// writing, to connect, to execute a program, to trace another process, to generate code at run time) ends the process
 /// with SIGSYS; opening a file that is not in `readable` fails with EACCES.
 ///
-/// Without Landlock in the kernel, every file stays readable.
+/// What sandbox_lacks() names is left out: without Landlock, every file stays readable.
 /// Requires  only one thread.
-/// Errors    false if the kernel has no seccomp filters.
+/// Errors    ErrorKind::Failed with the cause if a part is refused that was accepted before.
 /// Source    seccomp(2) by libseccomp; landlock(7).
-bool enter_sandbox(const std::optional<std::vector<std::string>>& readable);
+void enter_sandbox(const std::optional<std::vector<std::string>>& readable);
 
 /// Limits this process to `bytes` more of memory (os/memory_limit.h) and `seconds` of processor time, and prevents it
 /// from extending files and from dumping core. `seconds` may be infinite.

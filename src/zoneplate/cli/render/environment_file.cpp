@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <new>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "zoneplate/os/cache_folder.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/mapped_file_guard.h"
+#include "zoneplate/os/memory_limit.h"
 #include "zoneplate/shade/environment/equirectangular.h"
 #include "zoneplate/shade/environment/prepared_environment.h"
 #include "zoneplate/shade/environment/studio.h"
@@ -133,14 +135,26 @@ struct EnvironmentSource {
   }
 };
 
+/// Calls `read` within the limit of time. Errors about limits name the image, not the model that it lights.
+void read_environment(const RenderArgs& args, const std::function<void()>& read) {
+  try {
+    within_import_time("--hdri-file " + args.hdri_file, args.load.limits, read);
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorKind::Input,
+                fmt::format("--hdri-file {}: reading it needs more memory than the limit of {}", args.hdri_file,
+                            memory_limit_text(args.load.limits.memory, "--max-memory")));
+  }
+}
+
 }  // namespace
 
 Map Environments::load(const RenderArgs& args, const Store& store, const Progress& progress) const {
   const MappedFileWatch watch;
-  const EnvironmentSource source(args);
-  const Map map = find_or_make(args.cache, source.key(args), store, [&] {
+  std::optional<EnvironmentSource> source;
+  read_environment(args, [&] { source.emplace(args); });
+  const Map map = find_or_make(args.cache, source->key(args), store, [&] {
     CubeImage cube;
-    within_import_time(args.hdri_file, args.load.limits, [&] { cube = source.cube(args); });
+    read_environment(args, [&] { cube = source->cube(args); });
     return PreparedEnvironment(cube, progress);
   });
   watch.check(args.hdri_file);

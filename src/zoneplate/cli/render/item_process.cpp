@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
 #include <utility>
 
 #include "zoneplate/base/deadline.h"
@@ -10,6 +11,7 @@
 #include "zoneplate/base/out_of_memory.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/os/library.h"
+#include "zoneplate/os/memory_limit.h"
 #include "zoneplate/os/sandbox.h"
 
 namespace zoneplate::cli {
@@ -19,8 +21,6 @@ namespace {
 /// Seconds after the time limit at which a process that has not ended is killed.
 constexpr double grace = 0.5;
 
-std::string megabytes(std::uint64_t bytes) { return fmt::format("{:.6g} MB", static_cast<double>(bytes) / (1 << 20)); }
-
 std::string late_reading(const std::string& name, const LoadLimits& limits) {
   return fmt::format("{}: takes longer to load than the limit of {:.6g} s (--max-import-seconds)", name,
                      limits.seconds);
@@ -28,12 +28,14 @@ std::string late_reading(const std::string& name, const LoadLimits& limits) {
 std::string late_item(const ItemLimits& limits) {
   return fmt::format("{}: takes longer than the limit of {:.6g} s (--max-seconds)", limits.name, limits.seconds);
 }
-std::string out_of_memory(const ItemLimits& limits, const std::bad_alloc& error, bool has_read) {
+/// `limit` is memory_limit_text of the limits.
+std::string out_of_memory(const ItemLimits& limits, const std::string& limit, const std::bad_alloc& error,
+                          bool has_read) {
   const auto* named = dynamic_cast<const OutOfMemory*>(&error);
   return fmt::format(
-      "{}: {} more memory than the limit of {} (--max-memory)", limits.name,
+      "{}: {} more memory than the limit of {}", limits.name,
       named ? std::string(named->what()) + " need" : std::string(has_read ? "drawing it" : "reading it") + " needs",
-      megabytes(limits.load.memory));
+      limit);
 }
 
 }  // namespace
@@ -54,6 +56,7 @@ void ItemProcess::start(std::size_t first) {
   limits.memory = limits_.load.memory;
   limits.seconds = std::numeric_limits<double>::infinity();  // the parent measures the elapsed time instead
   limits.options = "--max-memory, --max-seconds";
+  memory_limit_ = memory_limit_text(limits_.load.memory, "--max-memory");
   limits.check_time = [this] { check_time(); };
   limits.is_sandboxed = limits_.is_sandboxed;
   limits.readable = limits_.readable;
@@ -90,7 +93,7 @@ void ItemProcess::work_on(std::size_t first, ChildAnswer& answer) {
       sender.failure(error.kind(), is_named ? message : limits_.name + ": " + message);
     } catch (const std::bad_alloc& error) {
       sender.failure(sender.is_past_reading() ? ErrorKind::Failed : ErrorKind::Input,
-                     out_of_memory(limits_, error, sender.is_past_reading()));
+                     out_of_memory(limits_, memory_limit_, error, sender.is_past_reading()));
     } catch (const std::exception& error) {
       sender.failure(ErrorKind::Failed, limits_.name + ": " + error.what());
     }
@@ -142,12 +145,17 @@ void within_import_time(const std::string& name, const LoadLimits& limits, const
 
 bool uses_sandbox(bool is_requested) {
   if (!is_requested) return false;
-  static const bool is_there = [] {
-    const bool filters = sandbox_support().filters_calls;
-    if (!filters) say_warning("this system has no seccomp filters: models are read with all rights of the user");
-    return filters;
-  }();
-  return is_there;
+  static std::atomic<bool> has_warned = false;
+  const SandboxLacks& lacks = sandbox_lacks();
+  if ((lacks.filter.empty() && lacks.files.empty()) || has_warned.exchange(true)) return true;
+  // The parts that are there still apply.
+  say_warning(fmt::format(
+      "the sandbox is incomplete: {}{}{}; a hostile model could {} with your rights (--no-sandbox omits this warning)",
+      lacks.filter.empty() ? "" : "no filter of system calls (seccomp: " + lacks.filter + ")",
+      lacks.filter.empty() || lacks.files.empty() ? "" : ", ",
+      lacks.files.empty() ? "" : "no confinement to the model's files (Landlock: " + lacks.files + ")",
+      lacks.filter.empty() ? "read files" : "act"));
+  return true;
 }
 
 }  // namespace zoneplate::cli

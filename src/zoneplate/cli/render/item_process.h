@@ -63,6 +63,7 @@ class ItemProcess {
   ItemLimits limits_;
   std::size_t jobs_;
   Work work_;
+  std::string memory_limit_;  ///< for messages
   std::size_t next_ = 0;
   std::unique_ptr<LimitedChild> child_;
   Stopwatch watch_, reading_;
@@ -74,8 +75,7 @@ class ItemProcess {
 /// Errors    ErrorKind::Input naming the model and the option if the time is exceeded; exceptions of `read`.
 void within_import_time(const std::string& name, const LoadLimits& limits, const std::function<void()>& read);
 
-/// Warns, once per process, if files are read without a sandbox because the kernel does not support it; returns whether
-/// items are sandboxed.
+/// Whether items are sandboxed. Warns, once per process, if they are and a part of the sandbox is missing here.
 bool uses_sandbox(bool is_requested);
 
 }  // namespace zoneplate::cli

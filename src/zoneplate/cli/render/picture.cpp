@@ -12,6 +12,7 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/base/size_text.h"
 #include "zoneplate/cli/batch/frame_name.h"
 #include "zoneplate/cli/look/solid_texture.h"
 #include "zoneplate/cli/render/exr_header.h"
@@ -92,8 +93,9 @@ void check_memory(const RenderArgs& args, const Request& request) {
   const auto height = static_cast<std::uint64_t>(crop ? crop->height : args.options.height);
   const std::uint64_t need = width * height * bytes_per_pixel;
   if (need > args.load.limits.memory)
-    throw Error(ErrorKind::Failed, fmt::format("{}: an image of {}x{} needs {} MB of memory, --max-memory allows {} MB",
-                                               args.input, width, height, need >> 20, args.load.limits.memory >> 20));
+    throw Error(ErrorKind::Failed,
+                fmt::format("{}: an image of {}x{} needs {} of memory, --max-memory allows {}", args.input, width,
+                            height, size_text(need), size_text(args.load.limits.memory)));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/size_text.h"
 #include "zoneplate/formats/import/load_options.h"
 #include "zoneplate/scene/scene.h"
 
@@ -28,7 +29,7 @@ class ImportBudget {
     is_spent_ = is_spent_ || bytes > left_;
     if (is_spent_)
       throw Error(ErrorKind::Input,
-                  file_ + ": needs more than the limit of " + std::to_string(limits_.memory) + " bytes (--max-memory)");
+                  file_ + ": needs more than the limit of " + size_text(limits_.memory) + " (--max-memory)");
     left_ -= bytes;
   }
   /// Returns bytes that were taken and freed.
@@ -43,7 +44,8 @@ class ImportBudget {
     check_deadline();
     if (!has_time())
       throw Error(ErrorKind::Input, file_ + ": takes longer to load than the limit of " +
-                                        std::to_string(static_cast<std::int64_t>(limits_.seconds * 1000)) + " ms");
+                                        std::to_string(static_cast<std::int64_t>(limits_.seconds * 1000)) +
+                                        " ms (--max-import-seconds)");
   }
 
  private:

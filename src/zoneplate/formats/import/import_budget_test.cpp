@@ -88,7 +88,7 @@ std::string hurried(const Load& load, const std::string& text) {
 }
 
 TEST(ImportBudget, TimeRunsOutBetweenTheFacesOfABlock) {
-  const std::string late = ": takes longer to load than the limit of 100 ms";
+  const std::string late = ": takes longer to load than the limit of 100 ms (--max-import-seconds)";
   EXPECT_EQ(hurried(load_obj, obj_of_knots()), late);
   EXPECT_EQ(hurried(load_ply, ply_of_knots()), late);
   EXPECT_EQ(hurried(load_stl, stl_of_knots()), late);

@@ -85,7 +85,8 @@ int ModelFolder::add(Make make) {
     // Exceeding the memory budget or the deadline is an error nevertheless.
     budget_.take(0);
     budget_.check_time();
-    if (budget_.limits().is_strict) throw;
+    if (budget_.limits().is_strict)
+      throw Error(error.kind(), fmt::format("{}: texture {}", budget_.file(), error.what()));
     warn(fmt::format("{}: texture {}", budget_.file(), error.what()));
     return -1;
   }

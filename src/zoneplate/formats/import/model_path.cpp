@@ -2,6 +2,7 @@
 #include "zoneplate/formats/import/model_path.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -50,6 +51,30 @@ bool is_allowed(std::span<const std::string> allowed, const std::filesystem::pat
     const std::filesystem::path known = std::filesystem::weakly_canonical(path, trouble);
     return !trouble && (known == file || is_within(known, file));
   });
+}
+
+struct Descriptor {
+  int number;
+  ~Descriptor() {
+    if (number >= 0) ::close(number);
+  }
+};
+
+/// Opens the folder that contains a file, from the root on, without following any link: after `path` has been checked,
+/// no part of it can be replaced by a link that leads elsewhere. (A name in /proc would identify an open file too, but
+/// not every system has /proc, and inside the sandbox there is no openat2.)
+///
+/// Requires  `path` is canonical.
+Descriptor open_parent(const std::filesystem::path& path) {
+  constexpr int flags = O_PATH | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC;
+  int folder = ::open("/", flags);
+  for (const std::filesystem::path& part : path.parent_path().relative_path()) {
+    const int next = folder < 0 ? -1 : ::openat(folder, part.c_str(), flags);
+    const int error = errno;
+    if (folder >= 0) ::close(folder);
+    folder = next, errno = error;
+  }
+  return {folder};
 }
 
 }  // namespace
@@ -116,27 +141,22 @@ FileBytes open_found(const std::string& folder, const std::string& path, std::sp
                      std::uint64_t limit) {
   namespace fs = std::filesystem;
   const auto fail = [&](const std::string& cause) -> Error { return {ErrorKind::Input, path + ": " + cause}; };
-  // An open descriptor identifies the file even if the path changes; opening with O_PATH neither reads nor blocks.
-  struct Held {
-    int number;
-    ~Held() {
-      if (number >= 0) ::close(number);
-    }
-  } const held{::open(path.c_str(), O_PATH | O_CLOEXEC)};
-  if (held.number < 0) throw fail(std::string("cannot be read: ") + std::strerror(errno));
-  const std::string name = "/proc/self/fd/" + std::to_string(held.number);
-  if (is_stream(name)) throw fail("is not a regular file");
   std::error_code trouble;
+  const fs::path opened = fs::canonical(path, trouble);
+  if (trouble) throw fail("cannot be read: " + trouble.message());
   const fs::path inside = fs::canonical(folder.empty() ? "." : folder, trouble);
-  const fs::path opened = trouble ? fs::path() : fs::read_symlink(name, trouble);
   if (trouble || !(is_within(inside, opened) || is_allowed(allowed, opened)))
     throw fail("leads out of the model's folder");
-  try {
-    return FileBytes(name, limit);
-  } catch (const Error& error) {
-    const std::string text = error.what();
-    throw Error(error.kind(), text.starts_with(name) ? path + text.substr(name.size()) : text);
-  }
+  const Descriptor parent = open_parent(opened);
+  const std::string name = opened.filename();
+  struct stat status {};
+  if (parent.number < 0 || ::fstatat(parent.number, name.c_str(), &status, AT_SYMLINK_NOFOLLOW) != 0)
+    throw fail(std::string("cannot be read: ") + std::strerror(errno));
+  if (S_ISLNK(status.st_mode)) throw fail("leads out of the model's folder");
+  if (!S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) throw fail("is not a regular file");
+  // If it has been replaced by a pipe since, opening it does not block; reading it would end at once.
+  const Descriptor file{::openat(parent.number, name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
+  return FileBytes(file.number, path, limit);
 }
 
 bool is_stream(const std::string& path) {

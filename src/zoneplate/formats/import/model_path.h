@@ -27,8 +27,8 @@ bool has_scheme(std::string_view uri);
 std::optional<std::string> find_path(const std::string& folder, std::string_view uri,
                                      std::span<const std::string> allowed);
 
-/// Opens a file that find_path found. The open file itself is checked again to be within the folder or `allowed`,
-/// because the path may have changed in the meantime.
+/// Opens a file that find_path found. It is checked again to be within the folder or `allowed`, because the path may
+/// have changed in the meantime, and opened without following links, because it may change again.
 ///
 /// Errors    ErrorKind::Input naming the path: it now leads out of the folder, is not a regular file, cannot be read.
 FileBytes open_found(const std::string& folder, const std::string& path, std::span<const std::string> allowed,

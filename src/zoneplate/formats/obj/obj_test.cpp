@@ -315,7 +315,7 @@ TEST_F(ObjModel, WarnsOfWhatItPassesOver) {
 TEST_F(ObjModel, KeepsWithinItsLimits) {
   std::string text = square;
   for (int i = 0; i < 2000; ++i) text += "f 1 2 3\n";
-  EXPECT_EQ(refusal(text, {.memory = 30000}), "model.obj: needs more than the limit of 30000 bytes (--max-memory)");
+  EXPECT_EQ(refusal(text, {.memory = 30000}), "model.obj: needs more than the limit of 29.3 kB (--max-memory)");
   EXPECT_EQ(refusal(text, {.memory = 100}).substr(0, 29), "model.obj: cannot be read: la");
   EXPECT_EQ(refusal(text, {.memory = 1 << 20}), "loaded");
 }

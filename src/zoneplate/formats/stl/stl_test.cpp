@@ -164,7 +164,7 @@ TEST(Stl, SolidsCountAsMemory) {
   text.clear();
   for (int i = 0; i < 40000; ++i) text += "solid facet outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0\n";
   for (std::size_t at = 0; (at = text.find("solid facet", at)) != text.npos;) text[at + 5] = '\n';
-  EXPECT_EQ(refusal(text), "needs more than the limit of 16777216 bytes (--max-memory)");
+  EXPECT_EQ(refusal(text), "needs more than the limit of 16 MB (--max-memory)");
 }
 
 }  // namespace
