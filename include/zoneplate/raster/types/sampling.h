@@ -13,11 +13,12 @@ enum class AlphaTest {
 };
 
 /// Where in a pixel a surface is shaded that owns a part of its samples. A surface that owns all of them is shaded at
-/// the pixel's centre.
+/// the pixel's centre, unless the rule says otherwise.
 enum class Centroid {
-  Mean,    ///< at the mean of the samples that it owns
-  First,   ///< at the first of them
-  Centre,  ///< at the pixel's centre, even if it lies outside the triangle: the weights are clamped
+  Mean,       ///< at the mean of the samples that it owns
+  First,      ///< at the first of them
+  Centre,     ///< at the pixel's centre, even if it lies outside the triangle: the weights are clamped
+  MeanOfAll,  ///< as Mean, also where it owns all samples: for patterns whose mean is not the pixel's centre
 };
 
 /// How often lights and materials are evaluated.

@@ -3,7 +3,8 @@
 //
 // The four samples of the rotated grid moved to the pixel's sides, with the pattern mirrored from pixel to pixel so
 // that neighbours share samples. Five levels of coverage near the axes at the cost of two samples; softer than four
-// samples inside the pixel.
+// samples inside the pixel. A surface is shaded once for a pixel's samples on the upper and the left side, at their
+// mean, so that with those of its neighbours textures stay where they are.
 //
 // Source: Akenine-Möller, An Extremely Inexpensive Multisampling Scheme, Chalmers 2003 (after his FLIPQUAD of 2002);
 // the positions on the sides are those of the rotated grid, 3/8 and 5/8. The renderer uses one pattern for all pixels:
@@ -24,6 +25,7 @@ class FlipQuad : public Resolver {
                     .weights = {},
                     .planes = {},
                     .pixel_mask = {}};
+    request.centroid = Centroid::MeanOfAll;
     request.planes.sample_colors = true;
     request.halo = 1;
     return request;

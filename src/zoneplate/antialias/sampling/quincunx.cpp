@@ -2,7 +2,9 @@
 // Quincunx: two samples per pixel, its centre and a corner; corner samples are shared by four pixels.
 //
 // Five samples at the cost of two, with a blur over three by three half-pixels: edges are smooth but textures soft,
-// which is why hardware abandoned it.
+// which is why hardware abandoned it. A surface is shaded once for both samples of a pixel, at their mean, a quarter of
+// a pixel from the centre: the corners that a pixel takes from its neighbours lie as far on the other side, so that
+// textures stay where they are. (Shading at the centre would move them by a quarter of a pixel.)
 //
 // Source: NVIDIA, HRAA: High-Resolution Antialiasing through Multisampling, 2001: the centre has weight ½, each corner
 // ⅛.
@@ -17,6 +19,7 @@ class Quincunx : public Resolver {
   Request request(const FrameContext&) override {
     Request request{
         .samples = {{128, 128}, {0, 0}}, .rate = Rate::Surface, .weights = {}, .planes = {}, .pixel_mask = {}};
+    request.centroid = Centroid::MeanOfAll;
     request.planes.sample_colors = true;
     request.halo = 1;
     return request;

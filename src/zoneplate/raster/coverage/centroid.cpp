@@ -6,10 +6,14 @@
 namespace zoneplate {
 
 CentroidTable::CentroidTable(const SamplePattern& samples, Centroid rule) {
+  const bool is_mean = rule == Centroid::Mean || rule == Centroid::MeanOfAll;
+  int x = 0, y = 0;
   for (const SamplePosition s : samples) {
     first.push_back(summand(rule == Centroid::Centre ? SamplePosition{} : s));
-    more.push_back(rule == Centroid::Mean ? summand(s) : 0);
+    more.push_back(is_mean ? summand(s) : 0);
+    x += s.x, y += s.y;
   }
+  if (rule == Centroid::MeanOfAll) whole = mean_position(x, y, static_cast<int>(samples.size()));
 }
 
 SamplePosition CentroidTable::of(std::uint64_t samples, int begin) const {

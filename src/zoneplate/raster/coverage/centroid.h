@@ -23,8 +23,9 @@ constexpr SamplePosition mean_position(std::int32_t sum) {
   return mean_position(sum & 4095, sum >> 12 & 4095, sum >> 24);
 }
 
-/// Where surfaces are shaded that own a part of a pixel's samples, for one rule and one sample pattern: at the mean of
-/// the summands `first` of the first sample and `more` of the other samples. `more` is 0 where the rule ignores them.
+/// Where surfaces are shaded, for one rule and one sample pattern: at `whole` if they own all of a pixel's samples,
+/// else at the mean of the summands `first` of the first sample and `more` of the other samples. `more` is 0 where the
+/// rule ignores them.
 ///
 /// Exact     the mean of samples that a triangle covers lies on the triangle, up to the rounding to 1/256 pixel. Where
 ///           triangles share a pixel of a pattern whose mean is the centre, so is the mean of their positions, weighted
@@ -36,8 +37,9 @@ constexpr SamplePosition mean_position(std::int32_t sum) {
 ///           Computation with Direct3D 11, 2011), or the first of them.
 struct CentroidTable {
   std::vector<std::int32_t> first, more;
+  SamplePosition whole;
   CentroidTable(const SamplePattern& samples, Centroid rule);
-  /// The position for a set of samples; bit 0 is sample `begin`.
+  /// The position for a set of samples that is not all of them; bit 0 is sample `begin`.
   SamplePosition of(std::uint64_t samples, int begin) const;
 };
 

@@ -18,6 +18,10 @@ TEST(Centroid, RulesAreWhatTheySay) {
   EXPECT_EQ(mean.of(0b11, 2), (SamplePosition{96, 192}));
   EXPECT_EQ(first.of(0b1110, 0), four[1]);
   EXPECT_EQ(centre.of(0b1000, 0), SamplePosition{});
+  const CentroidTable of_all({{128, 128}, {0, 0}}, Centroid::MeanOfAll);
+  EXPECT_EQ(of_all.of(0b10, 0), (SamplePosition{0, 0}));
+  EXPECT_EQ(of_all.whole, (SamplePosition{64, 64}));
+  for (const CentroidTable* table : {&mean, &first, &centre}) EXPECT_EQ(table->whole, SamplePosition{});
 }
 
 TEST(Centroid, SumsOfSixteenPlacesDoNotRunIntoEachOther) {

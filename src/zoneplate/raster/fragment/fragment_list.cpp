@@ -9,7 +9,7 @@ namespace zoneplate::scalar {
 namespace {
 
 SamplePosition position_of(const OwnerRow& row, std::uint32_t samples) {
-  if (samples == (1u << row.sample_count) - 1 && !row.is_per_sample) return {};
+  if (samples == (1u << row.sample_count) - 1 && !row.is_per_sample) return row.whole;
   std::int32_t sum = row.first_summand[std::countr_zero(samples)];
   for (std::uint32_t left = samples & (samples - 1); left; left &= left - 1)
     sum += row.more_summands[std::countr_zero(left)];

@@ -32,6 +32,7 @@ struct OwnerRow {
   const std::int32_t* id;  ///< of the first pixel's sample 0; the other samples' planes follow sample_stride on
   int sample_count;        ///< at most FragmentList::max_samples
   const std::int32_t *first_summand, *more_summands;  ///< by sample; see CentroidTable
+  SamplePosition whole;                               ///< the same
   std::uint32_t pixel;                                ///< the first, within the tile
   std::int32_t x, y;                                  ///< top-left corner of the first pixel, 1/256 pixel
   std::uint32_t drawn;                                ///< a bit for each pixel that is drawn
@@ -39,8 +40,8 @@ struct OwnerRow {
 };
 
 struct FragmentListKernels : PerIsa<FragmentListKernels> {
-  /// Appends one fragment for each triangle that owns samples of a pixel: at the pixel's centre if it owns all of them,
-  /// otherwise at the position of CentroidTable. Requires: capacity for span_capacity more fragments.
+  /// Appends one fragment for each triangle that owns samples of a pixel, at the position of CentroidTable. Requires:
+  /// capacity for span_capacity more fragments.
   void (*list)(const OwnerRow& row, FragmentList& out);
   /// For each i in order: sum of the pixel of at[i] += color[i] × weight[i]; four floats a pixel.
   void (*add)(const FragmentOutputs& color, const std::uint32_t* at, const float* weight, int count, float* sum);

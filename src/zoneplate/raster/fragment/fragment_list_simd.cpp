@@ -79,6 +79,7 @@ class Pixels {
         is_per_sample_(row.is_per_sample),
         first_summand_(row.first_summand),
         more_summands_(row.more_summands),
+        whole_(row.whole),
         x_(hn::Add(set(row.x + first * 256), hn::ShiftLeft<8>(hn::Iota(i32, 0)))),
         y_(set(row.y)),
         at_(hn::Add(set(static_cast<std::int32_t>(row.pixel) + first), hn::Iota(i32, 0))),
@@ -107,14 +108,13 @@ class Pixels {
 
   /// Appends the fragments of the mask.
   HWY_INLINE void add(MI mask, VI owner, const Owned& owned, FragmentList& out) const {
-    const VI centre = set(128);
     const VF n = hn::ConvertTo(f32, hn::ShiftRight<24>(owned.summands)), inverse = hn::Div(hn::Set(f32, 1), n);
     const VF half = hn::Add(hn::Mul(n, hn::Set(f32, 0.5f)), hn::Set(f32, 1 / 64.0f));
     const VI all = set((1 << samples_) - 1), low = set(4095);
-    const MI is_centre = is_per_sample_ ? hn::Ne(all, all) : hn::Eq(owned.samples, all);
-    const VI x = hn::IfThenElse(is_centre, centre, mean(hn::And(owned.summands, low), half, inverse));
+    const MI is_whole = is_per_sample_ ? hn::Ne(all, all) : hn::Eq(owned.samples, all);
+    const VI x = hn::IfThenElse(is_whole, set(whole_.x), mean(hn::And(owned.summands, low), half, inverse));
     const VI y =
-        hn::IfThenElse(is_centre, centre, mean(hn::And(hn::ShiftRight<12>(owned.summands), low), half, inverse));
+        hn::IfThenElse(is_whole, set(whole_.y), mean(hn::And(hn::ShiftRight<12>(owned.summands), low), half, inverse));
     HWY_NAMESPACE::add(mask, hn::Add(x_, x), hn::Add(y_, y), owner, hn::Add(at_, hn::ShiftLeft<12>(owned.samples)),
                        out);
   }
@@ -123,24 +123,25 @@ class Pixels {
   int samples_;
   bool is_per_sample_;
   const std::int32_t *first_summand_, *more_summands_;
+  SamplePosition whole_;
   VI x_, y_, at_;
   VI listed_;  ///< the samples whose owners are listed or not drawn: a bit each
 };
 
-/// Lists a vector of pixels with one sample each, at the pixels' centres.
-HWY_INLINE void list_centres(const OwnerRow& row, int first, FragmentList& out) {
+/// Lists a vector of pixels with one sample each.
+HWY_INLINE void list_single(const OwnerRow& row, int first, FragmentList& out) {
   const VI pixel = hn::Iota(i32, first), owner = hn::LoadU(i32, row.id + first);
   const MI mask = hn::And(hn::Ne(owner, set(no_primitive)), drawn_lanes(row, first));
   if (hn::AllFalse(i32, mask)) return;
-  const VI x = hn::Add(set(row.x + 128), hn::ShiftLeft<8>(pixel));
+  const VI x = hn::Add(set(row.x + row.whole.x), hn::ShiftLeft<8>(pixel));
   const VI at = hn::Add(set(static_cast<std::int32_t>(row.pixel) + (1 << 12)), pixel);
-  add(mask, x, set(row.y + 128), owner, at, out);
+  add(mask, x, set(row.y + row.whole.y), owner, at, out);
 }
 
 // Vectors of fewer than eight lanes keep the order of eight lanes: by first samples, then by pixels.
 void list(const OwnerRow& row, FragmentList& out) {
   if (row.sample_count == 1 && !row.is_per_sample) {
-    for (int first = 0; first < FragmentBatch::group; first += lanes) list_centres(row, first, out);
+    for (int first = 0; first < FragmentBatch::group; first += lanes) list_single(row, first, out);
   } else if constexpr (lanes == FragmentBatch::group) {
     Pixels pixels(row, 0);
     for (int s = 0; s < row.sample_count; ++s) pixels.list(s, out);

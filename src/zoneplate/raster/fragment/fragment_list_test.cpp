@@ -25,9 +25,10 @@ struct Owners {
   OwnerRow row;
   Owners(std::uint32_t seed, int samples)
       : id(static_cast<std::size_t>(samples) * sample_stride),
-        centroids(
-            standard_pattern(samples),
-            seed % 5 == 0 ? Centroid::First : std::array{Centroid::Mean, Centroid::First, Centroid::Centre}[seed % 3]) {
+        centroids(standard_pattern(samples),
+                  seed % 5 == 0
+                      ? Centroid::First
+                      : std::array{Centroid::Mean, Centroid::First, Centroid::Centre, Centroid::MeanOfAll}[seed % 4]) {
     const std::uint32_t kinds = 1 + hash(seed, 1) % 6;
     for (std::uint32_t s = 0; s < static_cast<std::uint32_t>(samples); ++s)
       for (std::uint32_t i = 0; i < 8; ++i) {
@@ -39,6 +40,7 @@ struct Owners {
            .sample_count = samples,
            .first_summand = centroids.first.data(),
            .more_summands = centroids.more.data(),
+           .whole = centroids.whole,
            .pixel = 8 * (hash(seed, 2) % 512),
            .x = 4096,
            .y = 8192,
@@ -83,8 +85,8 @@ TEST(FragmentList, EverySampleThatIsOwnedColoursFromOnePoint) {
         const int place = row.is_per_sample ? first : 16 * of_triangle + first;
         EXPECT_GT(place, last[lane]) << "in the order of samples, or of their triangles' first samples";
         last[lane] = place;
-        const bool is_centre = !row.is_per_sample && own == (1u << samples) - 1;
-        const SamplePosition expected = is_centre ? SamplePosition{} : owners.centroids.of(own, 0);
+        const bool is_whole = !row.is_per_sample && own == (1u << samples) - 1;
+        const SamplePosition expected = is_whole ? owners.centroids.whole : owners.centroids.of(own, 0);
         EXPECT_EQ(x, row.x + static_cast<std::int32_t>(lane) * 256 + expected.x);
         EXPECT_EQ(y, row.y + expected.y);
         EXPECT_TRUE(!row.is_per_sample || std::has_single_bit(own));

@@ -85,7 +85,8 @@ void TileJob::add_fragments(std::uint32_t pixel, std::int32_t id, std::uint64_t 
 
 FragmentSpan TileJob::span_at(std::uint32_t pixel, std::int32_t id) const {
   const auto px = static_cast<std::int32_t>(pixel % tile_size), py = static_cast<std::int32_t>(pixel / tile_size);
-  return {(x + px) * 256 + 128, (y + py) * 256 + 128, id, pixel};
+  const SamplePosition whole = setup.centroids.whole;
+  return {(x + px) * 256 + whole.x, (y + py) * 256 + whole.y, id, pixel};
 }
 
 void begin_tile(std::size_t tile, TileJob& job) {

@@ -36,7 +36,7 @@ struct TileSetup {
   const FragmentListKernels& fragment_lists;
   const RasterRules rules;
   const float min_transmittance;  ///< transparent fragments behind this transmittance or less are left out
-  const CentroidTable centroids;  ///< the shading position of a surface that owns a subset of a pixel's samples
+  const CentroidTable centroids;  ///< the shading positions in a pixel
 
   std::vector<float> weights;  ///< one for each sample of the pattern
   float weight_sum = 0;
@@ -121,16 +121,16 @@ struct TileJob {
     const std::int32_t top = (y + static_cast<std::int32_t>(pixel / tile_size)) * 256;
     return {left + position.x, top + position.y, id, pixel, samples};
   }
-  /// The same at the position where a triangle is shaded that owns these samples of the pixel: at the pixel's centre if
-  /// it owns all of them, otherwise at the position that TileSetup::centroids gives.
+  /// The same at the position where a triangle is shaded that owns these samples of the pixel.
   Fragment fragment_at(std::uint32_t pixel, std::int32_t id, std::uint64_t samples) const {
-    const bool is_centre = samples == pass.all && !setup.target.is_per_sample;
-    return fragment_at(pixel, id, samples, is_centre ? SamplePosition{} : setup.centroids.of(samples, pass.first));
+    const bool is_whole = samples == pass.all && !setup.target.is_per_sample;
+    const CentroidTable& places = setup.centroids;
+    return fragment_at(pixel, id, samples, is_whole ? places.whole : places.of(samples, pass.first));
   }
   /// Appends one fragment for all of these samples, or one for each of them.
   void add_fragments(std::uint32_t pixel, std::int32_t id, std::uint64_t samples, bool is_per_sample,
                      std::vector<Fragment>& out) const;
-  /// The fragments at the centres of eight pixels, from `pixel` on.
+  /// The fragments of eight pixels that a triangle owns as a whole, from `pixel` on.
   FragmentSpan span_at(std::uint32_t pixel, std::int32_t id) const;
 };
 

@@ -170,6 +170,7 @@ OwnerRow OpaqueShading::owner_row_at(int x, int y) const {
           .sample_count = job_.pass.count,
           .first_summand = setup_.centroids.first.data() + job_.pass.first,
           .more_summands = setup_.centroids.more.data() + job_.pass.first,
+          .whole = setup_.centroids.whole,
           .pixel = pixel,
           .x = (job_.x + x) * 256,
           .y = (job_.y + y) * 256,
