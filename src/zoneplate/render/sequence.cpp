@@ -46,7 +46,7 @@ constexpr int sides = 24;  // of a turntable, from which its scene has to be see
 /// The poses of an animation in one scene, as far as a camera around them needs it: places without looks.
 class Poses {
  public:
-  explicit Poses(bool has_sides) : cost_of_instance_(has_sides ? sides : 8) {}
+  explicit Poses(bool has_sides) : cost_of_instance_(has_sides ? 16 * sides : 16) {}
 
   void add(Scene scene) {
     if (count_++ == 0) all_.cameras = scene.cameras;

@@ -146,8 +146,8 @@ TEST(Sequence, ItsCameraSeesTheKeysOfALongAnimation) {
 // Between the moments that the camera looked at, as within a shutter, nothing is cut off in depth.
 TEST(Sequence, NearAndFarPlanesEncloseEachFrame) {
   const auto place = [](double t) {
-    const bool is_whole = std::floor(t * 24) == t * 24;
-    return float3{0, 0, is_whole ? 0.0f : t < 0.5 ? 4.0f : -40.0f};
+    const auto is_near = [&](double frame) { return std::abs(t * 24 - frame) < 0.01; };
+    return float3{0, 0, is_near(3.4) ? 1.5f : is_near(20.4) ? -40.0f : 0.0f};
   };
   Sequence sequence(cubes(place), {}, {.rate = 24, .duration = 1});
   sequence.set_view({.azimuth = 0.0f, .elevation = 0.0f}, 1.5f);
@@ -157,7 +157,7 @@ TEST(Sequence, NearAndFarPlanesEncloseEachFrame) {
   EXPECT_EQ(near.far, usual.far);
   EXPECT_GT(far.far, usual.far);
   EXPECT_EQ(near.world_from_camera, usual.world_from_camera);
-  EXPECT_LE(near.near, xyz(usual.world_from_camera.column[3]).z - 4.5f);
+  EXPECT_LE(near.near, xyz(usual.world_from_camera.column[3]).z - 2.0f);
   EXPECT_EQ(sequence.moment(3.4).camera.near, near.near);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Motion between moments whose scenes have other instances. tests/motion_test.cpp follows surface points.
+// Motion between moments whose scenes have other instances. motion_test.cpp follows surface points.
 #include "zoneplate/render/motion.h"
 
 #include <gtest/gtest.h>
@@ -14,10 +14,10 @@
 namespace zoneplate {
 namespace {
 
-constexpr int frame_side = 60;
-constexpr Planes planes{.object_id = true, .motion = true, .flow = true, .last_position = true, .was_visible = true};
+constexpr int grid = 60;  // pixels a side
+constexpr Planes of_motion{.object_id = true, .motion = true, .flow = true, .last_position = true, .was_visible = true};
 
-/// Squares of one mesh frame_side by frame_side, one for each object of the list; the scene has three objects.
+/// Squares of one mesh side by side, one for each object of the list; the scene has three objects.
 Scene squares(std::initializer_list<int> objects, float3 moved = {}) {
   Scene scene;
   scene.materials.emplace_back().double_sided = true;
@@ -38,20 +38,20 @@ Moment moment_of(const Scene& scene) {
 }
 
 Frame rendered(const Scene& now, const Scene& last, const Scene& next) {
-  RenderOptions options{.width = frame_side, .height = frame_side};
+  RenderOptions options{.width = grid, .height = grid};
   options.last = moment_of(last), options.next = moment_of(next);
-  return render(PreparedScene(now), moment_of(now).camera, {.planes = planes}, options);
+  return render(PreparedScene(now), moment_of(now).camera, {.planes = of_motion}, options);
 }
 
-struct Seen {
+struct SeenObject {
   std::uint32_t object = 0;
   float2 motion, flow;
   bool was_visible = false;
 };
 
 /// The data at the middle of an object's square.
-Seen at(const Frame& frame, int object) {
-  const int x = frame_side / 2 + (object - 1) * frame_side / 3, y = frame_side / 2;
+SeenObject at(const Frame& frame, int object) {
+  const int x = grid / 2 + (object - 1) * grid / 3, y = grid / 2;
   return {frame.object_id(x, y), frame.motion(x, y), frame.flow(x, y), frame.was_visible(x, y) != 0};
 }
 
@@ -61,7 +61,7 @@ TEST(Motion, ObjectsAtRestStayWhereOthersAppearAndVanish) {
     for (const Scene& next : {all, squares({1, 2}), squares({0, 2})}) {
       const Frame frame = rendered(all, last, next);
       for (const int object : {0, 1, 2}) {
-        const Seen seen = at(frame, object);
+        const SeenObject seen = at(frame, object);
         const bool was_there =
             std::ranges::any_of(last.instances, [&](const Instance& i) { return i.object == object; });
         EXPECT_EQ(seen.object, static_cast<std::uint32_t>(object));
@@ -73,9 +73,9 @@ TEST(Motion, ObjectsAtRestStayWhereOthersAppearAndVanish) {
 }
 
 TEST(Motion, ObjectsMoveByThemselvesWhereOthersAppearAndVanish) {
-  const float pixels = 0.5f * frame_side / 6;
+  const float pixels = 0.5f * grid / 6;
   const Frame frame = rendered(squares({1, 2}), squares({0, 1, 2}, {-0.5f, 0, 0}), squares({2}, {0, 0.5f, 0}));
-  const Seen first = at(frame, 1), second = at(frame, 2);
+  const SeenObject first = at(frame, 1), second = at(frame, 2);
   EXPECT_EQ(first.object, 1u);
   EXPECT_NEAR(first.motion.x, pixels, 1e-4f);
   EXPECT_EQ(first.flow, (float2{0, 0}));  // it vanishes
