@@ -47,6 +47,10 @@ struct ImageExtent {
   std::optional<Crop> crop;   ///< none: all of it
 };
 
+/// The size of the frame that an upscaler renders for an image: each side divided by the scale, rounded down, at
+/// least 1. A quotient that is whole but for the rounding of the division is whole: 1100 / 1.1 is 1000.
+ImageExtent frame_size(const ImageExtent& image, double scale);
+
 /// What a method requires of the renderer for one frame.
 ///
 /// Tiles resolve the colour while it is in the cache: a mean of the samples, weighted by `weights`. Planes of samples
@@ -102,6 +106,7 @@ struct GivenFrame {
 /// The position of a frame in its sequence, and the data of the frame before it.
 struct FrameContext {
   ImageExtent image;     ///< the image that the frame becomes, without the apron of Request::halo
+  float aspect = 0;      ///< width / height of the camera's view, whatever the size of the frame; 0: that of `image`
   int index = 0;         ///< in its sequence, in the order of rendering
   bool is_first = true;  ///< the first frame of its sequence: the method drops all history
   /// The sub-pixel jitter for methods that distribute their samples over frames; others ignore it. It cycles through
@@ -115,6 +120,11 @@ struct FrameContext {
   /// The frame exists already: methods with history and temporal upscalers use its size and sample.
   std::optional<GivenFrame> given;
 };
+
+/// Width / height of the camera's view of a frame.
+inline float aspect_of(const FrameContext& c) {
+  return c.aspect > 0 ? c.aspect : static_cast<float>(c.image.width) / static_cast<float>(c.image.height);
+}
 
 /// The state of an antialiasing method over sequences of frames. A method overrides the steps that it changes.
 ///

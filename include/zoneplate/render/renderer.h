@@ -87,6 +87,7 @@ class Renderer {
   void recycle(Rgba8Image image);
 
  private:
+  Camera seeing_ground(const Camera& camera, const RenderOptions& options) const;
   void begin_frame(const Camera& camera, const RenderSettings& settings);
   Request request_for(const RenderSettings& settings);
   RenderOptions frame_options(const RenderSettings& settings, const Request& request) const;

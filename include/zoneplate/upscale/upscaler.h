@@ -73,10 +73,6 @@ std::unique_ptr<SpatialUpscaler> make_spatial_upscaler(std::string_view text);
 /// Source    AMD, ffx_fsr1.h: FsrSrtmF, FsrSrtmInvF.
 LinearImage upscale_linear(const SpatialUpscaler& upscaler, const LinearImage& image, const UpscaleGrid& grid);
 
-/// The size of the frame that an upscaler renders for an image: each side divided by the scale, rounded down, at
-/// least 1.
-ImageExtent frame_size(const ImageExtent& image, double scale);
-
 /// Makes the resolver of an antialiasing method, of an upscaler, or of one after the other: `smaa`, `fsr2:scale=2` or
 /// `smaa+fsr1:scale=2,sharpness=0.5`. A spatial upscaler alone renders with `none`.
 ///

@@ -3,13 +3,17 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <memory>
 #include <utility>
 #include <vector>
 
 #include "zoneplate/image/tonemap.h"
+#include "zoneplate/render/lighting.h"
 #include "zoneplate/render/renderer.h"
 #include "zoneplate/render/view.h"
 #include "zoneplate/scene/builtin/builtin.h"
+#include "zoneplate/scene/fit.h"
 
 namespace zoneplate {
 namespace {
@@ -83,6 +87,53 @@ TEST(Backend, OfTheProcessorGivesTheBitsOfRender) {
   for (int frame = 0; frame < 2; ++frame)
     EXPECT_EQ(backend->render(scene, camera, request, options, nullptr).color,
               render(scene, camera, request, options).color);
+}
+
+/// Counts the pixels whose reversed depth is not the one to which the context's camera maps their distance.
+class DepthChecker : public Resolver {
+ public:
+  struct Counts {
+    int right = 0, wrong = 0;
+  };
+  explicit DepthChecker(Counts& counts) : counts_(counts) {}
+  Request request(const FrameContext& context) override {
+    context_ = context;
+    Request request;
+    request.planes.depth = true;
+    return request;
+  }
+  LinearImage resolve(Frame& frame) override {
+    const float4x4 clip = context_.camera.clip_from_camera(aspect_of(context_));
+    for (std::size_t i = 0; i < frame.depth.values().size(); ++i) {
+      const float distance = frame.depth.values()[i];
+      if (!std::isfinite(distance)) continue;
+      const float4 at = clip * float4{0, 0, -distance, 1};
+      const float expected = at.z / at.w, found = frame.reversed_depth.values()[i];
+      ++(std::abs(found - expected) <= 1e-4f * expected ? counts_.right : counts_.wrong);
+    }
+    return std::move(frame.color);
+  }
+
+ private:
+  Counts& counts_;
+  FrameContext context_;
+};
+
+TEST(FrameContext, ItsCameraHasTheDepthsOfTheFrame) {
+  Scene scene = *make_builtin_scene("teapot:divisions=4");
+  light_unlit(scene);
+  const Camera camera = fit_camera(scene, 1.5f, {});
+  for (const GroundKind ground : {GroundKind::None, GroundKind::Shadow}) {
+    RenderSettings settings{.options = {.width = 60, .height = 40}};
+    settings.options.shadows.method = ShadowMethod::Hard;
+    settings.options.ground = ground;
+    DepthChecker::Counts counts;
+    Renderer renderer(PreparedScene(scene), std::make_unique<DepthChecker>(counts));
+    renderer.render(camera, settings);
+    renderer.render(camera, settings);
+    EXPECT_GT(counts.right, 500);
+    EXPECT_EQ(counts.wrong, 0) << static_cast<int>(ground);
+  }
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "zoneplate/image/dither.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/render/environment_background.h"
+#include "zoneplate/shade/cast/ground.h"
 
 namespace zoneplate {
 namespace {
@@ -86,6 +87,7 @@ void Renderer::begin_frame(const Camera& camera, const RenderSettings& settings)
   width_ = o.width, height_ = o.height, crop_ = o.crop;
   if (index_ == 0) moment_.reset(), previous_.reset();
   context_ = {.image = {o.width, o.height, o.crop},
+              .aspect = aspect_of(o),
               .index = index_,
               .is_first = index_ == 0,
               .jitter = jitter_[static_cast<std::size_t>(index_ % jitter_period)],
@@ -217,7 +219,13 @@ void Renderer::end_frame(const Camera& camera, bool keeps_moment, const Request&
   ++index_;
 }
 
-RenderedImage Renderer::render(const Camera& camera, const RenderSettings& settings) {
+/// The camera whose near and far planes the frame has: a ground moves them.
+Camera Renderer::seeing_ground(const Camera& camera, const RenderOptions& options) const {
+  return options.ground == GroundKind::Shadow ? GroundSquare(scene_.scene()).enclosing(camera) : camera;
+}
+
+RenderedImage Renderer::render(const Camera& scene_camera, const RenderSettings& settings) {
+  const Camera camera = seeing_ground(scene_camera, settings.options);
   begin_frame(camera, settings);
   const Request request = request_for(settings);
   const RenderOptions options = frame_options(settings, request);
@@ -264,7 +272,7 @@ RenderedImage Renderer::render_still(const Camera& camera, const RenderSettings&
 RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int)>& moment,
                                     const RenderSettings& settings) {
   SceneView view = moment(0);
-  begin_frame(view.camera, settings);
+  begin_frame(seeing_ground(view.camera, settings.options), settings);
   Request request = request_for(settings);
   if (request.has_history())
     throw Error(ErrorKind::Usage,
@@ -278,7 +286,7 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
   Camera camera;
   for (int i = 0; i < count; ++i) {
     if (i > 0) view = moment(i);
-    scene_ = std::move(view.scene), camera = std::move(view.camera);
+    scene_ = std::move(view.scene), camera = seeing_ground(view.camera, settings.options);
     rounds = render_rounds(camera, request, options, out.counts);
     const Stopwatch watch;
     LinearImage picture = method_->resolve(rounds.frame);

@@ -38,7 +38,7 @@ float3 scene_light(float3 light, const DisplayOptions& display) {
 
 ImageExtent frame_size(const FrameContext& context, double scale) {
   if (const auto& given = context.given) return {given->width, given->height, std::nullopt};
-  return frame_size(context.image, scale);
+  return zoneplate::frame_size(context.image, scale);
 }
 
 SamplePosition sample_of(const FrameContext& context, SamplePosition planned) {
@@ -58,7 +58,7 @@ LinearImage over_background(LinearImage image, const DisplayOptions& display, st
 }
 
 void complete_background(Frame& frame, const FrameContext& context, SamplePosition sample, float far) {
-  const antialias::CameraMotion camera(context.camera, context.last_camera, frame.depth.width(), frame.depth.height());
+  const antialias::CameraMotion camera(context, frame.depth.width(), frame.depth.height());
   for (int y = 0; y < frame.depth.height(); ++y)
     for (int x = 0; x < frame.depth.width(); ++x)
       if (float& depth = frame.depth(x, y); !(depth < far)) {

@@ -33,6 +33,7 @@ class Upscaled : public Resolver {
 
   Request request(const FrameContext& context) override {
     FrameContext own = context;
+    own.aspect = aspect_of(context);
     grid_.to = context.image;
     frame_ = own.image = frame_size(context.image, scale_);
     if (const std::optional<Crop>& crop = context.image.crop) {
@@ -100,11 +101,6 @@ LinearImage upscale_linear(const SpatialUpscaler& upscaler, const LinearImage& i
     return Linear{r * scale, g * scale, b * scale, c.a};
   });
   return out;
-}
-
-ImageExtent frame_size(const ImageExtent& image, double scale) {
-  const auto side = [&](int n) { return std::max(1, static_cast<int>(n / scale)); };
-  return {side(image.width), side(image.height), std::nullopt};
 }
 
 std::unique_ptr<Resolver> make_method(std::string_view text) {

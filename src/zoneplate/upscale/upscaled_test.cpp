@@ -2,7 +2,12 @@
 // Rendering with an upscaler: sizes, crops, data passes and texture detail.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "zoneplate/antialias/temporal/camera_motion.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/math/transform.h"
 #include "zoneplate/render/lighting.h"
 #include "zoneplate/render/renderer.h"
 #include "zoneplate/scene/builtin/builtin.h"
@@ -104,6 +109,48 @@ TEST(Upscaled, TexturesAreFilteredForThePixelsOfTheImage) {
       .render(camera_of(scene), settings_with({}));
   ASSERT_EQ(levels.width(), width / 2);
   EXPECT_NEAR(levels(40, 50), whole.mip_level(81, 101), 0.1f);
+}
+
+/// Asks for a frame of half the size, and measures how far the motion of surfaces at rest is from that of the camera.
+class CameraFollower : public Resolver {
+ public:
+  explicit CameraFollower(float& greatest) : greatest_(greatest) {}
+  Request request(const FrameContext& context) override {
+    context_ = context;
+    Request request;
+    request.planes.depth = request.planes.motion = true;
+    request.frame = frame_size(context.image, 2);
+    return request;
+  }
+  LinearImage resolve(Frame& frame) override {
+    const antialias::CameraMotion camera(context_, frame.depth.width(), frame.depth.height());
+    for (int y = 0; y < frame.depth.height(); ++y)
+      for (int x = 0; x < frame.depth.width(); ++x) {
+        if (!std::isfinite(frame.depth(x, y))) continue;
+        const float2 found = camera.at(x + 0.5, y + 0.5, double{frame.depth(x, y)}), own = frame.motion(x, y);
+        greatest_ = std::max({greatest_, std::abs(found.x - own.x), std::abs(found.y - own.y)});
+      }
+    return LinearImage(context_.image.width, context_.image.height);
+  }
+
+ private:
+  float& greatest_;
+  FrameContext context_;
+};
+
+// A point at rest moves as the camera does, within the tolerance by which sgsr2 knows objects: 1/256 pixel.
+TEST(Upscaled, PointsAtRestMoveWithTheCameraInFramesOfAnotherRatio) {
+  const PreparedScene scene = prepared("teapot");
+  const RenderSettings settings{.options = {.width = 101, .height = 43}};
+  float greatest = 0;
+  Renderer renderer(scene, std::make_unique<CameraFollower>(greatest));
+  Camera camera = fit_camera(scene.scene(), 101.0f / 43, {});
+  renderer.render(camera, settings);
+  EXPECT_EQ(greatest, 0);
+  camera.world_from_camera = camera.world_from_camera * rotation(float3{0, 1, 0}, 0.05f);
+  renderer.render(camera, settings);
+  EXPECT_GT(greatest, 0);
+  EXPECT_LT(greatest, 1.0f / 256);
 }
 
 TEST(Upscaled, LinearImagesAreRefused) {

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "zoneplate/antialias/charts_for_test.h"
 #include "zoneplate/base/error.h"
@@ -116,6 +117,26 @@ TEST(Upscalers, ColoursOfTransparentPixelsDoNotBleed) {
     EXPECT_NEAR(out(4, 12).r, 1, tolerance_of_constants(row)) << row.name;
     EXPECT_EQ(out(4, 12), (Display{out(4, 12).r, 0, 0, 1})) << row.name;
     EXPECT_EQ(out(30, 12), (Display{0, 0, 0, 0})) << row.name;
+  }
+}
+
+TEST(Upscalers, FramesHaveWholeQuotients) {
+  for (const auto& [side, scale, frame] : {std::tuple(1100, 1.1, 1000),
+                                           {110, 1.1, 100},
+                                           {121, 1.1, 110},
+                                           {1300, 1.3, 1000},
+                                           {1920, 1.5, 1280},
+                                           {1000, 3.0, 333},
+                                           {201, 2.0, 100},
+                                           {1, 4.0, 1},
+                                           {32768, 1.7, 19275}}) {
+    const ImageExtent found = frame_size(ImageExtent{side, side, std::nullopt}, scale);
+    EXPECT_EQ(found.width, frame) << side << " / " << scale;
+    EXPECT_EQ(found.height, frame) << side << " / " << scale;
+    const std::string text = fmt::format("oracle-taau:scale={}", scale);
+    const std::optional<ImageExtent> asked = make_method(text)->request({.image = {side, side, std::nullopt}}).frame;
+    ASSERT_TRUE(asked);
+    EXPECT_EQ(asked->width, frame) << text;
   }
 }
 

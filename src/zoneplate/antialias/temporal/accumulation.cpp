@@ -189,8 +189,8 @@ void TemporalAccumulation::take_surfaces(const Frame& frame) {
   const int width = frame.color.width(), height = frame.color.height();
   const auto pixels = static_cast<std::size_t>(width);
   Current& out = current_;
-  const CameraMotion camera(context_.camera, context_.last_camera, width, height);
-  const LastDepths last(context_.last_camera, static_cast<float>(width) / static_cast<float>(height));
+  const CameraMotion camera(context_, width, height);
+  const LastDepths last(context_.last_camera, aspect_of(context_));
   const double jitter_x = sample().x / 256.0, jitter_y = sample().y / 256.0;
   const bool tests_nearness = options_.parts.rejection == TemporalParts::Rejection::Edge;
   std::vector<Bordered*> planes{&out.nearness, &out.surface, &out.motion[0], &out.motion[1]};

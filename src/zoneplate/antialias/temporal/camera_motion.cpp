@@ -7,17 +7,13 @@
 
 namespace zoneplate::antialias {
 
-CameraMotion::Lens CameraMotion::lens_of(const Camera& camera, double aspect) {
-  const float4x4 clip = camera.clip_from_camera(static_cast<float>(aspect));
+CameraMotion::Lens CameraMotion::lens_of(const Camera& camera, float aspect) {
+  const float4x4 clip = camera.clip_from_camera(aspect);
   return {clip.column[0].x, clip.column[1].y, camera.is_orthographic};
 }
 
-CameraMotion::CameraMotion(const Camera& now, const Camera& last, int width, int height)
-    : width_(width),
-      height_(height),
-      now_(lens_of(now, static_cast<double>(width) / height)),
-      last_(lens_of(last, static_cast<double>(width) / height)),
-      turn_{} {
+CameraMotion::CameraMotion(const Camera& now, const Camera& last, float aspect, int width, int height)
+    : width_(width), height_(height), now_(lens_of(now, aspect)), last_(lens_of(last, aspect)), turn_{} {
   // The cameras' matrices are rigid: the inverse is the transpose.
   const auto component = [](float4 v, std::size_t k) -> double {
     return k == 0 ? v.x : k == 1 ? v.y : k == 2 ? v.z : v.w;

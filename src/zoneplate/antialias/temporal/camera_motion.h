@@ -4,6 +4,7 @@
 #include <span>
 
 #include "zoneplate/math/mat.h"
+#include "zoneplate/render/method.h"
 #include "zoneplate/scene/camera.h"
 
 namespace zoneplate::antialias {
@@ -13,8 +14,12 @@ namespace zoneplate::antialias {
 /// Exact     computed in double and rounded once. A camera at rest causes no motion.
 class CameraMotion {
  public:
-  /// Units     the image's size in pixels.
-  CameraMotion(const Camera& now, const Camera& last, int width, int height);
+  /// The motion in a frame of this many pixels, of cameras whose views have this aspect (width / height): a frame of
+  /// fewer pixels than the image shows the same view, though its sides may have another ratio.
+  CameraMotion(const Camera& now, const Camera& last, float aspect, int width, int height);
+  /// That of the context's cameras in its frame.
+  CameraMotion(const FrameContext& context, int width, int height)
+      : CameraMotion(context.camera, context.last_camera, aspect_of(context), width, height) {}
 
   /// Position now minus position in the last frame of the point at a position of the image and a distance along the
   /// view axis, which may be infinite; 0 for a point that was not in front of the last camera.
@@ -41,7 +46,7 @@ class CameraMotion {
     bool is_orthographic;
     bool operator==(const Lens&) const = default;
   };
-  static Lens lens_of(const Camera& camera, double aspect);
+  static Lens lens_of(const Camera& camera, float aspect);
 
   double width_, height_;
   Lens now_, last_;

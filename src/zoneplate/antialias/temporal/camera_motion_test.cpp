@@ -29,7 +29,7 @@ TEST(CameraMotion, BackgroundsOfARowMoveAsTheirPixels) {
   const Camera now = camera_turned_by({0.6f, 0.8f, 0}, 0.3f);
   for (const Camera& last : {now, camera_turned_by({0.6f, 0.8f, 0}, 0.31f), camera_turned_by({0, 0, 1}, 1),
                              camera_turned_by({0, 1, 0}, 2), wider, flat, moved}) {
-    const CameraMotion motion(now, last, width, height);
+    const CameraMotion motion(now, last, 1.0f * width / height, width, height);
     std::vector<float> x(width), y(width), distance(width);
     for (const double row : {0.5, 17.25, 47.75}) {
       motion.of_background(0.375, row, width, x.data(), y.data());

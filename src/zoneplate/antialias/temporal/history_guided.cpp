@@ -115,7 +115,7 @@ class HistoryGuided : public Resolver {
   /// Makes the planes of this frame; colours and depths continue beyond its sides.
   void take_current(const Frame& frame) {
     const int width = frame.color.width(), height = frame.color.height();
-    const CameraMotion camera(context_.camera, context_.last_camera, width, height);
+    const CameraMotion camera(context_, width, height);
     const double jitter_x = sample().x / 256.0, jitter_y = sample().y / 256.0;
     color_ = Plane<float>(width + 2 * border, 4 * (height + 2 * border));
     nearness_ = Plane<float>(width + 2 * border, height + 2 * border);

@@ -67,8 +67,7 @@ Request SurfaceHistory::request(const FrameContext& context) {
   request.samples = {jitter_[static_cast<std::size_t>(context.index) % jitter_.size()]};
   filter_textures_for_samples(request);
   if (options_.scale > 1) {
-    const auto side = [&](int n) { return std::max(1, static_cast<int>(n / options_.scale)); };
-    request.frame = ImageExtent{side(width_), side(height_), std::nullopt};
+    request.frame = frame_size(context.image, options_.scale);
   } else {
     request.halo = Request::whole_image;
   }
@@ -125,7 +124,7 @@ void SurfaceHistory::take_shaded(Frame& frame, SamplePosition position) {
 
 /// Adds the surfaces of one sample of every pixel of a frame. The background moves with the camera.
 void SurfaceHistory::add(const Frame& frame, SamplePosition position, int weight) {
-  const CameraMotion camera(context_.camera, context_.last_camera, frame_width_, frame_height_);
+  const CameraMotion camera(context_, frame_width_, frame_height_);
   const float scale_x = static_cast<float>(width_) / static_cast<float>(frame_width_);
   const float scale_y = static_cast<float>(height_) / static_cast<float>(frame_height_);
   for_rows(frame_height_, [&](int y) {

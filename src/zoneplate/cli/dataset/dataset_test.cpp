@@ -46,9 +46,10 @@ Vector solved(Rows m, Vector v) {
   return v;
 }
 
+/// Of a list in column-major order.
 Rows rows_of(const nlohmann::json& list) {
   Rows out{};
-  for (std::size_t i = 0; i < 16; ++i) out[i / 4][i % 4] = list[i].get<double>();
+  for (std::size_t i = 0; i < 16; ++i) out[i % 4][i / 4] = list[i].get<double>();
   return out;
 }
 
@@ -103,10 +104,10 @@ TEST_F(DatasetVerb, DepthMotionJitterAndCamerasAgree) {
         for (int x = 0; x < width; ++x) {
           const double u = (x + 0.5) / width + jitter["X"].get<double>();
           const double v = (y + 0.5) / height + jitter["Y"].get<double>();
-          const double nearness = 1 - static_cast<double>(depth(x, y));
-          if (nearness <= 0) continue;  // background
+          const double z = static_cast<double>(depth(x, y));  // ReverseZ is false
+          if (z >= 1) continue;                               // background
           ++surfaces;
-          const Vector point = solved(clip_now, {2 * u - 1, 1 - 2 * v, nearness, 1});
+          const Vector point = solved(clip_now, {2 * u - 1, 1 - 2 * v, z, 1});
           const Vector before = product(clip_last, point);
           const double moved_x = u - (before[0] / before[3] + 1) / 2, moved_y = v - (1 - before[1] / before[3]) / 2;
           // Vertices snap to 1/256 pixel in both frames, and motion is a half float.
@@ -114,6 +115,24 @@ TEST_F(DatasetVerb, DepthMotionJitterAndCamerasAgree) {
           EXPECT_NEAR(static_cast<double>(motion[1](x, y)), moved_y, 2.0 / 256 / height + std::abs(moved_y) / 1024);
         }
       EXPECT_GT(surfaces, width * height / 10);
+    }
+  }
+}
+
+// A frame of 50 x 21 pixels shows the view of an image of 101 x 43, whose sides have another ratio.
+TEST_F(DatasetVerb, BackgroundsMoveAlikeAtAllSizes) {
+  ASSERT_EQ(
+      run("dataset teapot --layout nss -o data --sequences 1 --frames 2 --size 101x43 --ratio 2 --reference none").code,
+      0);
+  const std::vector<Plane<float>> whole = pass("motion_gt", 1, {"R", "G"}), low = pass("x2/motion", 1, {"R", "G"});
+  ASSERT_EQ(low[0].width(), 50);
+  ASSERT_EQ(low[0].height(), 21);
+  for (const auto& [x, y] : {std::pair(0.0, 0.0), {49.0, 0.0}, {0.0, 20.0}, {49.0, 20.0}}) {
+    const double u = (x + 0.5) / 50 * 101 - 0.5, v = (y + 0.5) / 21 * 43 - 0.5;
+    for (std::size_t c = 0; c < 2; ++c) {
+      const double expected = bilinear(whole[c], u, v), found = bilinear(low[c], x, y);
+      // Jitter of half a pixel, and half floats.
+      EXPECT_NEAR(found, expected, 0.002 * std::abs(expected) + 5e-5) << x << ',' << y;
     }
   }
 }

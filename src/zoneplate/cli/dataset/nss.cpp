@@ -25,6 +25,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Width / height of all views: a frame of fewer pixels shows that of the ground truth.
+float aspect_of(const NssSequence& s) { return static_cast<float>(s.size.x) / static_cast<float>(s.size.y); }
+
 SamplePosition sample_of(int frame, int positions) {
   return halton_sequence(positions)[static_cast<std::size_t>(frame % positions)];
 }
@@ -72,10 +75,16 @@ LinearImage opaque(LinearImage image) {
   return image;
 }
 
+/// The cameras of two frames, for views of this aspect.
+struct Cameras {
+  const Camera &now, &last;
+  float aspect;
+};
+
 /// The motion of each pixel, of the background that of the camera, in widths and heights of the image.
-std::vector<float2> motion_of(const Frame& frame, const Camera& now, const Camera& last, SamplePosition sample) {
+std::vector<float2> motion_of(const Frame& frame, const Cameras& cameras, SamplePosition sample) {
   const int width = frame.motion.width(), height = frame.motion.height();
-  const antialias::CameraMotion camera(now, last, width, height);
+  const antialias::CameraMotion camera(cameras.now, cameras.last, cameras.aspect, width, height);
   std::vector<float2> out;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
@@ -100,12 +109,18 @@ std::vector<ExrChannel> motion_channels(const std::vector<float2>& motion) {
 
 Json::Object vector(double x, double y) { return {{"X", x}, {"Y", y}}; }
 
-/// The matrix that multiplies column vectors, row by row.
-Json::Array rows_of(const float4x4& m) {
+/// The matrix that multiplies column vectors, column by column.
+Json::Array columns_of(const float4x4& m) {
   Json::Array out;
-  for (const auto component : {&float4::x, &float4::y, &float4::z, &float4::w})
-    for (const float4& column : m.column) out.emplace_back(column.*component);
+  for (const float4& column : m.column)
+    for (const float value : {column.x, column.y, column.z, column.w}) out.emplace_back(value);
   return out;
+}
+
+/// A projection to reversed depth as one to forward_depth.
+float4x4 forward_projection(float4x4 clip_from_camera) {
+  for (float4& column : clip_from_camera.column) column.z = column.w - column.z;
+  return clip_from_camera;
 }
 
 /// The scenes and the cameras of a sequence.
@@ -116,7 +131,7 @@ class Shots {
     const Scene first = at(0);
     View view{.up = first.up};
     if (!first.cameras.empty()) view.index = 0;
-    const float aspect = static_cast<float>(s.size.x) / static_cast<float>(s.size.y);
+    const float aspect = aspect_of(s);
     sequence_.set_view(view, aspect);
     distance_ = usual_distance(sequence_.view(0), aspect);
   }
@@ -155,12 +170,12 @@ class Shots {
 };
 
 Json::Object frame_json(const NssSequence& s, const Camera& camera, int frame) {
-  const float aspect = static_cast<float>(s.size.x) / static_cast<float>(s.size.y);
+  const float aspect = aspect_of(s);
   const SamplePosition sample = sample_of(frame, s.positions);
   const double x = static_cast<double>(offset_of(sample.x)), y = static_cast<double>(offset_of(sample.y));
   Json::Array jitters;
   for (const double ratio : s.ratios) {
-    const ImageExtent low = upscale::frame_size({s.size.x, s.size.y, std::nullopt}, ratio);
+    const ImageExtent low = frame_size({s.size.x, s.size.y, std::nullopt}, ratio);
     jitters.emplace_back(vector(x / low.width, y / low.height));
   }
   const float4x4 clip = camera.clip_from_camera(aspect);
@@ -169,7 +184,7 @@ Json::Object frame_json(const NssSequence& s, const Camera& camera, int frame) {
           {"FovY", camera.vertical_fov},
           {"CameraNearPlane", camera.near},
           {"CameraFarPlane", std::isinf(camera.far) ? -1.0f : camera.far},
-          {"ViewProjection", rows_of(clip * inverse(camera.world_from_camera))},
+          {"ViewProjection", columns_of(forward_projection(clip) * inverse(camera.world_from_camera))},
           {"Exposure", 1.0},
           {"CameraCut", frame == 0},
           {"Jitter", vector(x, y)},
@@ -262,9 +277,9 @@ void make_nss_sequence(const NssSequence& s, const std::function<void(int frame)
   Pass truth_motion(std::make_unique<NearestOfSixteen>(), data);
   std::vector<Pass> inputs;
   for (const double ratio : s.ratios) {
-    const ImageExtent low = upscale::frame_size({s.size.x, s.size.y, std::nullopt}, ratio);
+    const ImageExtent low = frame_size({s.size.x, s.size.y, std::nullopt}, ratio);
     RenderSettings settings = settings_of(low.width, low.height);
-    settings.options.aspect = static_cast<float>(s.size.x) / static_cast<float>(s.size.y);
+    settings.options.aspect = aspect_of(s);
     settings.planes.motion = settings.planes.depth = true;
     inputs.emplace_back(std::make_unique<OneSample>(s.positions, ratio), settings);
   }
@@ -274,20 +289,21 @@ void make_nss_sequence(const NssSequence& s, const std::function<void(int frame)
     progress(frame);
     const SceneView view = shots.view(frame);
     if (frame == 0) last = view.camera;
+    const Cameras cameras{view.camera, last, aspect_of(s)};
     const auto save = [&](const std::string& pass, int width, int height, std::vector<ExrChannel> channels) {
       save_bytes(path_of(s, pass, frame), encode_exr(width, height, std::move(channels)));
     };
     const LinearImage color = opaque(truth.render(view).linear);
     save("ground_truth", s.size.x, s.size.y, rgba_channels(color));
     const Frame nearest = truth_motion.render(view).data;
-    const std::vector<float2> motion = motion_of(nearest, view.camera, last, {});
+    const std::vector<float2> motion = motion_of(nearest, cameras, {});
     save("motion_gt", s.size.x, s.size.y, motion_channels(motion));
     for (std::size_t i = 0; i < inputs.size(); ++i) {
       const std::string folder = nss_folder_of(s.ratios[i]);
       RenderedImage image = inputs[i].render(view);
       const int width = image.linear.width(), height = image.linear.height();
       const LinearImage low = opaque(std::move(image.linear));
-      const std::vector<float2> low_motion = motion_of(image.data, view.camera, last, sample_of(frame, s.positions));
+      const std::vector<float2> low_motion = motion_of(image.data, cameras, sample_of(frame, s.positions));
       const Plane<float> depth = forward_depth(std::move(image.data.reversed_depth));
       save(folder + "/color", width, height, rgba_channels(low));
       save(folder + "/motion", width, height, motion_channels(low_motion));

@@ -50,9 +50,8 @@ class FsrMethod : public Resolver {
   LinearImage resolve(Frame& frame) override {
     const ImageExtent& image = context_.image;
     if (context_.is_first || !core_) core_.emplace(image.width, image.height, options_);
-    const float aspect = static_cast<float>(image.width) / static_cast<float>(image.height);
     FsrFrame input{.jitter = {(128 - sample_.x) / 256.0f, (128 - sample_.y) / 256.0f},
-                   .corner = corner_of(context_.camera, aspect),
+                   .corner = corner_of(context_.camera, aspect_of(context_)),
                    .is_first = context_.is_first};
     complete_background(frame, context_, sample_, FsrFrame::far);
     input.color = over_background(std::move(frame.color), frame.display, name_);

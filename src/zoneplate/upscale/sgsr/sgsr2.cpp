@@ -73,7 +73,7 @@ class Sgsr2Method : public Resolver {
     const ImageExtent& image = context_.image;
     if (context_.is_first || !sgsr2_) sgsr2_.emplace(image.width, image.height);
     const Camera &camera = context_.camera, &last = context_.last_camera;
-    const float aspect = static_cast<float>(image.width) / static_cast<float>(image.height);
+    const float aspect = aspect_of(context_);
     const float4x4 clip_from_world = sgsr2_projection(camera, aspect) * inverse(camera.world_from_camera);
     const float4x4 last_clip_from_world = sgsr2_projection(last, aspect) * inverse(last.world_from_camera);
     // The camera of given frames is not known: all of their motion counts as that of objects.
@@ -92,7 +92,7 @@ class Sgsr2Method : public Resolver {
       input.last_clip_from_clip = sgsr2_projection(last, aspect) *
                                   (inverse(last.world_from_camera) * camera.world_from_camera) *
                                   inverse(sgsr2_projection(camera, aspect));
-    const antialias::CameraMotion camera_motion(camera, last, frame_.width, frame_.height);
+    const antialias::CameraMotion camera_motion(context_, frame_.width, frame_.height);
     for (int y = 0; y < frame_.height; ++y)
       for (int x = 0; x < frame_.width; ++x) {
         float& depth = input.depth(x, y);
