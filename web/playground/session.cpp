@@ -291,7 +291,7 @@ Json::Object Session::about() const {
 Json::Object Session::render(const std::string& method, const std::string& look, int frame) {
   if (!renderer_ || method_ != method) {
     std::unique_ptr<Resolver> resolver = upscale::make_method(method);
-    has_history_ = resolver->request({}).has_history();
+    has_history_ = resolver->has_history();
     renderer_ = std::make_unique<Renderer>(*still_, std::move(resolver));
     method_ = method, next_frame_ = no_frame;
   }
@@ -341,7 +341,7 @@ Json::Object Session::samples(int x, int y) const {
   const std::unique_ptr<Resolver> method = upscale::make_method(method_);
   Request request = method->request({.image = {width_, height_, {}}, .camera = camera_, .last_camera = camera_});
   if (request.draw) return without_samples("The method has its own rasterization: its result is no mean of samples.");
-  if (request.has_history())
+  if (method->has_history())
     return without_samples("The method averages frames, whose samples lie at other positions each time.");
   if (request.frame) return without_samples("The method renders fewer pixels than the image has.");
   if (request.content != Content::Colour) return without_samples("The first round of the method has no colours.");

@@ -88,11 +88,9 @@ struct Request {
   /// The next frame's FrameContext::previous has the data planes of this frame.
   bool keeps_planes = false;
   /// How many frames of a still scene the method needs until its image has settled (Renderer::render_still). More than
-  /// 1: the method keeps history, so that an image depends on all frames since the last cut.
+  /// 1 only for methods with history (Resolver::has_history).
   int settling_frames = 1;
 
-  /// True if an image depends on earlier frames.
-  bool has_history() const { return settling_frames > 1; }
   /// A `halo` that contains the whole image, for methods with history: motion may bring any pixel into a crop.
   static constexpr int whole_image = 1 << 20;
 };
@@ -133,6 +131,9 @@ inline float aspect_of(const FrameContext& c) {
 class Resolver {
  public:
   virtual ~Resolver() = default;
+  /// True if an image depends on earlier frames of its sequence, whatever the frame: all frames since the last cut have
+  /// to be rendered in order.
+  virtual bool has_history() const { return false; }
   /// What to render for a frame; one shaded sample at each pixel's centre by default.
   virtual Request request(const FrameContext& /*context*/) { return {}; }
   /// Another pass to be rendered, chosen from the result of this one; the method may move data out of `frame`. Nothing

@@ -80,7 +80,7 @@ class Renderer {
   /// for each, in order. Requires: no data passes in `settings.planes`.
   ///
   /// Exact     the sum is made in order and divided once.
-  /// Errors    ErrorKind::Usage for a method with history (Request::has_history).
+  /// Errors    ErrorKind::Usage for a method with history (Resolver::has_history).
   RenderedImage render_mean(int count, const std::function<SceneView(int)>& moment, const RenderSettings& settings);
 
   /// Returns an image to the renderer, which reuses its memory for the next frame of the same size.

@@ -159,7 +159,7 @@ std::unique_ptr<zoneplate_image> render_image(zoneplate_scene& scene, const zone
   const std::vector<const Aov*> passes = passes_of(o.passes);
   for (const Aov* aov : passes) settings.planes.*(aov->plane) = true;
   std::unique_ptr<Resolver> method = upscale::make_method(o.method == nullptr ? usual_method : o.method);
-  const Request request = method->request({});
+  const Request request = method->request({.image = {options.width, options.height, options.crop}});
   if (settings.form == ImageForm::Linear && request.is_display_referred)
     throw Error(ErrorKind::Usage, fmt::format("{} works after tone mapping, and the image is linear", o.method));
   if (settings.planes.error && !request.estimates_error)

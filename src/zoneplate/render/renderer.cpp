@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <iterator>
 #include <utility>
 
@@ -98,10 +99,11 @@ void Renderer::begin_frame(const Camera& camera, const RenderSettings& settings)
 
 Request Renderer::request_for(const RenderSettings& settings) {
   Request request = method_->request(context_);
+  assert(request.settling_frames == 1 || method_->has_history());
   if (!request.frame) request.planes = request.planes | settings.planes;
   if (settings.planes.error && !request.estimates_error)
     throw Error(ErrorKind::Usage, "the method has no estimate of its error");
-  if (settings.planes.any_light() && (request.frame || request.has_history()))
+  if (settings.planes.any_light() && (request.frame || method_->has_history()))
     throw Error(ErrorKind::Usage,
                 "light passes require an antialiasing method that renders each frame by itself, at the image's size");
   if (request.frame && request.is_display_referred && settings.form == ImageForm::Linear)
@@ -274,7 +276,7 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
   SceneView view = moment(0);
   begin_frame(seeing_ground(view.camera, settings.options), settings);
   Request request = request_for(settings);
-  if (request.has_history())
+  if (method_->has_history())
     throw Error(ErrorKind::Usage,
                 "motion blur is the mean of several moments, and the method keeps one history for all");
   request.writes_display8 = false;

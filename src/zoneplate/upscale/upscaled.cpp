@@ -31,6 +31,7 @@ class Upscaled : public Resolver {
   Upscaled(std::unique_ptr<Resolver> method, std::unique_ptr<SpatialUpscaler> upscaler, double scale)
       : method_(std::move(method)), upscaler_(std::move(upscaler)), scale_(scale) {}
 
+  bool has_history() const override { return method_->has_history(); }
   Request request(const FrameContext& context) override {
     FrameContext own = context;
     own.aspect = aspect_of(context);

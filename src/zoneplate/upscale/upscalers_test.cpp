@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "zoneplate/antialias/charts_for_test.h"
+#include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
@@ -118,6 +119,40 @@ TEST(Upscalers, ColoursOfTransparentPixelsDoNotBleed) {
     EXPECT_EQ(out(4, 12), (Display{out(4, 12).r, 0, 0, 1})) << row.name;
     EXPECT_EQ(out(30, 12), (Display{0, 0, 0, 0})) << row.name;
   }
+}
+
+std::vector<std::string> all_methods() {
+  std::vector<std::string> out;
+  for (const Method& row : antialias::methods()) {
+    out.emplace_back(row.name);
+    for (const std::string_view variant : row.variants)
+      out.push_back(std::string(row.name) + ':' + std::string(variant));
+  }
+  for (const Upscaler& row : upscalers()) out.emplace_back(row.name);
+  for (const char* text :
+       {"fsr2:scale=1", "fsr3:scale=1", "fsr2:scale=4", "taa+fsr1", "smaa:mode=t2x+nis", "msaa+fsr1"})
+    out.emplace_back(text);
+  return out;
+}
+
+// Whoever asks has no frame yet: the answer is that of every frame.
+TEST(Upscalers, HistoryDependsOnNoFrame) {
+  int with_history = 0;
+  for (const std::string& text : all_methods()) {
+    const std::unique_ptr<Resolver> method = make_method(text);
+    const bool has_history = method->has_history();
+    with_history += has_history;
+    for (const auto& [width, height] : {std::pair(64, 64), {300, 200}, {101, 43}, {1, 1}}) {
+      const Request request = method->request({.image = {width, height, std::nullopt}});
+      EXPECT_TRUE(width == 1 || (request.settling_frames > 1) == has_history) << text << ' ' << width;
+      EXPECT_EQ(method->has_history(), has_history) << text;
+    }
+  }
+  EXPECT_GE(with_history, 12);
+  for (const char* text : {"fsr2", "fsr3", "sgsr2", "taau", "oracle-taau", "taa", "smaa:mode=t2x", "taa+fsr1"})
+    EXPECT_TRUE(make_method(text)->has_history()) << text;
+  for (const char* text : {"none", "smaa", "msaa", "fsr1", "converged"})
+    EXPECT_FALSE(make_method(text)->has_history()) << text;
 }
 
 TEST(Upscalers, FramesHaveWholeQuotients) {

@@ -15,6 +15,7 @@ class TemporalAccumulation : public Resolver {
   explicit TemporalAccumulation(const TemporalOptions& options);
 
   /// The sample of a frame, and the planes that `resolve` reads.
+  bool has_history() const override { return true; }
   Request request(const FrameContext& context) override;
   /// The resolved image of the frame of the last request.
   LinearImage resolve(Frame& frame) override;

@@ -62,6 +62,7 @@ class HistoryGuided : public Resolver {
  public:
   HistoryGuided(int length, int frames) : jitter_(jitter_pattern(JitterSequence::Halton, length)), frames_(frames) {}
 
+  bool has_history() const override { return true; }
   Request request(const FrameContext& context) override {
     context_ = context;
     Request request;

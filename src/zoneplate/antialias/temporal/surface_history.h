@@ -27,6 +27,7 @@ class SurfaceHistory : public Resolver {
   };
   explicit SurfaceHistory(const Options& options);
 
+  bool has_history() const override { return true; }
   Request request(const FrameContext& context) override;
   /// The passes for visibility, one sample each.
   std::optional<Request> refine(Frame& frame) override;

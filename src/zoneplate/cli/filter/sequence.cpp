@@ -185,13 +185,14 @@ void save(const std::string& path, LinearImage image, bool is_scene_linear, int 
 bool filters_sequences(const std::string& method) {
   FrameContext context;
   context.image = {64, 64, std::nullopt};
-  const Request request = upscale::make_method(method)->request(context);
+  const std::unique_ptr<Resolver> resolver = upscale::make_method(method);
+  const Request request = resolver->request(context);
   const Planes& p = request.planes;
   const bool reads_more = p.normal || p.albedo || p.uv || p.material_id || p.primitive_id || p.coverage || p.position ||
                           p.flow || p.was_visible || p.mip_level || p.anisotropy || p.error || p.samples ||
                           p.sample_triangles || p.sample_colors;
-  return request.has_history() && request.samples.size() == 1 && !request.draw && request.content == Content::Colour &&
-         !request.is_display_referred && !reads_more;
+  return resolver->has_history() && request.samples.size() == 1 && !request.draw &&
+         request.content == Content::Colour && !request.is_display_referred && !reads_more;
 }
 
 void filter_sequence(const SequenceFilter& filter, Progress& progress) {

@@ -42,7 +42,7 @@ std::optional<Scene> RenderJobs::read(const RenderArgs& args) {
 Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   const Stopwatch total_watch;
   std::unique_ptr<Resolver> method = upscale::make_method(args.method);
-  check_request(args, method->request({}));
+  check_request(args, request_of(args, *method));
   Summary summary;
   summary.threads = thread_limit();
   out.progress("read", 0);
@@ -74,7 +74,7 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   const Camera camera = choose_camera(scene, args.view, aspect);
   summary.warnings = scene.warnings;
   out.progress("render", 0.1);
-  check_passes(args, method->request({}));
+  check_passes(args, request_of(args, *method));
   RenderedImage image;
   {
     const Lighting lighting = make_lighting(scene, args.lighting);

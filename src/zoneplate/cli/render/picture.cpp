@@ -118,6 +118,10 @@ void check_outputs(const RenderArgs& args) {
     check_savable(output_path(args, frame, layer));
 }
 
+Request request_of(const RenderArgs& args, Resolver& method) {
+  return method.request({.image = {args.options.width, args.options.height, args.options.crop}});
+}
+
 void check_request(const RenderArgs& args, const Request& request) {
   if (request.is_display_referred && is_linear(args.named_output()))
     throw Error(ErrorKind::Usage, fmt::format("--anti-aliasing: {} works after tone mapping, and {} is scene-linear: "

@@ -44,6 +44,9 @@ void check_outputs(const RenderArgs& args);
 /// `args.aovs`, or -1 for the image.
 std::string output_path(const RenderArgs& args, int frame, int layer);
 
+/// What the method requires of the renderer for the first frame of the item.
+Request request_of(const RenderArgs& args, Resolver& method);
+
 /// Errors    ErrorKind::Failed if frame and image need more than the memory limit; ErrorKind::Usage if the method has
 ///           no effect on a file of linear values.
 void check_request(const RenderArgs& args, const Request& request);

@@ -148,11 +148,11 @@ Rendered render_frame(const RenderArgs& args, Sequence& sequence, int frame, con
 }
 
 /// A method with history needs all frames in order.
-void check_history(const RenderArgs& args, const Request& request) {
-  if (!request.has_history() && args.sequence.warm_up > 0)
+void check_history(const RenderArgs& args, const Resolver& method) {
+  if (!method.has_history() && args.sequence.warm_up > 0)
     throw Error(ErrorKind::Usage,
                 fmt::format("--warm-up is for methods that average frames, and {} does not", args.method));
-  if (!request.has_history()) return;
+  if (!method.has_history()) return;
   const auto refuse = [&](const std::string& option) {
     throw Error(ErrorKind::Usage,
                 fmt::format("--anti-aliasing {}: it averages frames, which excludes {}", args.method, option));
@@ -191,9 +191,8 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
   Plan plan(args, source);
   out.has_read();
   const bool is_numbered = has_number || !is_film(args.output);
-  const Request request = method->request({});
-  check_passes(args, request);
-  check_history(args, request);
+  check_passes(args, request_of(args, *method));
+  check_history(args, *method);
   Sequence sequence = plan.sequence();
   Renderer renderer(sequence.scene(plan.frames().front()), std::move(method));
   args.display.mapping = plan.tone_mapping();

@@ -29,6 +29,7 @@ class FsrMethod : public Resolver {
   FsrMethod(std::string_view name, double scale, const Options& options)
       : name_(name), scale_(scale), options_(options) {}
 
+  bool has_history() const override { return true; }
   Request request(const FrameContext& context) override {
     context_ = context;
     frame_ = frame_size(context, scale_);

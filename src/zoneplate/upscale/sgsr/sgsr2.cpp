@@ -53,6 +53,7 @@ class Sgsr2Method : public Resolver {
  public:
   explicit Sgsr2Method(double scale) : scale_(scale) {}
 
+  bool has_history() const override { return true; }
   Request request(const FrameContext& context) override {
     context_ = context;
     // Elements of Halton's sequence around 0 are the jitters; samples lie at the centres minus them.

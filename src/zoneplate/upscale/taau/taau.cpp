@@ -30,6 +30,7 @@ class TaauMethod : public Resolver {
  public:
   explicit TaauMethod(double scale) : scale_(scale), jitter_(halton_sequence(phases(scale))) {}
 
+  bool has_history() const override { return true; }
   Request request(const FrameContext& context) override {
     context_ = context;
     sample_ = sample_of(context, jitter_[static_cast<std::size_t>(context.index) % jitter_.size()]);

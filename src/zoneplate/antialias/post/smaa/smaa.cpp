@@ -179,6 +179,7 @@ constexpr Subsample four[] = {
 class SmaaSubsamples : public Resolver {
  public:
   SmaaSubsamples(const SmaaOptions& options, Subsamples subsamples) : options_(options), subsamples_(subsamples) {}
+  bool has_history() const override { return subsamples_.frames() > 1; }
   Request request(const FrameContext& context) override {
     context_ = context;
     Request request = display_referred_request(smaa_reach(options_));
@@ -186,7 +187,7 @@ class SmaaSubsamples : public Resolver {
     for (const Subsample& s : subsamples_.of_frame(context.index)) request.samples.push_back(s.position);
     request.planes.samples = true;
     request.settling_frames = subsamples_.frames();
-    if (!request.has_history()) return request;
+    if (!has_history()) return request;
     request.halo = Request::whole_image;
     request.planes.motion = true;
     return request;
