@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What all spatial upscalers have in common.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

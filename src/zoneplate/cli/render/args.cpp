@@ -334,7 +334,7 @@ std::vector<Option> picture_options(RenderArgs& a) {
                     }),
       {"--exposure", "STOPS",
        "Exposure in stops: each stop doubles the brightness, negative ones halve it; or auto: 95 % of the surfaces' "
-       "pixels have no channel above 0.8, in a sequence those of its first frame; default 0",
+       "pixels have no channel above 0.8, in a sequence those of frame 0; default 0",
        group, false,
        [&](auto& text) {
          a.meters_exposure = text == "auto";

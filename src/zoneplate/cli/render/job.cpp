@@ -73,6 +73,8 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
   const Camera camera = choose_camera(scene, args.view, aspect);
   summary.warnings = scene.warnings;
+  if (std::string late = lateness(args, end_of_animation(args.load.choice, scene)); !late.empty())
+    summary.warnings.push_back(std::move(late));
   out.progress("render", 0.1);
   check_passes(args, request_of(args, *method));
   RenderedImage image;

@@ -30,19 +30,22 @@ class Plan {
     if (!has_animation && !scene.animations.empty() && (is_chosen || !args.sequence.turntable)) {
       choice_.animation = 0;
       if (scene.animations.size() > 1)
-        note_ = fmt::format("{}: animation 0 of {}{}; --animation-index chooses another, by index or name, or all",
-                            args.input, scene.animations.size(),
-                            scene.animations[0].name.empty() ? "" : " (" + scene.animations[0].name + ")");
+        notes_.push_back(fmt::format(
+            "{}: animation 0 of {}{}; --animation-index chooses another, by index or name, or all", args.input,
+            scene.animations.size(), scene.animations[0].name.empty() ? "" : " (" + scene.animations[0].name + ")"));
     }
-    for (std::size_t i = 0; i < scene.animations.size(); ++i)
-      if (plays(scene.animations[i].name, i)) end_ = std::max(end_, static_cast<double>(scene.animations[i].end));
+    end_ = end_of_animation(choice_, scene);
     if (!choice_.animation && choice_.animation_name.empty()) still_ = std::move(scene);
     list_frames();
+    if (still_ && !args.sequence.turntable && frames_.size() > 1)
+      notes_.push_back(fmt::format("{}: has no animation, so that all {} frames show the same; see --turntable",
+                                   args.input, frames_.size()));
+    if (std::string late = lateness(args, end_); !late.empty()) notes_.push_back(std::move(late));
   }
 
   const std::vector<int>& frames() const { return frames_; }
-  // Which of several animations is played without having been chosen; empty if there is no choice.
-  const std::string& note() const { return note_; }
+  // What the user may not expect: which of several animations is played, or that nothing moves.
+  const std::vector<std::string>& notes() const { return notes_; }
   // Of the scene that was made last.
   ToneMapping tone_mapping() const { return tone_mapping_; }
 
@@ -78,11 +81,6 @@ class Plan {
     return scene;
   }
 
-  bool plays(const std::string& name, std::size_t index) const {
-    if (!choice_.animation_name.empty()) return name == choice_.animation_name;
-    return choice_.animation == SceneChoice::all_animations || choice_.animation == static_cast<int>(index);
-  }
-
   // The number of the animation's last frame.
   int last_of_animation(int first) const {
     const SequenceArgs& s = args_.sequence;
@@ -111,7 +109,7 @@ class Plan {
   const RenderArgs& args_;
   SceneSource& source_;
   SceneChoice choice_;
-  std::string note_;
+  std::vector<std::string> notes_;
   ToneMapping tone_mapping_ = ToneMapping::None;
   double end_ = 0;              // end of the animation, in seconds
   std::optional<Scene> still_;  // the scene, if it is not animated
@@ -175,6 +173,28 @@ bool is_one_frame(const SequenceArgs& s) { return s.count == 1 || (s.first && s.
 
 }  // namespace
 
+double end_of_animation(const SceneChoice& choice, const Scene& scene) {
+  const auto plays = [&](const AnimationSpan& span) {
+    if (!choice.animation_name.empty()) return span.name == choice.animation_name;
+    return choice.animation == SceneChoice::all_animations ||
+           choice.animation == static_cast<int>(&span - scene.animations.data());
+  };
+  double end = 0;
+  for (const AnimationSpan& span : scene.animations)
+    if (plays(span)) end = std::max(end, static_cast<double>(span.end));
+  return end;
+}
+
+std::string lateness(const RenderArgs& args, double end) {
+  const double time = args.load.choice.time;
+  if (!args.has_animation_time || !(time > end)) return "";
+  return end > 0 ? fmt::format(
+                       "{}: --animation-time {:.6g} is after the end of the animation at {:.6g} s: its last "
+                       "pose is shown",
+                       args.input, time, end)
+                 : fmt::format("{}: has no animation, so that --animation-time changes nothing", args.input);
+}
+
 bool is_film(const std::string& output) {
   const std::string extension = extension_of(output);
   return extension == ".apng" || extension == ".webp" || is_encoded_by_ffmpeg(output);
@@ -194,14 +214,11 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
   check_passes(args, request_of(args, *method));
   check_history(args, *method);
   Sequence sequence = plan.sequence();
-  Renderer renderer(sequence.scene(plan.frames().front()), std::move(method));
+  // What all frames share and the scene decides, it decides at frame 0, whichever frames are rendered: nothing
+  // flickers, and the parts of a sequence look alike.
+  Renderer renderer(sequence.scene(0), std::move(method));
   args.display.mapping = plan.tone_mapping();
   set_usual_options(args, renderer.scene().scene());
-  summary.warnings = renderer.scene().scene().warnings;
-  if (!plan.note().empty()) summary.warnings.push_back(plan.note());
-  if (!is_numbered && plan.frames().size() == 1 && !is_one_frame(args.sequence))
-    summary.warnings.push_back(
-        fmt::format("{}: has no animation, so that {} has one frame; see --turntable", args.input, args.output));
   args.view.up = args.up.value_or(renderer.scene().scene().up);
   const bool is_animated = !renderer.scene().scene().animations.empty();
   if (is_builtin_scene(args.input) && is_animated && !args.view.index && !args.view.position) args.view.index = 0;
@@ -209,12 +226,16 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
   if (!is_numbered && !args.aovs.empty())
     throw Error(ErrorKind::Usage, "--aov requires numbered frames, as chair.####.png");
   sequence.set_view(args.view, aspect);
-  // One exposure for all frames, so that the sequence does not flicker.
   if (args.meters_exposure) {
-    const SceneView first = sequence.view(plan.frames().front());
-    args.display.exposure = metered_exposure(first.scene, first.camera, args);
+    const SceneView start = sequence.view(0);
+    args.display.exposure = metered_exposure(start.scene, start.camera, args);
   }
   summary.exposure = args.display.exposure;
+  summary.warnings = sequence.scene(plan.frames().front()).scene().warnings;
+  summary.warnings.insert(summary.warnings.end(), plan.notes().begin(), plan.notes().end());
+  if (!is_numbered && plan.frames().size() == 1 && !is_one_frame(args.sequence))
+    summary.warnings.push_back(
+        fmt::format("{}: has no animation, so that {} has one frame; see --turntable", args.input, args.output));
 
   warm_up(args, sequence, plan.frames().front(), renderer);
   AnimationFormat format = film_format(args.sequence.rate);
