@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "zoneplate/cli/render/item_messages.h"
+#include "zoneplate/cli/process/item_messages.h"
 #include "zoneplate/cli/render/summary.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -27,6 +27,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (layer < -1) std::abort();
     take_all(bytes, read);
   };
+  events.named_file = [&](const std::string&, std::uint64_t bytes, const cli::ItemEvents::Read& read) {
+    take_all(bytes, read);
+  };
+  events.text = [](cli::TextKind kind, const std::string&) {
+    if (kind > cli::TextKind::Warning) std::abort();
+  };
+  events.begins_to_read = [](const std::string&) {};
   events.film_frame = take_all;
   events.environment = [&](std::uint64_t, std::uint64_t bytes, const cli::ItemEvents::Read& read) {
     take_all(bytes, read);

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "measured_run.h"
+#include "verbs_for_test.h"
 #include "zoneplate/base/paths_for_test.h"
 #include "zoneplate/formats/assimp/assimp.h"
 #include "zoneplate/report/json_for_test.h"
@@ -83,6 +84,17 @@ class Appetite : public testing::Test {
   }
 
   void expect_within(const Limits& limits, const Input& input) const;
+  void expect_within(const Limits& limits, const FileCommand& command, const fs::path& file) const;
+
+  /// The images that the inputs consist of.
+  std::vector<fs::path> images() const {
+    std::vector<fs::path> out;
+    for (const auto& entry : fs::directory_iterator(place / "in"))
+      for (const char* ending : {".png", ".jpg", ".webp", ".hdr", ".exr", ".pfm"})
+        if (entry.path().extension() == ending) out.push_back(entry.path());
+    std::sort(out.begin(), out.end());
+    return out;
+  }
   void expect_others_are_done(const Limits& limits, const std::vector<Input>& hungry) const;
 
   fs::path place;
@@ -127,6 +139,27 @@ void Appetite::expect_within(const Limits& limits, const Input& input) const {
   else
     expect_one_error(run.err, run.code == 2 ? "" : input.name);
   EXPECT_EQ(fs::is_empty(place / "images"), run.code != 0);
+  empty_pictures();
+}
+
+/// Any verb ends within the limits: with a documented exit code, and one error or an output.
+void Appetite::expect_within(const Limits& limits, const FileCommand& command, const fs::path& file) const {
+  SCOPED_TRACE(command.name + ": " + file.filename().string());
+  Words words = command.with(file.string(), "images/image.png");
+  words.insert(words.end(), limits.words.begin(), limits.words.end());
+  const MeasuredRun run = run_measured(words, place, 2 * limits.most_seconds);
+  std::printf("%-14s %-32s exit %d %6.2f s %5.0f MB %s\n", command.name.c_str(), file.filename().c_str(), run.code,
+              run.seconds, static_cast<double>(run.resident_bytes) / 1e6,
+              run.err.substr(0, run.err.find('\n')).c_str());
+  EXPECT_TRUE(run.code == 0 || run.code == 1 || run.code == 3 || (command.writes_always && run.code == 5)) << run.code;
+  EXPECT_LT(run.seconds, limits.most_seconds);
+  EXPECT_LT(run.resident_bytes, limits.most_bytes);
+  const bool is_foreign = file.string().find("foreign") != std::string::npos;
+  EXPECT_TRUE(is_foreign || run.err.find("crashed (signal") == std::string::npos) << run.err;
+  if (run.code == 1 || run.code == 3) {
+    expect_one_error(run.err, file.filename().string());
+    EXPECT_TRUE(fs::is_empty(place / "images"));
+  }
   empty_pictures();
 }
 
@@ -180,6 +213,17 @@ TEST_F(Appetite, OneOfEachKindStaysWithinTheLimits) {
   for (const Input& input : inputs) expect_within(quick_limits(), input);
 }
 
+TEST_F(Appetite, OneOfEachKindStaysWithinTheLimitsOfOneVerb) {
+  std::size_t turn = 0;
+  for (const Input& input : one_of_each_kind())
+    if (input.is_file)
+      expect_within(quick_limits(), model_commands()[turn++ % model_commands().size()], path_of(input));
+  for (const fs::path& image : images())
+    expect_within(quick_limits(), image_commands()[turn++ % image_commands().size()], image);
+  for (const FileCommand& command : image_commands())
+    expect_within(quick_limits(), command, place / "in/png-rgba-16000.png");
+}
+
 TEST_F(Appetite, JobsBesideThemAreDone) {
   std::vector<Input> few = one_of_each_kind();
   few.resize(12);
@@ -191,6 +235,14 @@ TEST_F(Appetite, DISABLED_EveryInputStaysWithinTheLimits) {
   const std::vector<Input> inputs = all_inputs();
   EXPECT_GE(inputs.size(), 60u);
   for (const Input& input : inputs) expect_within(full_limits(), input);
+}
+
+TEST_F(Appetite, DISABLED_EveryInputStaysWithinTheLimitsOfEveryVerb) {
+  for (const Input& input : all_inputs())
+    for (const FileCommand& command : model_commands())
+      if (input.is_file) expect_within(full_limits(), command, path_of(input));
+  for (const fs::path& image : images())
+    for (const FileCommand& command : image_commands()) expect_within(full_limits(), command, image);
 }
 
 TEST_F(Appetite, DISABLED_JobsBesideAllOfThemAreDone) { expect_others_are_done(full_limits(), all_inputs()); }

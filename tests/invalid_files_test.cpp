@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "verbs_for_test.h"
 #include "zoneplate/base/paths_for_test.h"
 #include "zoneplate/base/shared_files_for_test.h"
 #include "zoneplate/codec/jpeg_encode.h"
@@ -322,11 +323,33 @@ class InvalidFiles : public testing::Test {
     fs::remove(out);
     EXPECT_TRUE(fs::is_empty(folder / "out")) << about;
   }
+  /// Gives the file to every verb that reads its kind: each refuses or takes it as the first one does.
+  void judge_by_every_verb(const fs::path& file, int code) const {
+    const bool is_image = command_for(file)[0] == "signal";
+    for (const zoneplate::FileCommand& command : is_image ? zoneplate::image_commands() : zoneplate::model_commands()) {
+      const fs::path out = folder / "out" / "image.png";
+      std::vector<std::string> words = command.with(file.string(), out.string());
+      words.insert(words.end(), {"--max-memory", "200M", "--max-import-seconds", "2", "--max-seconds", "10"});
+      const Result r = run(words, folder / "err");
+      const std::string about = command.name + ' ' + file.string() + ": " + r.err;
+      const int refused = command.writes_always ? 5 : 3;
+      EXPECT_TRUE(r.code == (code == 3 ? refused : 0) || (code == 0 && is_image && r.code == 3)) << r.code << about;
+      std::size_t errors = 0;
+      for (std::size_t at = 0; (at = r.err.find("zoneplate: error: ", at)) != std::string::npos; ++at) ++errors;
+      EXPECT_EQ(errors, r.code == 0 ? 0u : command.writes_always ? 2u : 1u) << about;  // one of the sheet itself
+      EXPECT_EQ(r.err.find("crashed"), std::string::npos) << about;
+      EXPECT_LT(r.seconds, 15) << about;
+      EXPECT_EQ(fs::exists(out), command.name != "info" && r.code != 3) << about;
+      fs::remove_all(out);
+      EXPECT_TRUE(fs::is_empty(folder / "out")) << about;
+    }
+  }
   void judge(const std::vector<Case>& cases) const {
     for (const Case& c : cases) {
       const fs::path file = folder / c.name;
       std::ofstream(file, std::ios::binary) << c.bytes;
       judge(file, c.code, c.words);
+      judge_by_every_verb(file, c.code);
       fs::remove(file);
     }
   }

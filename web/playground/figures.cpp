@@ -25,7 +25,7 @@ double Typeface::width(std::string_view) const { return 0; }
 void Typeface::draw(Rgba8Image&, int, int, std::string_view, Rgba8) const {}
 
 Rgba8Image table_picture(const Table&, const FigureStyle&, int) { return {}; }
-Rgba8Image plot_picture(const Plot&, const PlotSize&) { return {}; }
+Rgba8Image plot_picture(const Plot&, const PlotSize&, int) { return {}; }
 
 Json::Array figure_rows() {
   Json::Array out;

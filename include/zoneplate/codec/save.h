@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "zoneplate/image/rgb.h"
 
@@ -22,6 +24,12 @@ void save_image(const std::string& path, const Rgba8Image& image);
 ///
 /// Errors    as above.
 void save_image(const std::string& path, const LinearImage& image);
+
+/// The bytes of the file that save_image would write.
+///@{
+std::vector<std::uint8_t> encode_image(const std::string& path, const Rgba8Image& image);
+std::vector<std::uint8_t> encode_image(const std::string& path, const LinearImage& image);
+///@}
 
 }  // namespace zoneplate
 #pragma GCC visibility pop

@@ -27,6 +27,8 @@ class Progress {
   /// After two seconds the bar also shows the time that is left if the rest is as fast.
   void begin(std::string_view stage, double done);
 
+  bool is_shown() const { return kind_ != ProgressKind::None; }
+
   /// Clears the bar, so that other lines can be printed.
   void clear();
 

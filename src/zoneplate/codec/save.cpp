@@ -20,20 +20,23 @@ std::string extension_of(const std::string& path) {
   return extension;
 }
 
-void save_image(const std::string& path, const Rgba8Image& image) {
+std::vector<std::uint8_t> encode_image(const std::string& path, const Rgba8Image& image) {
   const std::string extension = extension_of(path);
   const bool has_alpha = std::ranges::any_of(image.values(), [](Rgba8 c) { return c.a != 255; });
-  if (extension == ".png") return save_bytes(path, encode_png(image, {.has_alpha = has_alpha}));
-  if (extension == ".jpg" || extension == ".jpeg") return save_bytes(path, encode_jpeg(image));
-  if (extension == ".webp") return save_bytes(path, encode_webp(image, has_alpha));
+  if (extension == ".png") return encode_png(image, {.has_alpha = has_alpha});
+  if (extension == ".jpg" || extension == ".jpeg") return encode_jpeg(image);
+  if (extension == ".webp") return encode_webp(image, has_alpha);
   throw Error(ErrorKind::Usage, path + ": display-referred images are saved as .png, .jpg, .jpeg or .webp");
 }
 
-void save_image(const std::string& path, const LinearImage& image) {
+std::vector<std::uint8_t> encode_image(const std::string& path, const LinearImage& image) {
   const std::string extension = extension_of(path);
-  if (extension == ".pfm") return save_bytes(path, encode_pfm(image));
+  if (extension == ".pfm") return encode_pfm(image);
   if (extension != ".exr") throw Error(ErrorKind::Usage, path + ": scene-linear images are saved as .exr or .pfm");
-  save_bytes(path, encode_exr(image.width(), image.height(), rgba_channels(image)));
+  return encode_exr(image.width(), image.height(), rgba_channels(image));
 }
+
+void save_image(const std::string& path, const Rgba8Image& image) { save_bytes(path, encode_image(path, image)); }
+void save_image(const std::string& path, const LinearImage& image) { save_bytes(path, encode_image(path, image)); }
 
 }  // namespace zoneplate

@@ -98,18 +98,51 @@ std::span<const std::uint8_t> read_all(int fd, const std::string& path, std::uin
   }
 }
 
+/// Whether the name is that of an open descriptor, from which the user has data read that are in no file: standard
+/// input, or a shell's process substitution.
+bool is_open_descriptor(const std::string& path) {
+  return path == "-" || path == "/dev/stdin" || path.starts_with("/dev/fd/") || path.starts_with("/proc/self/fd/");
+}
+
+void check_kind(const std::string& path, const struct stat& status) {
+  const auto refuse = [&](const char* what) {
+    throw Error(ErrorKind::Input, (path == "-" ? "standard input" : path) + ": is " + what + ", not a file");
+  };
+  if (S_ISDIR(status.st_mode)) refuse("a directory");
+  if (is_open_descriptor(path)) return;
+  if (S_ISFIFO(status.st_mode)) refuse("a FIFO");
+  if (S_ISSOCK(status.st_mode)) refuse("a socket");
+  if (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)) refuse("a device");
+}
+
+}  // namespace
+
+void check_is_file(const std::string& path) {
+  struct stat status {};
+  if (::stat(path.c_str(), &status) == 0) check_kind(path, status);
+}
+
+namespace {
+
+/// Opens a file whose kind the caller checks: another one may be there by then.
+int open_to_read(const std::string& path) {
+  check_is_file(path);  // a socket, which cannot be opened
+  // Without O_NONBLOCK, opening a FIFO waits for its writer.
+  return open_retrying(path.c_str(), O_RDONLY | (is_open_descriptor(path) ? 0 : O_NONBLOCK));
+}
+
 }  // namespace
 
 FileBytes::FileBytes(const std::string& path, std::uint64_t limit) {
   const bool is_stdin = path == "-";
-  const Descriptor file(is_stdin ? -1 : open_retrying(path.c_str(), O_RDONLY));
+  const Descriptor file(is_stdin ? -1 : open_to_read(path));
   *this = FileBytes(is_stdin ? STDIN_FILENO : file.fd(), path, limit);
 }
 
 FileBytes::FileBytes(int fd, const std::string& path, std::uint64_t limit) {
   struct stat status {};
   if (fd < 0 || ::fstat(fd, &status) != 0) throw read_error(path, cause_of(errno));
-  if (S_ISDIR(status.st_mode)) throw read_error(path, "it is a directory");
+  check_kind(path, status);
 
   // A file of known size is mapped; other inputs are read.
   if (S_ISREG(status.st_mode) && status.st_size > 0 && path != "-") {
@@ -130,9 +163,11 @@ FileBytes::FileBytes(int fd, const std::string& path, std::uint64_t limit) {
 
 void read_parts(const std::string& path, const std::function<bool(std::span<const std::uint8_t>)>& take) {
   const bool is_stdin = path == "-";
-  const Descriptor file(is_stdin ? -1 : open_retrying(path.c_str(), O_RDONLY));
+  const Descriptor file(is_stdin ? -1 : open_to_read(path));
   const int fd = is_stdin ? STDIN_FILENO : file.fd();
-  if (fd < 0) throw read_error(path, cause_of(errno));
+  struct stat status {};
+  if (fd < 0 || ::fstat(fd, &status) != 0) throw read_error(path, cause_of(errno));
+  check_kind(path, status);
   std::vector<std::uint8_t> part(std::size_t{1} << 20);
   for (bool wants_more = true; wants_more;) {
     const std::size_t size = read_some(fd, part.data(), part.size(), path);

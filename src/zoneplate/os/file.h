@@ -14,7 +14,8 @@ namespace zoneplate {
 /// The contents of a whole file: mapped, or read if it cannot be mapped (a pipe, or "-" for stdin).
 ///
 /// The mapping counts as memory of the process (os/memory_limit.h).
-/// Errors    ErrorKind::Input naming the file and the cause: missing, a directory, not readable, larger than `limit`.
+/// A FIFO, a device or a socket is refused at once, unless it is an open descriptor: "-", /dev/stdin or /dev/fd/N.
+/// Errors    ErrorKind::Input naming the file and the cause: missing, not a file, not readable, larger than `limit`.
 ///           For a file that is truncated while it is mapped: os/mapped_file_guard.h.
 class FileBytes {
  public:
@@ -42,6 +43,9 @@ class FileBytes {
 ///
 /// Errors    ErrorKind::Input naming the file and the cause, as FileBytes; those of `take`.
 void read_parts(const std::string& path, const std::function<bool(std::span<const std::uint8_t>)>& take);
+/// Errors    ErrorKind::Input if `path` exists and FileBytes would refuse it because it is not a file: a directory, a FIFO,
+///           a device or a socket. It does not wait for the other end of a FIFO.
+void check_is_file(const std::string& path);
 
 /// Writes a file in parts, completely or not at all: to a temporary name in the same directory, which is then renamed.
 /// "-" is stdout.

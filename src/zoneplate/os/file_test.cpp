@@ -105,12 +105,37 @@ TEST_F(File, MovesWithItsBytes) {
 }
 
 TEST_F(File, ReadsWhatCannotBeMapped) {
-  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  int ends[2];
+  ASSERT_EQ(::pipe(ends), 0);
   const Bytes bytes = made(300000);
-  std::thread writer([&] { save_bytes(path("pipe"), bytes); });
-  EXPECT_EQ(loaded(path("pipe")), bytes);
+  std::thread writer([&] {
+    save_bytes("/dev/fd/" + std::to_string(ends[1]), bytes);
+    ::close(ends[1]);
+  });
+  Bytes found;
+  EXPECT_NO_THROW(found = loaded("/dev/fd/" + std::to_string(ends[0])));  // as a shell's process substitution
   writer.join();
+  ::close(ends[0]);
+  EXPECT_EQ(found, bytes);
   EXPECT_FALSE(loaded("/proc/self/status").empty());
+}
+
+TEST_F(File, RefusesWhatIsNoFileAtOnce) {
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  std::filesystem::create_symlink("pipe", path("link"));
+  const auto refusal = [](const std::string& name) -> std::string {
+    try {
+      FileBytes file(name);
+      return "";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::Input);
+      return error.what();
+    }
+  };
+  EXPECT_EQ(refusal(path("pipe")), path("pipe") + ": is a FIFO, not a file");
+  EXPECT_EQ(refusal(path("link")), path("link") + ": is a FIFO, not a file");
+  EXPECT_EQ(refusal("/dev/zero"), "/dev/zero: is a device, not a file");
+  EXPECT_EQ(refusal(folder_.string()), folder_.string() + ": is a directory, not a file");
 }
 
 TEST_F(File, ReadsStandardInput) {
@@ -126,12 +151,12 @@ TEST_F(File, SaysWhyItCannotBeRead) {
   EXPECT_EQ(error_of(ErrorKind::Input, [&] { FileBytes(path("none")); }),
             path("none") + ": cannot be read: No such file or directory");
   EXPECT_EQ(error_of(ErrorKind::Input, [&] { FileBytes(folder_.string()); }),
-            folder_.string() + ": cannot be read: it is a directory");
+            folder_.string() + ": is a directory, not a file");
   save_bytes(path("a"), made(101));
   EXPECT_EQ(FileBytes(path("a"), 101).bytes().size(), 101u);
   EXPECT_EQ(error_of(ErrorKind::Input, [&] { FileBytes(path("a"), 100); }),
             path("a") + ": cannot be read: larger than the limit of 100 bytes");
-  EXPECT_NE(error_of(ErrorKind::Input, [&] { FileBytes("/dev/zero", 1 << 20); }).find("larger"), std::string::npos);
+  EXPECT_NE(error_of(ErrorKind::Input, [&] { FileBytes("/proc/self/maps", 1); }).find("larger"), std::string::npos);
 }
 
 TEST_F(File, SaysWhyItCannotBeWritten) {

@@ -214,11 +214,12 @@ std::string script_of(std::span<const Plot> plots, int columns, const PlotSize& 
 }
 
 std::vector<std::uint8_t> drawn(std::span<const Plot> plots, int columns, const PlotSize& size,
-                                const Terminal& terminal) {
+                                const Terminal& terminal, int milliseconds) {
   // `-d` ignores initialization files of the machine and the user.
   const ProgramResult answer = [&] {
     try {
-      return run_child("gnuplot", {"-d", "-"}, script_of(plots, columns, size, terminal));
+      return run_child("gnuplot", {"-d", "-"}, script_of(plots, columns, size, terminal),
+                       {.milliseconds = milliseconds});
     } catch (const Error& error) {
       throw Error(ErrorKind::Failed, std::string(error.what()) + "; plots need it (Debian's package gnuplot-nox)");
     }
@@ -231,16 +232,20 @@ std::vector<std::uint8_t> drawn(std::span<const Plot> plots, int columns, const 
 
 }  // namespace
 
-std::string plots_svg(std::span<const Plot> plots, int columns, const PlotSize& size) {
-  const std::vector<std::uint8_t> bytes = drawn(plots, columns, size, svg);
+std::string plots_svg(std::span<const Plot> plots, int columns, const PlotSize& size, int milliseconds) {
+  const std::vector<std::uint8_t> bytes = drawn(plots, columns, size, svg, milliseconds);
   return {bytes.begin(), bytes.end()};
 }
 
-Rgba8Image plots_picture(std::span<const Plot> plots, int columns, const PlotSize& size) {
-  return decode_png(drawn(plots, columns, size, cairo), "the plot").pixels;
+Rgba8Image plots_picture(std::span<const Plot> plots, int columns, const PlotSize& size, int milliseconds) {
+  return decode_png(drawn(plots, columns, size, cairo, milliseconds), "the plot").pixels;
 }
 
-std::string plot_svg(const Plot& plot, const PlotSize& size) { return plots_svg({&plot, 1}, 1, size); }
-Rgba8Image plot_picture(const Plot& plot, const PlotSize& size) { return plots_picture({&plot, 1}, 1, size); }
+std::string plot_svg(const Plot& plot, const PlotSize& size, int milliseconds) {
+  return plots_svg({&plot, 1}, 1, size, milliseconds);
+}
+Rgba8Image plot_picture(const Plot& plot, const PlotSize& size, int milliseconds) {
+  return plots_picture({&plot, 1}, 1, size, milliseconds);
+}
 
 }  // namespace zoneplate

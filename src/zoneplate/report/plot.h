@@ -55,18 +55,19 @@ struct PlotSize {
 
 /// Draws the plot as the text of an SVG file, or as an image; legible at half size.
 ///
-/// The plot is drawn by gnuplot in a child process with a time limit. Texts are unchanged, except that ' becomes ’.
+/// The plot is drawn by gnuplot in a child process, in `milliseconds` at most. Texts are unchanged, except that '
+/// becomes ’.
 /// Exact     no time stamp; the same bytes with the same versions of gnuplot and its fonts.
 /// Errors    ErrorKind::Failed naming gnuplot and its package if it is not installed or fails.
 ///           Where there is no gnuplot, as in a page, a picture may be empty.
-std::string plot_svg(const Plot& plot, const PlotSize& size = {});
-Rgba8Image plot_picture(const Plot& plot, const PlotSize& size = {});
+std::string plot_svg(const Plot& plot, const PlotSize& size = {}, int milliseconds = 20000);
+Rgba8Image plot_picture(const Plot& plot, const PlotSize& size = {}, int milliseconds = 20000);
 
 /// Several plots of this size each, `columns` side by side, row by row.
 ///
 /// Requires  plots are not empty, columns >= 1.
-std::string plots_svg(std::span<const Plot> plots, int columns, const PlotSize& size = {});
-Rgba8Image plots_picture(std::span<const Plot> plots, int columns, const PlotSize& size = {});
+std::string plots_svg(std::span<const Plot> plots, int columns, const PlotSize& size = {}, int milliseconds = 20000);
+Rgba8Image plots_picture(std::span<const Plot> plots, int columns, const PlotSize& size = {}, int milliseconds = 20000);
 
 /// A palette for colour-blind readers, in the order of the curves.
 ///

@@ -12,6 +12,8 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/args.h"
 #include "zoneplate/cli/log.h"
+#include "zoneplate/cli/packed.h"
+#include "zoneplate/cli/process/confined.h"
 #include "zoneplate/cli/render/items.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
@@ -32,6 +34,7 @@ struct FidelityArgs {
   std::string output, root, method = "ssaa:n=3,mix=codes";
   std::vector<std::string> peers = {"model-viewer", "filament", "babylon", "gltf-sample-viewer"};
   int threads = 0;
+  ReadingLimits limits;
 };
 
 /// A view of a model in the light of an image.
@@ -41,12 +44,13 @@ struct Scenario {
   float3 target{0, 0, 0};
   float view_angle = 45;
   bool has_background = false;
+  int2 size{0, 0};  ///< of the peers' images
 };
 
 /// The scene that all peers render: camera as <model-viewer>, no lights but the image, three.js' ACES curve. Most peers
 /// draw glass opaque before a transparent background.
 std::vector<std::string> render_arguments(const Scenario& s, const FidelityArgs& args, const std::string& root,
-                                          int2 size, const std::string& output) {
+                                          const std::string& output) {
   const SineCosine theta = sine_cosine(static_cast<double>(s.theta) * 3.14159265358979323846 / 180);
   const SineCosine phi = sine_cosine(static_cast<double>(s.phi) * 3.14159265358979323846 / 180);
   const auto narrow = [](double x) { return static_cast<float>(x); };
@@ -58,7 +62,7 @@ std::vector<std::string> render_arguments(const Scenario& s, const FidelityArgs&
                                     output,
                                     "--quiet",
                                     "--size",
-                                    fmt::format("{}x{}", size.x, size.y),
+                                    fmt::format("{}x{}", s.size.x, s.size.y),
                                     "--aa",
                                     args.method,
                                     "--tone-mapping",
@@ -79,9 +83,9 @@ std::vector<std::string> render_arguments(const Scenario& s, const FidelityArgs&
 }
 
 /// The list of the file: a JSON array, or the member "scenarios" of an object.
-std::vector<Scenario> read_scenarios(const std::string& path) {
-  const FileBytes file(path);
-  ImportBudget budget(path, {});
+std::vector<Scenario> read_scenarios(const std::string& path, const LoadLimits& limits) {
+  const FileBytes file(path, limits.memory);
+  ImportBudget budget(path, limits);
   JsonValue whole{.kind = JsonValue::Kind::Object, .keys = {"scenarios"}};
   JsonValue value = parse_json(file.bytes(), budget);
   const bool is_list = value.kind == JsonValue::Kind::List;
@@ -187,18 +191,109 @@ Syntax fidelity_syntax(FidelityArgs& args) {
        "Antialiasing method; default ssaa:n=3,mix=codes, as the images of the peers are made", group, true,
        [&](auto& text) { args.method = text; }},
       {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow", group, false,
-       [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
+       [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }},
+      allow_path_option(args.limits.load)};
+  for (Option& option : limit_options(args.limits, "a scenario")) syntax.options.push_back(std::move(option));
   return syntax;
 }
 
-std::map<std::string, metrics::Picture> load_peers(const FidelityArgs& args, const fs::path& folder) {
-  std::map<std::string, metrics::Picture> peers;
+/// The images of the peers that exist, by their names.
+std::map<std::string, std::string> peer_files(const FidelityArgs& args, const std::string& file,
+                                              const Scenario& scenario) {
+  const fs::path folder = fs::absolute(file).parent_path() / "images" / scenario.name;
+  std::map<std::string, std::string> files;
   std::error_code ignored;
   for (const std::string& name : args.peers)
-    if (const fs::path file = folder / (name + ".png"); fs::exists(file, ignored))
-      peers.emplace(name, metrics::load_picture(file.string()));
-  if (peers.empty()) throw Error(ErrorKind::Input, folder.string() + ": no image of a peer");
-  return peers;
+    if (const fs::path image = folder / (name + ".png"); fs::exists(image, ignored)) files.emplace(name, image);
+  if (files.empty()) throw Error(ErrorKind::Input, folder.string() + ": no image of a peer");
+  return files;
+}
+
+ConfinedRun confined_run(const FidelityArgs& args, const std::string& file, std::vector<std::string> readable) {
+  return {.name = file, .limits = args.limits, .readable = std::move(readable), .outputs = {}};
+}
+
+/// Reads the scenarios in a confined process.
+std::vector<Scenario> confined_scenarios(const FidelityArgs& args, const std::string& file) {
+  const std::vector<std::uint8_t> bytes = run_confined(confined_run(args, file, {file}), [&](Delivery& out) {
+    std::vector<Scenario> scenarios;
+    out.read(file, [&] { scenarios = read_scenarios(file, out.limits()); });
+    Packer packer;
+    packer.value(std::uint64_t{scenarios.size()});
+    for (const Scenario& s : scenarios) {
+      packer.text(s.name), packer.text(s.model), packer.text(s.environment);
+      packer.value(s.theta), packer.value(s.phi), packer.value(s.radius), packer.value(s.target);
+      packer.value(s.view_angle), packer.value(std::uint8_t{s.has_background});
+    }
+    out.set_result(std::move(packer).bytes());
+  });
+  Unpacker unpacker(bytes);
+  std::vector<Scenario> scenarios;
+  for (auto n = unpacker.value<std::uint64_t>(); n > 0; --n) {
+    Scenario& s = scenarios.emplace_back();
+    s.name = unpacker.text(), s.model = unpacker.text(), s.environment = unpacker.text();
+    s.theta = unpacker.value<float>(), s.phi = unpacker.value<float>(), s.radius = unpacker.value<float>();
+    s.target = unpacker.value<float3>(), s.view_angle = unpacker.value<float>();
+    s.has_background = unpacker.value<std::uint8_t>() != 0;
+  }
+  return scenarios;
+}
+
+metrics::Picture load_image(const std::string& path, Delivery& out) {
+  metrics::Picture picture;
+  out.read(path, [&] { picture = metrics::load_picture(path, out.limits().pixels); });
+  return picture;
+}
+
+/// The size of an image, which a confined process reads.
+int2 confined_size(const FidelityArgs& args, const std::string& image) {
+  const std::vector<std::uint8_t> bytes = run_confined(confined_run(args, image, {image}), [&](Delivery& out) {
+    const metrics::Picture picture = load_image(image, out);
+    Packer packer;
+    packer.value(int2{picture.width(), picture.height()});
+    out.set_result(std::move(packer).bytes());
+  });
+  const int2 size = Unpacker(bytes).value<int2>();
+  if (size.x < 1 || size.y < 1) throw Error(ErrorKind::Input, image + ": has no pixels");
+  return size;
+}
+
+/// Compares the rendered image with those of the peers, in a confined process.
+Verdict confined_verdict(const FidelityArgs& args, const std::string& output,
+                         const std::map<std::string, std::string>& peers) {
+  std::vector<std::string> readable{output};
+  for (const auto& [name, image] : peers) readable.push_back(image);
+  const std::vector<std::uint8_t> bytes = run_confined(confined_run(args, output, readable), [&](Delivery& out) {
+    std::map<std::string, metrics::Picture> pictures;
+    for (const auto& [name, image] : peers) pictures.emplace(name, load_image(image, out));
+    const Verdict v = judge(load_image(output, out), pictures);
+    Packer packer;
+    packer.text(v.nearest);
+    packer.value(v.decibels), packer.value(v.median), packer.value(v.bound), packer.value(v.overlap);
+    out.set_result(std::move(packer).bytes());
+  });
+  Unpacker unpacker(bytes);
+  Verdict v{.nearest = unpacker.text()};
+  v.decibels = unpacker.value<double>(), v.median = unpacker.value<double>(), v.bound = unpacker.value<double>();
+  v.overlap = unpacker.value<double>();
+  return v;
+}
+
+/// Renders a scenario as `zoneplate render` does, and compares it.
+Verdict verdict_of(const FidelityArgs& args, const std::string& file, Scenario scenario) {
+  if (scenario.name.find('/') != std::string::npos || scenario.name == "." || scenario.name == "..")
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: scenario '{}': its name is not that of a file", file, scenario.name));
+  const std::map<std::string, std::string> peers = peer_files(args, file, scenario);
+  scenario.size = confined_size(args, peers.begin()->second);
+  const std::string output = (fs::path(args.output) / (scenario.name + ".png")).string();
+  std::optional<RenderArgs> render =
+      parse_render_args(render_arguments(scenario, args, find_root(args, file, scenario), output));
+  render->progress = ProgressKind::None;
+  render->load.limits = args.limits.load;
+  render->max_seconds = args.limits.seconds, render->is_sandboxed = args.limits.is_sandboxed;
+  RenderItems({*render}).next();
+  return confined_verdict(args, output, peers);
 }
 
 }  // namespace
@@ -210,7 +305,7 @@ void run_fidelity(std::span<const std::string> arguments) {
   if (syntax.found_operands.size() != 1) throw Error(ErrorKind::Usage, "fidelity takes one file of scenarios");
   if (args.output.empty()) throw Error(ErrorKind::Usage, "no output: give -o DIR");
   const std::string file = syntax.found_operands.front();
-  const std::vector<Scenario> scenarios = read_scenarios(file);
+  const std::vector<Scenario> scenarios = confined_scenarios(args, file);
   if (scenarios.empty()) throw Error(ErrorKind::Input, file + ": no scenarios");
   std::error_code failure;
   fs::create_directories(args.output, failure);
@@ -219,16 +314,8 @@ void run_fidelity(std::span<const std::string> arguments) {
   Table table{{"scenario", "nearest", "dB", "peers' median", "bound", "overlap", "result"}, {}};
   int failed = 0;
   for (const Scenario& scenario : scenarios) {
-    const auto peers = load_peers(args, fs::absolute(file).parent_path() / "images" / scenario.name);
-    const DisplayImage& size = peers.begin()->second.display;
-    const std::string output = (fs::path(args.output) / (scenario.name + ".png")).string();
-    const std::vector<std::string> words =
-        render_arguments(scenario, args, find_root(args, file, scenario), {size.width(), size.height()}, output);
-    std::optional<RenderArgs> render = parse_render_args(words);
-    render->progress = ProgressKind::None;
-    with_threads(args.threads, [&] { RenderItems({*render}).next(); });
     Verdict v;
-    with_threads(args.threads, [&] { v = judge(metrics::load_picture(output), peers); });
+    with_threads(args.threads, [&] { v = verdict_of(args, file, scenario); });
     if (!v.is_good()) ++failed;
     table.rows.push_back({scenario.name, v.nearest, fmt::format("{:.2f}", v.decibels), fmt::format("{:.2f}", v.median),
                           fmt::format("{:.2f}", v.bound), fmt::format("{:.4f}", v.overlap),

@@ -50,7 +50,7 @@ Trial rendered(const TrialSetup& stage, const std::string& method, int turns,
   std::optional<Renderer> renderer;
   double sum_ms = 0;
   for (int turn = 0; turn < turns && (turn == 0 || sum_ms < budget_ms); ++turn) {
-    const MemoryWatch memory_watch;
+    const MemoryWatch memory_watch(stage.memory);
     const double used_before = processor_ms();
     const Stopwatch watch;
     if (!renderer) renderer.emplace(stage.scene, upscale::make_method(method));
@@ -71,7 +71,7 @@ Trial rendered(const TrialSetup& stage, const std::string& method, int turns,
 /// Renders a sequence by one method.
 Trial filmed(const TrialSetup& stage, const std::string& method, const std::function<void(double)>& progress) {
   Trial trial{.method = method};
-  const MemoryWatch memory_watch;
+  const MemoryWatch memory_watch(stage.memory);
   std::optional<Renderer> renderer;
   for (int i = 0; i < stage.frames; ++i) {
     SceneView view = stage.view(i);
@@ -168,7 +168,7 @@ void set_reference(const TrialSetup& stage, const TrialOptions& options, const T
     out.reference_picture = std::move(trial.picture), out.reference_film = std::move(trial.film);
     return;
   }
-  out.reference_picture = opaque(quantize8(metrics::load_picture(options.reference).display));
+  out.reference_picture = opaque(quantize8(stage.load_reference().display));
   const auto size = [](int w, int h) { return fmt::format("{}x{}", w, h); };
   const std::string found = size(out.reference_picture.width(), out.reference_picture.height());
   const std::string expected = size(stage.settings.options.width, stage.settings.options.height);

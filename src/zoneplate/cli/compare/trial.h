@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "zoneplate/cli/usage.h"
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/metrics/compare.h"
 #include "zoneplate/render/renderer.h"
@@ -73,8 +74,10 @@ struct TrialSetup {
   PreparedScene scene;
   Camera camera;
   RenderSettings settings;
+  const MemoryFiles& memory;
   int frames = 1;                           ///< more than 1: a sequence, of which every frame is rendered and measured
   std::function<SceneView(int)> view = {};  ///< of a sequence: its frames
+  std::function<metrics::Picture()> load_reference = {};  ///< where the reference is a file
 };
 
 /// Frames of a sequence in a second.

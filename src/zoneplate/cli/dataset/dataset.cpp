@@ -5,16 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/args.h"
 #include "zoneplate/cli/batch/shard.h"
 #include "zoneplate/cli/dataset/nss.h"
-#include "zoneplate/cli/log.h"
+#include "zoneplate/cli/process/confined.h"
 #include "zoneplate/cli/progress.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
+#include "zoneplate/os/file.h"
 #include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/upscale/upscaler.h"
 
@@ -28,6 +30,7 @@ struct DatasetArgs {
   bool has_layout = false;
   Shard shard;
   std::optional<ProgressKind> progress;
+  ReadingLimits limits;
 };
 
 /// Static and moving, thin, bright, textured and hidden surfaces: what users complain of.
@@ -98,8 +101,35 @@ Syntax make_syntax(DatasetArgs& args) {
       {"--threads,-t", "N", "Maximum number of threads; 0, the default: the CPUs allowed by affinity and quota", group,
        false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }},
       {"--progress", "KIND", "Progress on stderr: auto (a bar on a terminal), bar, json (one line per frame) or none",
-       group, false, [&](auto& text) { args.progress = parse_progress(text); }}};
+       group, false, [&](auto& text) { args.progress = parse_progress(text); }},
+      allow_path_option(args.limits.load)};
+  for (Option& option : limit_options(args.limits, "a sequence")) syntax.options.push_back(std::move(option));
   return syntax;
+}
+
+/// Makes a sequence in a confined process, and its folders as its files arrive. `done_of(frame)` is the part of all
+/// work that is done before a frame.
+void make_sequence(const DatasetArgs& args, const NssSequence& sequence, Progress& progress,
+                   const std::function<double(int frame)>& done_of) {
+  const std::vector<std::string> listed = nss_paths(sequence);
+  const std::set<std::string> paths(listed.begin(), listed.end());
+  ConfinedRun run{
+      .name = sequence.scene, .limits = args.limits, .readable = readable_paths(sequence.scene, sequence.load)};
+  run.readable.push_back(nss_json_path(sequence));
+  run.progress = &progress;
+  run.take = [&](const std::string& path, const std::vector<std::uint8_t>& bytes) {
+    if (!paths.contains(path)) throw Error(ErrorKind::Failed, path + ": is no file of the sequence");
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (error) throw Error(ErrorKind::Output, folder.string() + ": " + error.message());
+    save_bytes(path, bytes);
+  };
+  run_confined(run, [&](Delivery& out) {
+    const std::string stage = fmt::format("{:04} {}", sequence.number, sequence.scene);
+    make_nss_sequence(
+        sequence, [&](int frame) { out.progress(stage, done_of(frame)); }, out);
+  });
 }
 
 }  // namespace
@@ -127,9 +157,8 @@ void run_dataset(std::span<const std::string> arguments) {
       NssSequence sequence = args.sequence;
       sequence.number = number;
       sequence.scene = args.scenes[static_cast<std::size_t>(number) % args.scenes.size()];
-      make_nss_sequence(sequence, [&](int frame) {
-        progress.begin(fmt::format("{:04} {}", number, sequence.scene), (done + frame) / count);
-      });
+      sequence.load.limits = args.limits.load;
+      make_sequence(args, sequence, progress, [&](int frame) { return (done + frame) / count; });
       done += sequence.frames;
     }
   });

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "zoneplate/antialias/temporal/camera_motion.h"
 #include "zoneplate/base/error.h"
@@ -126,8 +127,9 @@ float4x4 forward_projection(float4x4 clip_from_camera) {
 /// The scenes and the cameras of a sequence.
 class Shots {
  public:
-  explicit Shots(const NssSequence& s)
-      : source_(s.scene, {}), path_(s.seed, static_cast<std::uint32_t>(s.number)), sequence_(sequence_of(s)) {
+  /// `source` is that of the sequence's scene, and outlives this object.
+  Shots(const NssSequence& s, SceneSource& source)
+      : source_(source), path_(s.seed, static_cast<std::uint32_t>(s.number)), sequence_(sequence_of(s)) {
     const Scene first = at(0);
     View view{.up = first.up};
     if (!first.cameras.empty()) view.index = 0;
@@ -162,7 +164,7 @@ class Shots {
     return {{load, load, key_times}, {}, {.rate = static_cast<double>(s.rate), .start = start, .duration = length}};
   }
 
-  SceneSource source_;
+  SceneSource& source_;
   CameraPath path_;
   SceneChoice choice_;
   Sequence sequence_;
@@ -217,13 +219,9 @@ std::string json_of(const NssSequence& s, Shots& shots) {
          '\n';
 }
 
-/// The file of one pass of a frame; makes its folder.
+/// The file of one pass of a frame.
 std::string path_of(const NssSequence& s, const std::string& pass, int frame) {
-  const fs::path folder = fs::path(s.folder) / pass / fmt::format("{:04}", s.number);
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) throw Error(ErrorKind::Output, folder.string() + ": " + error.message());
-  return (folder / fmt::format("{:04}.exr", frame)).string();
+  return (fs::path(s.folder) / pass / fmt::format("{:04}", s.number) / fmt::format("{:04}.exr", frame)).string();
 }
 
 RenderSettings settings_of(int width, int height) {
@@ -262,8 +260,19 @@ std::string nss_json_path(const NssSequence& s) {
   return (fs::path(s.folder) / fmt::format("{:04}.json", s.number)).string();
 }
 
-void make_nss_sequence(const NssSequence& s, const std::function<void(int frame)>& progress) {
-  Shots shots(s);
+std::vector<std::string> nss_paths(const NssSequence& s) {
+  std::vector<std::string> passes{"ground_truth", "motion_gt"}, out{nss_json_path(s)};
+  for (const double ratio : s.ratios)
+    for (const char* pass : {"/color", "/motion", "/depth"}) passes.push_back(nss_folder_of(ratio) + pass);
+  for (const std::string& pass : passes)
+    for (int frame = 0; frame < s.frames; ++frame) out.push_back(path_of(s, pass, frame));
+  return out;
+}
+
+void make_nss_sequence(const NssSequence& s, const std::function<void(int frame)>& progress, Delivery& out) {
+  std::optional<SceneSource> source;
+  out.read(s.scene, [&] { source.emplace(s.scene, s.load).load({}); });
+  Shots shots(s, *source);
   const std::string json = json_of(s, shots), json_path = nss_json_path(s);
   if (fs::exists(json_path)) {
     const FileBytes file(json_path);
@@ -291,7 +300,7 @@ void make_nss_sequence(const NssSequence& s, const std::function<void(int frame)
     if (frame == 0) last = view.camera;
     const Cameras cameras{view.camera, last, aspect_of(s)};
     const auto save = [&](const std::string& pass, int width, int height, std::vector<ExrChannel> channels) {
-      save_bytes(path_of(s, pass, frame), encode_exr(width, height, std::move(channels)));
+      out.save(path_of(s, pass, frame), encode_exr(width, height, std::move(channels)));
     };
     const LinearImage color = opaque(truth.render(view).linear);
     save("ground_truth", s.size.x, s.size.y, rgba_channels(color));
@@ -311,7 +320,7 @@ void make_nss_sequence(const NssSequence& s, const std::function<void(int frame)
     }
     last = view.camera;
   }
-  save_bytes(json_path, std::vector<std::uint8_t>(json.begin(), json.end()));
+  out.save(json_path, json);
 }
 
 }  // namespace zoneplate::cli

@@ -13,8 +13,7 @@
 #include "zoneplate/cli/filter/items.h"
 #include "zoneplate/cli/filter/sequence.h"
 #include "zoneplate/cli/filter/still.h"
-#include "zoneplate/cli/log.h"
-#include "zoneplate/cli/progress.h"
+#include "zoneplate/cli/process/confined.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/codec/png.h"
@@ -38,6 +37,7 @@ struct FilterArgs {
   int bit_depth = 8, threads = 0;
   bool replaces_inputs = false;
   std::optional<ProgressKind> progress;  ///< none: a bar on a terminal
+  ReadingLimits limits;
 };
 
 /// True for a method that only needs the display-referred image of a frame.
@@ -107,7 +107,7 @@ UpscaleGrid grid_of(const Filters& filters, int width, int height, const std::st
   return {width, height, 0, 0, {size.x, size.y, std::nullopt}};
 }
 
-void filter_linear(const FilterItem& item, const LinearImage& image, const Filters& filters) {
+void filter_linear(const FilterItem& item, const LinearImage& image, const Filters& filters, Delivery& out) {
   if (filters.antialiasing)
     throw Error(ErrorKind::Input,
                 item.input + ": is a scene-linear image, expected a display-referred one (PNG, JPEG or WebP)");
@@ -115,16 +115,14 @@ void filter_linear(const FilterItem& item, const LinearImage& image, const Filte
     throw Error(ErrorKind::Usage, fmt::format("{}: is a scene-linear image, and {} is not: write an .exr or a .pfm",
                                               item.input, item.output));
   const UpscaleGrid grid = grid_of(filters, image.width(), image.height(), item.input);
-  save_image(item.output, upscale::upscale_linear(*filters.upscaler, image, grid));
+  out.save(item.output, encode_image(item.output, upscale::upscale_linear(*filters.upscaler, image, grid)));
 }
 
-void filter_image(const FilterItem& item, const Filters& filters, int bit_depth, Progress& progress) {
-  metrics::Picture picture = load_still(item.input, progress);
-  if (const std::size_t pixels = metrics::count_not_finite(picture); pixels > 0) {
-    progress.clear();
-    say_warning(fmt::format("{}: {} pixels are not finite: NaN is taken as 0, infinity as 65504", item.input, pixels));
-  }
-  if (picture.is_scene_linear) return filter_linear(item, metrics::finite(std::move(picture)).linear, filters);
+void filter_image(const FilterItem& item, const Filters& filters, int bit_depth, Delivery& out) {
+  metrics::Picture picture = load_still(item.input, out);
+  if (const std::size_t pixels = metrics::count_not_finite(picture); pixels > 0)
+    out.warn(fmt::format("{}: {} pixels are not finite: NaN is taken as 0, infinity as 65504", item.input, pixels));
+  if (picture.is_scene_linear) return filter_linear(item, metrics::finite(std::move(picture)).linear, filters, out);
   if (is_linear_file(item.output))
     throw Error(ErrorKind::Usage, fmt::format("{}: is a display-referred image, and {} is scene-linear: write a .png",
                                               item.input, item.output));
@@ -132,8 +130,8 @@ void filter_image(const FilterItem& item, const Filters& filters, int bit_depth,
   if (filters.antialiasing) image = filters.antialiasing->post_process(std::move(image), Frame());
   if (filters.upscaler)
     image = filters.upscaler->upscale(image, grid_of(filters, image.width(), image.height(), item.input));
-  if (bit_depth == 8) return save_image(item.output, quantize8(image));
-  save_bytes(item.output, encode_png(quantize16(image)));
+  if (bit_depth == 8) return out.save(item.output, encode_image(item.output, quantize8(image)));
+  out.save(item.output, encode_png(quantize16(image)));
 }
 
 /// The method with history that the arguments select; empty: filters of single images.
@@ -233,7 +231,53 @@ Syntax make_syntax(FilterArgs& args) {
        "Options", false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }},
       {"--progress", "KIND", "Progress on stderr: auto (a bar on a terminal), bar, json (one line per image) or none",
        "Options", false, [&](auto& text) { args.progress = parse_progress(text); }}};
+  for (Option& option : limit_options(args.limits)) syntax.options.push_back(std::move(option));
   return syntax;
+}
+
+/// What is filtered, and how.
+struct FilterWork {
+  const FilterArgs& args;
+  const std::string& operand;
+  const std::string& method;  ///< with history; empty: `filters`
+  const std::vector<FilterItem>& items;
+  const FramePasses& passes;
+  const Filters& filters;
+};
+
+/// Runs in the confined process.
+void filter_all(const FilterWork& work, Delivery& out) {
+  const FilterArgs& args = work.args;
+  if (!work.method.empty()) {
+    if (const std::string gaps = gaps_in(work.items); !gaps.empty())
+      out.warn(fmt::format("{}: has no frame {}: the history goes on without them", work.operand, gaps));
+    const double scale =
+        args.upscaler.empty() ? 1 : parse_spec("upscaler", upscale::upscalers(), work.method).settings.number("scale");
+    return filter_sequence({.method = work.method,
+                            .items = work.items,
+                            .passes = work.passes,
+                            .jitter = args.jitter,
+                            .motion_scale = args.motion_scale,
+                            .fov = static_cast<float>(args.fov),
+                            .size = args.size,
+                            .scale = scale,
+                            .bit_depth = args.bit_depth},
+                           out);
+  }
+  double done = 0;
+  for (const FilterItem& item : work.items) {
+    out.progress(item.input, done++ / static_cast<double>(work.items.size()));
+    filter_image(item, work.filters, args.bit_depth, out);
+  }
+}
+
+ConfinedRun confined_run(const FilterWork& work) {
+  ConfinedRun run{
+      .name = work.items.front().input, .limits = work.args.limits, .readable = {work.args.jitter}, .outputs = {}};
+  for (const FilterItem& item : work.items) run.readable.push_back(item.input), run.outputs.push_back(item.output);
+  for (const std::vector<std::string>& files : {work.passes.depth, work.passes.motion})
+    run.readable.insert(run.readable.end(), files.begin(), files.end());
+  return run;
 }
 
 }  // namespace
@@ -268,27 +312,10 @@ void run_filter(std::span<const std::string> arguments) {
     throw Error(ErrorKind::Usage, "--bit-depth 16 is for .png, not " + items.front().output);
   with_threads(args.threads, [&] {
     Progress progress(args.progress ? *args.progress : parse_progress("auto"));
-    if (!method.empty()) {
-      if (const std::string gaps = gaps_in(items); !gaps.empty())
-        say_warning(fmt::format("{}: has no frame {}: the history goes on without them", operand, gaps));
-      const double scale =
-          args.upscaler.empty() ? 1 : parse_spec("upscaler", upscale::upscalers(), method).settings.number("scale");
-      return filter_sequence({.method = method,
-                              .items = items,
-                              .passes = std::move(passes),
-                              .jitter = args.jitter,
-                              .motion_scale = args.motion_scale,
-                              .fov = static_cast<float>(args.fov),
-                              .size = args.size,
-                              .scale = scale,
-                              .bit_depth = args.bit_depth},
-                             progress);
-    }
-    double done = 0;
-    for (const FilterItem& item : items) {
-      progress.begin(item.input, done++ / static_cast<double>(items.size()));
-      filter_image(item, filters, args.bit_depth, progress);
-    }
+    const FilterWork work{args, operand, method, items, passes, filters};
+    ConfinedRun run = confined_run(work);
+    run.progress = &progress;
+    run_confined(run, [&](Delivery& out) { filter_all(work, out); });
   });
 }
 

@@ -162,22 +162,20 @@ Frame frame_of(const FrameFiles& files, LinearImage color, const SequenceFilter&
   return frame;
 }
 
-metrics::Picture load_frame(const std::string& path, Progress& progress) {
-  metrics::Picture picture = load_still(path, progress);
+metrics::Picture load_frame(const std::string& path, Delivery& out) {
+  metrics::Picture picture = load_still(path, out);
   if (!picture.is_scene_linear) return picture;
-  if (const std::size_t pixels = fill_not_finite(picture.linear, path); pixels > 0) {
-    progress.clear();
-    say_warning(fmt::format("{}: {} {} not finite, and {} the mean of neighbours", path, pixels,
-                            pixels == 1 ? "pixel is" : "pixels are", pixels == 1 ? "takes" : "take"));
-  }
+  if (const std::size_t pixels = fill_not_finite(picture.linear, path); pixels > 0)
+    out.warn(fmt::format("{}: {} {} not finite, and {} the mean of neighbours", path, pixels,
+                         pixels == 1 ? "pixel is" : "pixels are", pixels == 1 ? "takes" : "take"));
   return picture;
 }
 
-void save(const std::string& path, LinearImage image, bool is_scene_linear, int bit_depth) {
-  if (is_scene_linear) return save_image(path, image);
+void save(const std::string& path, LinearImage image, bool is_scene_linear, int bit_depth, Delivery& out) {
+  if (is_scene_linear) return out.save(path, encode_image(path, image));
   const DisplayImage display = metrics::make_picture(std::move(image)).display;
-  if (bit_depth == 8) return save_image(path, quantize8(display));
-  save_bytes(path, encode_png(quantize16(display)));
+  if (bit_depth == 8) return out.save(path, encode_image(path, quantize8(display)));
+  out.save(path, encode_png(quantize16(display)));
 }
 
 }  // namespace
@@ -195,7 +193,7 @@ bool filters_sequences(const std::string& method) {
          request.content == Content::Colour && !request.is_display_referred && !reads_more;
 }
 
-void filter_sequence(const SequenceFilter& filter, Progress& progress) {
+void filter_sequence(const SequenceFilter& filter, Delivery& out) {
   const std::vector<FrameFiles> files = checked_files(filter);
   std::vector<SamplePosition> samples;
   if (!filter.jitter.empty()) samples = samples_of(filter.jitter, files.size());
@@ -207,8 +205,8 @@ void filter_sequence(const SequenceFilter& filter, Progress& progress) {
   ObjectNumbers objects;
   int2 frame_size{0, 0};
   for (std::size_t i = 0; i < files.size(); ++i) {
-    progress.begin(files[i].color, static_cast<double>(i) / static_cast<double>(files.size()));
-    metrics::Picture picture = load_frame(files[i].color, progress);
+    out.progress(files[i].color, static_cast<double>(i) / static_cast<double>(files.size()));
+    metrics::Picture picture = load_frame(files[i].color, out);
     if (picture.is_scene_linear != is_linear_file(files[i].output))
       throw Error(ErrorKind::Usage,
                   fmt::format("{}: is a {} image, and {} is not: write {}", files[i].color,
@@ -234,7 +232,7 @@ void filter_sequence(const SequenceFilter& filter, Progress& progress) {
     method->request(context);
     const bool is_scene_linear = picture.is_scene_linear;
     Frame frame = frame_of(files[i], std::move(picture.linear), filter, camera.near, objects);
-    save(files[i].output, method->resolve(frame), is_scene_linear, filter.bit_depth);
+    save(files[i].output, method->resolve(frame), is_scene_linear, filter.bit_depth, out);
   }
 }
 

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/cli/log.h"
 #include "zoneplate/codec/inspect/image_format.h"
 #include "zoneplate/metrics/backdrop.h"
 #include "zoneplate/metrics/file/picture_file.h"
@@ -83,13 +82,16 @@ class Fill {
 
 }  // namespace
 
-metrics::Picture load_still(const std::string& path, Progress& progress) {
-  const metrics::ImageFile file = metrics::open_image(path);
-  metrics::Picture picture = metrics::decode_file(file);
-  if (const std::uint32_t frames = count_frames(file.bytes); frames > 1) {
-    progress.clear();
-    say_warning(fmt::format("{}: is an animation of {} frames, of which the first is filtered", path, frames));
-  }
+metrics::Picture load_still(const std::string& path, Delivery& out) {
+  metrics::Picture picture;
+  std::uint32_t frames = 0;
+  out.read(path, [&] {
+    const metrics::ImageFile file = metrics::open_image(path);
+    picture = metrics::decode_file(file, out.limits().pixels);
+    frames = count_frames(file.bytes);
+  });
+  if (frames > 1)
+    out.warn(fmt::format("{}: is an animation of {} frames, of which the first is filtered", path, frames));
   return picture;
 }
 

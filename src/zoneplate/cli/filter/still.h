@@ -4,15 +4,15 @@
 #include <cstddef>
 #include <string>
 
-#include "zoneplate/cli/progress.h"
+#include "zoneplate/cli/process/confined.h"
 #include "zoneplate/metrics/picture.h"
 
 namespace zoneplate::cli {
 
-/// Loads an image to filter, with a warning if it is the first one of an animation.
+/// Loads an image to filter within the limits of a confined process, with a warning if it is the first one of an animation.
 ///
 /// Errors    those of load_picture (metrics/file/picture_file.h).
-metrics::Picture load_still(const std::string& path, Progress& progress);
+metrics::Picture load_still(const std::string& path, Delivery& out);
 
 /// Gives each pixel with a channel that is not finite the mean of those of its eight neighbours that are finite; where
 /// all are undefined, from the border of such a region inwards.

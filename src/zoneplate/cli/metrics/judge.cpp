@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "zoneplate/base/clock.h"
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/metrics/file/picture_file.h"
@@ -83,6 +84,9 @@ class Judge {
     } catch (const Error& error) {
       item.outcome = error.kind() == ErrorKind::Input ? Outcome::Unreadable : Outcome::Failed;
       item.message = error.what();
+    } catch (const std::bad_alloc&) {
+      item.outcome = Outcome::Unreadable;
+      item.message = pair.name + ": needs more memory than the limit (--max-memory)";
     }
     item.seconds = watch.ms() / 1000;
     out_.items.push_back(std::move(item));
@@ -119,7 +123,7 @@ class Judge {
 
   void measure(std::size_t reference_index, std::size_t test_index, JudgedItem& item) {
     const metrics::ImageFile reference_file = reference_.open(reference_index), test_file = test_.open(test_index);
-    const Picture reference = metrics::decode_file(reference_file), test = metrics::decode_file(test_file);
+    const Picture reference = reference_.decode(reference_file), test = test_.decode(test_file);
     item.width = test.width(), item.height = test.height();
     item.stored = metrics::compare_stored(reference_file, reference, test_file, test);
     std::string sizes;
@@ -281,6 +285,7 @@ Judgement judge(const metrics::PictureSet& reference, const metrics::PictureSet&
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     progress(static_cast<double>(i) / static_cast<double>(pairs.size()));
     all.add(pairs[i]);
+    check_deadline();  // its error ends the run, not the pair
   }
   Judgement out = all.finish(pairs);
   out.not_compared = reference.others;

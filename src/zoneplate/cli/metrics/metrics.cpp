@@ -9,10 +9,9 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/args.h"
-#include "zoneplate/cli/log.h"
 #include "zoneplate/cli/metrics/judge.h"
 #include "zoneplate/cli/metrics/judgement_text.h"
-#include "zoneplate/cli/progress.h"
+#include "zoneplate/cli/process/confined.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/codec/png.h"
@@ -40,6 +39,7 @@ struct MetricsArgs {
   bool judges_mean = false, allows_missing = false, is_quiet = false, prints_json = false;
   int threads = 0;
   std::optional<ProgressKind> progress;  ///< none: a bar on a terminal
+  ReadingLimits limits;
 };
 
 std::vector<Choice> choose(const std::string& names) {
@@ -87,16 +87,12 @@ std::vector<Bound> parse_bounds(const std::string& text, const std::vector<Choic
   return bounds;
 }
 
-void save_map(const MetricsArgs& args, const Judgement& judgement) {
+void save_map(const MetricsArgs& args, const Judgement& judgement, Delivery& out) {
   if (!judgement.worst_map) throw Error(ErrorKind::Usage, "--map: none of these metrics has an error map");
   const Rgba8Image image =
       args.map_gain ? paint_over(*judgement.worst_map, *judgement.worst_reference, static_cast<float>(*args.map_gain))
                     : metrics::paint_magma(*judgement.worst_map);
-  save_bytes(args.map_path, encode_png(image, {.has_alpha = false}));
-}
-
-void save_text(const std::string& path, const std::string& text) {
-  save_bytes(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  out.save(args.map_path, encode_png(image, {.has_alpha = false}));
 }
 
 // The catalogue of metrics at the end of the help.
@@ -175,7 +171,35 @@ Syntax make_syntax(MetricsArgs& args) {
        [&](auto& text) { args.progress = parse_progress(text); }},
       {"--threads,-t", "N", "Threads at most; 0, the default: as many as affinity and CPU quota allow", "Options",
        false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
+  for (Option& option : limit_options(args.limits)) syntax.options.push_back(std::move(option));
   return syntax;
+}
+
+/// The limits of the program that decodes a video.
+ProgramLimits decoder_limits(const ReadingLimits& limits) {
+  ProgramLimits out = metrics::video_limits;
+  out.bytes = static_cast<std::size_t>(std::min<std::uint64_t>(out.bytes, limits.load.memory));
+  if (limits.seconds * 1000 < out.milliseconds) out.milliseconds = static_cast<int>(limits.seconds * 1000) + 1;
+  return out;
+}
+
+/// The same images, each of which is decoded within the limits.
+metrics::PictureSet within_limits(metrics::PictureSet set, Delivery& out) {
+  set.decode = [&out](const metrics::ImageFile& file) {
+    metrics::Picture picture;
+    out.read(file.name, [&] { picture = metrics::decode_file(file, out.limits().pixels); });
+    return picture;
+  };
+  return set;
+}
+
+/// Runs in the confined process.
+void deliver(const MetricsArgs& args, const Judgement& judgement, const ComparedPaths& paths, Delivery& out) {
+  if (!args.map_path.empty()) save_map(args, judgement, out);
+  if (!args.report_path.empty()) out.save(args.report_path, html_of(judgement, paths));
+  if (!args.junit_path.empty()) out.save(args.junit_path, junit_of(judgement, paths, time_now()));
+  if (!args.is_quiet) out.print(args.prints_json ? json_of(judgement, paths).text() + '\n' : text_of(judgement));
+  if (!judgement.passed()) throw Difference(failure_of(judgement));
 }
 
 }  // namespace
@@ -199,27 +223,28 @@ void run_metrics(std::span<const std::string> arguments) {
   for (const std::string& path : {args.map_path, args.report_path, args.junit_path})
     if (!path.empty()) check_savable(path);
 
-  Judgement judgement;
-  bool is_pair = false;  // of two files, not of folders that hold one image each
   with_threads(args.threads, [&] {
-    Progress progress(args.is_quiet ? ProgressKind::None : args.progress ? *args.progress : parse_progress("auto"));
-    progress.begin("read", 0);
-    const metrics::PictureSet reference = metrics::open_pictures(paths.reference);
-    const metrics::PictureSet test = metrics::open_pictures(paths.test);
+    const ProgramLimits decoder = decoder_limits(args.limits);
+    const metrics::PictureSet reference = metrics::open_pictures(paths.reference, decoder);
+    const metrics::PictureSet test = metrics::open_pictures(paths.test, decoder);
     if (reference.is_directory != test.is_directory)
       throw Error(ErrorKind::Usage, fmt::format("{}: expected {} as the reference", paths.test,
                                                 reference.is_directory ? "a directory" : "a file"));
-    judgement = judge(reference, test, choices, verdicts, !args.report_path.empty(),
-                      [&](double done) { progress.begin("compare", done); });
-    is_pair = !reference.is_directory && judgement.items.size() == 1;
+    ConfinedRun run{.name = paths.test, .limits = args.limits, .readable = reference.files};
+    run.readable.insert(run.readable.end(), test.files.begin(), test.files.end());
+    run.outputs = {args.map_path, args.report_path, args.junit_path};
+    Progress progress(args.is_quiet ? ProgressKind::None : args.progress ? *args.progress : parse_progress("auto"));
+    run.progress = &progress;
+    run_confined(run, [&](Delivery& out) {
+      const Judgement judgement = judge(within_limits(reference, out), within_limits(test, out), choices, verdicts,
+                                        !args.report_path.empty(), [&](double done) { out.progress("compare", done); });
+      // Of two files, not of folders that hold one image each.
+      const bool is_pair = !reference.is_directory && judgement.items.size() == 1;
+      if (is_pair && judgement.items[0].outcome == Outcome::Unreadable)
+        throw Error(ErrorKind::Input, judgement.items[0].message);
+      deliver(args, judgement, paths, out);
+    });
   });
-  if (is_pair && judgement.items[0].outcome == Outcome::Unreadable)
-    throw Error(ErrorKind::Input, judgement.items[0].message);
-  if (!args.map_path.empty()) save_map(args, judgement);
-  if (!args.report_path.empty()) save_text(args.report_path, html_of(judgement, paths));
-  if (!args.junit_path.empty()) save_text(args.junit_path, junit_of(judgement, paths, time_now()));
-  if (!args.is_quiet) print(args.prints_json ? json_of(judgement, paths).text() + '\n' : text_of(judgement));
-  if (!judgement.passed()) throw Difference(failure_of(judgement));
 }
 
 }  // namespace zoneplate::cli

@@ -12,6 +12,7 @@
 #include "zoneplate/base/spec.h"
 #include "zoneplate/cli/look/shadow_args.h"
 #include "zoneplate/cli/look/solid_texture.h"
+#include "zoneplate/cli/process/confined.h"
 #include "zoneplate/cli/render/environment_file.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/image/transfer.h"
@@ -538,7 +539,7 @@ std::vector<Option> teaching_options(RenderArgs& a) {
 
 std::vector<Option> run_options(RenderArgs& a) {
   const std::string group = "Running";
-  return {
+  std::vector<Option> options = {
       {"--threads,-t", "N", "Maximum number of threads; default 0: all that affinity and CPU quota allow", group, false,
        [&](auto& text) { a.threads = parse_whole(text, 0, 1024); }},
       {"--isa", "SET",
@@ -557,27 +558,15 @@ std::vector<Option> run_options(RenderArgs& a) {
       {"--quiet,-q", "", "Print errors only", group, false, [&](auto&) { a.verbosity = Verbosity::Quiet; }},
       {"--verbose,-v", "", "Print a summary with times", group, false,
        [&](auto&) { a.verbosity = Verbosity::Verbose; }},
-      {"--max-memory", "BYTES",
-       "Memory limit of an item, from reading to the encoded image, for example 512M; default 4G", group, false,
-       [&](auto& text) { a.load.limits.memory = parse_bytes(text); }},
-      {"--max-pixels", "N", "Reject textures with more pixels, for example 16M; default 256M", group, false,
-       [&](auto& text) { a.load.limits.pixels = parse_bytes(text); }},
-      {"--max-import-seconds", "S", "Time limit of reading the scene; default 60", group, false,
-       [&](auto& text) { a.load.limits.seconds = parse_number(text, 0.001, 1e6); }},
-      {"--max-seconds", "S", "Time limit of an item, including reading; default: no limit", group, false,
-       [&](auto& text) { a.max_seconds = parse_number(text, 0.001, 1e9); }},
       {"--strict", "", "A texture that is missing or invalid is an error; otherwise it is a warning", group, false,
        [&](auto&) { a.load.limits.is_strict = true; }},
-      {"--sandbox", "", "Read and render in a sandboxed process: the default", group, false,
-       [&](auto&) { a.is_sandboxed = true; }},
-      {"--no-sandbox", "", "Read and render without a sandbox, with all rights of the user: for trusted models", group,
-       false, [&](auto&) { a.is_sandboxed = false; }},
       {"--no-cache", "",
        "Neither read nor write filtered environments in $XDG_CACHE_HOME/zoneplate or ~/.cache/zoneplate", group, false,
        [&](auto&) { a.cache.clear(); }},
-      {"--allow-path", "PATH", "Allow models to read this file or folder outside their own; may be repeated", group,
-       false, [&](auto& text) { a.load.limits.allowed_paths.push_back(text); }},
-  };
+      allow_path_option(a.load.limits, group)};
+  for (Option& option : limit_options(a.load.limits, a.max_seconds, a.is_sandboxed, group, "an item"))
+    options.push_back(std::move(option));
+  return options;
 }
 
 }  // namespace

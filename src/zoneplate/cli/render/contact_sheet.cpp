@@ -11,8 +11,8 @@
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/batch/input_names.h"
+#include "zoneplate/cli/process/item_process.h"
 #include "zoneplate/cli/render/environment_file.h"
-#include "zoneplate/cli/render/item_process.h"
 #include "zoneplate/cli/render/picture.h"
 #include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/values.h"
@@ -141,6 +141,21 @@ Figure lay_out(const SheetArgs& args, std::vector<Panel> panels) {
   return figure;
 }
 
+/// The memory of all images, the sheet and its encoding, before anything is rendered.
+void check_memory(const SheetArgs& args, std::size_t count) {
+  const std::uint64_t width = static_cast<std::uint64_t>(args.render.options.width),
+                      height = static_cast<std::uint64_t>(args.render.options.height);
+  const std::uint64_t columns = static_cast<std::uint64_t>(columns_for(args, count));
+  const std::uint64_t places = columns * ((count + columns - 1) / columns);
+  constexpr std::uint64_t copies = 3;  // of the sheet: the sheet, its filtered rows, and their compression
+  const std::uint64_t need = (count + copies * places) * width * height * sizeof(Rgba8);
+  const std::uint64_t limit = args.render.load.limits.memory;
+  if (need > limit)
+    throw Error(ErrorKind::Failed,
+                fmt::format("{}: a sheet of {} images of {}x{} needs {} MB of memory, --max-memory allows {} MB",
+                            args.output, count, width, height, need >> 20, limit >> 20));
+}
+
 Syntax make_syntax(SheetArgs& args) {
   Syntax syntax{.verb = "contact-sheet",
                 .summary = "Render many models into one image, with their names",
@@ -193,6 +208,7 @@ void run_contact_sheet(std::span<const std::string> arguments) {
 
   const std::vector<std::string> inputs = with_folders_listed(syntax.found_operands);
   const std::vector<std::string> names = short_names(inputs);
+  check_memory(args, names.size());
   std::vector<Panel> panels;
   Rendered sheet;
   std::size_t failed = 0;

@@ -12,7 +12,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/out_of_memory.h"
-#include "zoneplate/cli/render/item_process.h"
+#include "zoneplate/cli/process/item_process.h"
 #include "zoneplate/formats/import/image_file.h"
 #include "zoneplate/formats/import/import_budget.h"
 #include "zoneplate/os/cache_folder.h"
@@ -180,12 +180,13 @@ void Environments::complete(RenderArgs& args, const Store& store, const Progress
 void complete_environments(Environments& environments, RenderArgs& args, const Environments::Store& store,
                            ItemSender& sender) {
   bool is_filtering = false;
+  if (!args.hdri_file.empty()) sender.begins_to_read("--hdri-file " + args.hdri_file);
   const auto report = sender.progress_of("environment", 0, 0.1);
   environments.complete(args, store, [&](double done) {
     if (!is_filtering) sender.has_read(), is_filtering = true;
     report(done);
   });
-  if (is_filtering) sender.begins_to_read();
+  if (is_filtering || !args.hdri_file.empty()) sender.begins_to_read();
 }
 
 }  // namespace zoneplate::cli

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "zoneplate/cli/process/item_messages.h"
 #include "zoneplate/cli/render/args.h"
-#include "zoneplate/cli/render/item_messages.h"
 
 namespace zoneplate::cli {
 

@@ -8,7 +8,8 @@
 #include "zoneplate/cli/args.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/packed.h"
-#include "zoneplate/cli/render/item_process.h"
+#include "zoneplate/cli/process/confined.h"
+#include "zoneplate/cli/process/item_process.h"
 #include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
@@ -184,22 +185,12 @@ void run_info(std::span<const std::string> arguments) {
                 .summary = "Print the contents of a model: meshes, materials, textures, lights, cameras, bounds",
                 .operands = "IN",
                 .examples = "  zoneplate info chair.glb\n  zoneplate info chair.glb --json\n"};
-  syntax.options = {
-      {"--json", "", "Print one line of JSON", "Options", true, [&](auto&) { prints_json = true; }},
-      {"--max-memory", "BYTES", "Memory limit of reading, for example 512M; default 4G", "Options", false,
-       [&](auto& text) { options.limits.memory = parse_bytes(text); }},
-      {"--max-import-seconds", "S", "Time limit of reading; default 60", "Options", false,
-       [&](auto& text) { options.limits.seconds = parse_number(text, 0.001, 1e6); }},
-      {"--max-seconds", "S", "Time limit; default: no limit", "Options", false,
-       [&](auto& text) { max_seconds = parse_number(text, 0.001, 1e9); }},
-      {"--format", "NAME", "Read IN as this format, for example stl; required if IN is -", "Options", false,
-       [&](auto& text) { options.format = text; }},
-      {"--sandbox", "", "Read in a sandboxed process: the default", "Options", false,
-       [&](auto&) { is_sandboxed = true; }},
-      {"--no-sandbox", "", "Read without a sandbox, with all rights of the user: for trusted models", "Options", false,
-       [&](auto&) { is_sandboxed = false; }},
-      {"--allow-path", "PATH", "Allow models to read this file or folder outside their own; may be repeated", "Options",
-       false, [&](auto& text) { options.limits.allowed_paths.push_back(text); }}};
+  syntax.options = {{"--json", "", "Print one line of JSON", "Options", true, [&](auto&) { prints_json = true; }},
+                    {"--format", "NAME", "Read IN as this format, for example stl; required if IN is -", "Options",
+                     false, [&](auto& text) { options.format = text; }},
+                    allow_path_option(options.limits, "Options")};
+  for (Option& option : limit_options(options.limits, max_seconds, is_sandboxed, "Options", "the run"))
+    syntax.options.push_back(std::move(option));
   if (!parse(syntax, arguments)) return;
   if (syntax.found_operands.size() != 1)
     throw Error(ErrorKind::Usage, "info takes one input: a model or a built-in scene");

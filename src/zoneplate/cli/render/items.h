@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "zoneplate/cli/render/item_process.h"
+#include "zoneplate/cli/process/item_process.h"
 #include "zoneplate/cli/render/job.h"
 
 namespace zoneplate::cli {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "zoneplate/cli/process/item_process.h"
 #include "zoneplate/cli/render/environment_file.h"
-#include "zoneplate/cli/render/item_process.h"
 #include "zoneplate/cli/render/picture.h"
 #include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/report/json.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "zoneplate/cli/render/item_process.h"
+#include "zoneplate/cli/process/item_process.h"
 #include "zoneplate/cli/render/picture.h"
 
 namespace zoneplate::cli {

@@ -97,8 +97,7 @@ Json atlas_metrics(const sdf::Atlas& atlas, const Font::Metrics& font) {
                       {"kerning", std::move(kerning)}};
 }
 
-sdf::Atlas load_atlas(const std::string& image_file, const std::string& metrics_file) {
-  constexpr std::uint64_t most_pixels = std::uint64_t{1} << 26;
+sdf::Atlas load_atlas(const std::string& image_file, const std::string& metrics_file, std::uint64_t most_pixels) {
   const MappedFileWatch watch;
   const FileBytes image_bytes(image_file), metrics_bytes(metrics_file);
   const PngImage png = decode_png(image_bytes.bytes(), image_file, most_pixels);

@@ -75,13 +75,15 @@ void run_sdf_draw(std::span<const std::string> arguments) {
   if (!parse(syntax, arguments)) return;
   const std::string& input = only_operand(syntax, "one SCENE");
   check_result_name(args.output);
-  with_threads(args.threads, [&] {
-    const sdf::SceneFile scene = load_shape_scene(input, {.text_outline = text_outlines(args)});
+  run_subcommand(args, {input, args.font}, {}, [&](Delivery& out) {
+    const sdf::SceneFile scene = load_shape_scene(input, {.text_outline = text_outlines(args)}, out);
     const sdf::Raster raster = raster_of(scene, args, input);
     const auto start = std::chrono::steady_clock::now();
     const LinearImage image = sdf::draw(scene.drawing, raster, scene.background, args.grid);
     const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-    if (!args.output.empty()) save_result(args.output, image, [&] { return shown(image, false); });
+    if (!args.output.empty())
+      save_result(
+          args.output, image, [&] { return shown(image, false); }, out);
 
     const std::size_t layers = scene.drawing.layers.size();
     std::string text = fmt::format("{}, {} × {} pixels, {} layer{}, {:.1f} ms\n", title_of(input), raster.width,
@@ -101,7 +103,7 @@ void run_sdf_draw(std::span<const std::string> arguments) {
       json.emplace_back("error",
                         Json::Object{{"greatest", error.greatest}, {"rms", error.rms}, {"pixels", error.pixels}});
     }
-    print_result(args, text, json);
+    print_result(args, text, json, out);
   });
 }
 

@@ -47,8 +47,9 @@ void run_sdf_field(std::span<const std::string> arguments) {
   if (!parse(syntax, arguments)) return;
   const std::string& input = only_operand(syntax, "one SCENE");
   check_result_name(args.output);
-  with_threads(args.threads, [&] {
-    const sdf::SceneFile scene = load_shape_scene(input, {.keeps_shapes = true, .text_outline = text_outlines(args)});
+  run_subcommand(args, {input, args.font}, {}, [&](Delivery& out) {
+    const sdf::SceneFile scene =
+        load_shape_scene(input, {.keeps_shapes = true, .text_outline = text_outlines(args)}, out);
     const sdf::Raster raster = raster_of(scene, args, input);
     if (scene.shapes.empty()) throw Error(ErrorKind::Input, input + ": no layer, so there is no distance");
     const sdf::DistanceField field = distance_field(sdf::combined(sdf::Shape::Kind::Union, scene.shapes), raster);
@@ -58,8 +59,9 @@ void run_sdf_field(std::span<const std::string> arguments) {
         const float pixels = d * static_cast<float>(raster.scale);
         return Linear{pixels, pixels, pixels, 1};
       });
-      save_result(args.output, distances,
-                  [&] { return show_field(field, args.view.view, args.view.spacing, raster.scale); });
+      save_result(
+          args.output, distances, [&] { return show_field(field, args.view.view, args.view.spacing, raster.scale); },
+          out);
     }
     const auto [low, high] = std::ranges::minmax(field.distance.values());
     print_result(args,
@@ -70,7 +72,8 @@ void run_sdf_field(std::span<const std::string> arguments) {
                   {"width", raster.width},
                   {"height", raster.height},
                   {"least", low},
-                  {"greatest", high}});
+                  {"greatest", high}},
+                 out);
   });
 }
 

@@ -95,9 +95,9 @@ void run_sdf_from_mask(std::span<const std::string> arguments) {
   if (!parse(syntax, arguments)) return;
   const std::string& input = only_operand(syntax, "one IMAGE");
   check_result_name(args.output);
-  with_threads(args.threads, [&] {
+  run_subcommand(args, {input}, {}, [&](Delivery& out) {
     constexpr int most_side = 32767;
-    const LinearImage image = load_signal(input, true);
+    const LinearImage image = load_signal(input, true, out);
     if (image.width() > most_side || image.height() > most_side)
       throw Error(ErrorKind::Input, fmt::format("{}: a side of more than {} pixels", input, most_side));
     const Plane<float> luma = luminance(image);
@@ -116,8 +116,9 @@ void run_sdf_from_mask(std::span<const std::string> arguments) {
     Plane<float> distances = sdf::signed_distances(mask);
     const auto [low, high] = std::ranges::minmax(distances.values());
     if (!args.output.empty())
-      save_result(args.output, grey(distances),
-                  [&] { return show_field(with_gradient(distances), args.view.view, args.view.spacing, 1); });
+      save_result(
+          args.output, grey(distances),
+          [&] { return show_field(with_gradient(distances), args.view.view, args.view.spacing, 1); }, out);
     print_result(args,
                  fmt::format("{}, {} × {} pixels, {} inside, distances from {:.3f} to {:.3f} pixels\n", title_of(input),
                              image.width(), image.height(), inside, low, high),
@@ -127,7 +128,8 @@ void run_sdf_from_mask(std::span<const std::string> arguments) {
                   {"height", image.height()},
                   {"inside", inside},
                   {"least", low},
-                  {"greatest", high}});
+                  {"greatest", high}},
+                 out);
   });
 }
 
@@ -140,9 +142,9 @@ void run_sdf_to_mask(std::span<const std::string> arguments) {
   check_result_name(args.output);
   if (!input.ends_with(".pfm") && !input.ends_with(".exr"))
     throw Error(ErrorKind::Usage, input + ": expected a field of distances, a .pfm or .exr file");
-  with_threads(args.threads, [&] {
+  run_subcommand(args, {input}, {}, [&](Delivery& out) {
     constexpr double most_pixels = 1 << 28;
-    const LinearImage image = load_signal(input, false);
+    const LinearImage image = load_signal(input, false, out);
     Plane<float> distances(image.width(), image.height());
     std::ranges::transform(image.values(), distances.values().begin(), &Linear::r);
     const double width = std::max(1.0, std::floor(image.width() * args.scale + 0.5)),
@@ -151,9 +153,11 @@ void run_sdf_to_mask(std::span<const std::string> arguments) {
       throw Error(ErrorKind::Usage, fmt::format("--scale: {:.0f} × {:.0f} pixels are too many", width, height));
     const Plane<float> mask =
         sdf::drawn_field(distances, static_cast<int>(width), static_cast<int>(height), args.scale);
-    if (!args.output.empty()) save_result(args.output, grey(mask), [&] { return shown(grey(mask), false); });
+    if (!args.output.empty())
+      save_result(
+          args.output, grey(mask), [&] { return shown(grey(mask), false); }, out);
     print_result(args, fmt::format("{}, {} × {} pixels\n", title_of(input), mask.width(), mask.height()),
-                 {{"input", input}, {"output", args.output}, {"width", mask.width()}, {"height", mask.height()}});
+                 {{"input", input}, {"output", args.output}, {"width", mask.width()}, {"height", mask.height()}}, out);
   });
 }
 

@@ -37,7 +37,9 @@ std::function<sdf::Outline(std::string_view, double)> text_outlines(const ShapeS
   };
 }
 
-sdf::SceneFile load_shape_scene(const std::string& operand, const sdf::SceneFileOptions& options) {
+namespace {
+
+sdf::SceneFile read_shape_scene(const std::string& operand, const sdf::SceneFileOptions& options) {
   constexpr std::size_t most_bytes = std::size_t{1} << 28;
   const MappedFileWatch watch;
   const FileBytes file(operand);
@@ -47,6 +49,14 @@ sdf::SceneFile load_shape_scene(const std::string& operand, const sdf::SceneFile
   sdf::SceneFile scene =
       sdf::read_scene_file({reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()}, operand, options);
   watch.check(operand);
+  return scene;
+}
+
+}  // namespace
+
+sdf::SceneFile load_shape_scene(const std::string& operand, const sdf::SceneFileOptions& options, Delivery& out) {
+  sdf::SceneFile scene;
+  out.read(operand, [&] { scene = read_shape_scene(operand, options); });
   return scene;
 }
 

@@ -28,7 +28,7 @@ std::function<sdf::Outline(std::string_view, double)> text_outlines(const ShapeS
 /// Reads the scene: a file, or - for stdin.
 ///
 /// Errors    ErrorKind::Input, also for a file of more than 256 MiB.
-sdf::SceneFile load_shape_scene(const std::string& operand, const sdf::SceneFileOptions& options);
+sdf::SceneFile load_shape_scene(const std::string& operand, const sdf::SceneFileOptions& options, Delivery& out);
 
 /// The pixels of the scene's canvas, or of its shapes with a margin; scaled, or fitted to the chosen size.
 ///

@@ -98,11 +98,18 @@ Syntax atlas_syntax(TextArgs& args) {
   return syntax;
 }
 
-Font font_of(const TextArgs& args) { return Font(args.font.empty() ? dejavu_path("DejaVuSans.ttf") : args.font); }
+Font font_of(const TextArgs& args, Delivery& out) {
+  const std::string path = args.font.empty() ? dejavu_path("DejaVuSans.ttf") : args.font;
+  std::optional<Font> font;
+  out.read(path, [&] { font.emplace(path); });
+  return std::move(*font);
+}
+
+constexpr std::uint64_t most_atlas_pixels = std::uint64_t{1} << 26;
 
 /// Black text on white, in linear light.
-void save_image(const std::string& path, const Rgba8Image& image) {
-  if (!path.empty()) save_picture(path, image);
+void save_image(const std::string& path, const Rgba8Image& image, Delivery& out) {
+  if (!path.empty()) save_picture(path, image, out);
 }
 
 }  // namespace
@@ -117,13 +124,17 @@ void run_sdf_text(std::span<const std::string> arguments) {
   if (args.atlas.empty() != args.metrics.empty())
     throw Error(ErrorKind::Usage, "--atlas and --metrics belong together");
   if (words.empty() || words.size() > 1000) throw Error(ErrorKind::Usage, "TEXT has 1 to 1000 bytes");
-  with_threads(args.threads, [&] {
-    const Font font = font_of(args);
+  run_subcommand(args, {args.atlas.empty() ? args.font : args.atlas, args.metrics, args.font}, {}, [&](Delivery& out) {
+    const Font font = font_of(args, out);
     const bool is_loaded = !args.atlas.empty();
     const auto atlas_for = [&](sdf::FieldKind kind) {
       sdf::AtlasOptions options = args.options;
       options.kind = kind;
-      return is_loaded ? load_atlas(args.atlas, args.metrics) : atlas_of(font, code_points(words), options);
+      if (!is_loaded) return atlas_of(font, code_points(words), options);
+      std::optional<sdf::Atlas> atlas;
+      out.read(args.atlas,
+               [&] { atlas = load_atlas(args.atlas, args.metrics, std::min(out.limits().pixels, most_atlas_pixels)); });
+      return std::move(*atlas);
     };
     if (!args.sizes.empty()) {
       Table table{.head = {"pixels per em"}, .rows = {}};
@@ -156,13 +167,13 @@ void run_sdf_text(std::span<const std::string> arguments) {
       }
       print_result(
           args, table_text(table),
-          {{"text", words}, {"texels", atlases[0].size}, {"range", atlases[0].range}, {"sizes", std::move(rows)}});
+          {{"text", words}, {"texels", atlases[0].size}, {"range", atlases[0].range}, {"sizes", std::move(rows)}}, out);
       return;
     }
     const TextLine line(font, words, args.px);
     const Plane<float> exact = line.exact();
     const Plane<float> drawn = args.is_exact ? exact : line.from_atlas(atlas_for(args.options.kind));
-    save_image(args.output, black_on_white(drawn));
+    save_image(args.output, black_on_white(drawn), out);
     const CoverageError error = error_of(drawn, exact);
     const std::string kind = args.is_exact ? "exact" : is_loaded ? "atlas" : name_of(args.options.kind);
     print_result(args,
@@ -174,7 +185,8 @@ void run_sdf_text(std::span<const std::string> arguments) {
                   {"width", drawn.width()},
                   {"height", drawn.height()},
                   {"rms", error.rms},
-                  {"greatest", error.greatest}});
+                  {"greatest", error.greatest}},
+                 out);
   });
 }
 
@@ -188,17 +200,16 @@ void run_sdf_atlas(std::span<const std::string> arguments) {
   check_picture_name(args.output);
   if (args.characters.empty() || args.characters.size() > 20'000)
     throw Error(ErrorKind::Usage, "--characters has 1 to 20000 bytes");
-  with_threads(args.threads, [&] {
-    const Font font = font_of(args);
+  run_subcommand(args, {args.font}, {args.metrics}, [&](Delivery& out) {
+    const Font font = font_of(args, out);
     const sdf::Atlas atlas = atlas_of(font, code_points(args.characters), args.options);
     if (atlas.glyphs.empty()) throw Error(ErrorKind::Input, "the font has none of the characters");
     if (!args.output.empty())
-      save_bytes(args.output,
-                 encode_png(atlas_image(atlas),
-                            {.has_alpha = args.options.kind == sdf::FieldKind::MultiAlpha, .is_srgb = false}));
+      out.save(args.output,
+               encode_png(atlas_image(atlas),
+                          {.has_alpha = args.options.kind == sdf::FieldKind::MultiAlpha, .is_srgb = false}));
     if (!args.metrics.empty()) {
-      const std::string json = atlas_metrics(atlas, font.metrics()).indented() + "\n";
-      save_bytes(args.metrics, {reinterpret_cast<const std::uint8_t*>(json.data()), json.size()});
+      out.save(args.metrics, atlas_metrics(atlas, font.metrics()).indented() + "\n");
     }
     const int width = atlas.field.distances.width(), height = atlas.field.distances.height();
     print_result(
@@ -210,7 +221,8 @@ void run_sdf_atlas(std::span<const std::string> arguments) {
          {"metrics", args.metrics},
          {"glyphs", static_cast<std::int64_t>(atlas.glyphs.size())},
          {"width", width},
-         {"height", height}});
+         {"height", height}},
+        out);
   });
 }
 

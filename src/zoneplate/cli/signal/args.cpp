@@ -3,14 +3,16 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "zoneplate/base/error.h"
-#include "zoneplate/cli/log.h"
+#include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
-#include "zoneplate/os/file.h"
 #include "zoneplate/signal/pattern/pattern.h"
 
 namespace zoneplate::cli {
@@ -28,11 +30,25 @@ void check_name(const std::string& path, std::initializer_list<std::string_view>
 
 }  // namespace
 
-std::vector<Option> signal_options(SignalArgs& args, const std::string& output_meaning) {
+std::vector<Option> output_options(SignalArgs& args, const std::string& output_meaning) {
   return {{"--output,-o", "FILE", output_meaning, group, true, [&](auto& text) { args.output = text; }},
           {"--json", "", "Print the result as one line of JSON", group, true, [&](auto&) { args.prints_json = true; }},
           {"--threads,-t", "N", "Maximum number of threads; 0, the default: the CPUs allowed by affinity and quota",
            group, false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
+}
+
+std::vector<Option> signal_options(SignalArgs& args, const std::string& output_meaning) {
+  std::vector<Option> options = output_options(args, output_meaning);
+  for (Option& option : limit_options(args.limits)) options.push_back(std::move(option));
+  return options;
+}
+
+void run_subcommand(const SignalArgs& args, const std::vector<std::string>& inputs,
+                    const std::vector<std::string>& more_outputs, const std::function<void(Delivery&)>& work) {
+  ConfinedRun run{.name = inputs.empty() ? "the run" : inputs.front(), .limits = args.limits, .readable = inputs};
+  run.outputs = more_outputs;
+  run.outputs.push_back(args.output);
+  with_threads(args.threads, [&] { run_confined(run, work); });
 }
 
 Option codes_option(SignalArgs& args) {
@@ -76,35 +92,30 @@ void check_picture_name(const std::string& path) { check_name(path, {".png"}); }
 void check_result_name(const std::string& path) { check_name(path, {".png", ".pfm", ".exr"}); }
 void check_plot_name(const std::string& path) { check_name(path, {".svg", ".png"}); }
 
-void save_picture(const std::string& path, const Rgba8Image& picture) {
+void save_picture(const std::string& path, const Rgba8Image& picture, Delivery& out) {
   const bool is_opaque =
       std::all_of(picture.values().begin(), picture.values().end(), [](Rgba8 c) { return c.a == 255; });
-  save_bytes(path, encode_png(picture, {.has_alpha = !is_opaque}));
+  out.save(path, encode_png(picture, {.has_alpha = !is_opaque}));
 }
 
-void save_result(const std::string& path, const LinearImage& values, const std::function<Rgba8Image()>& picture) {
-  if (path.ends_with(".pfm")) return save_bytes(path, encode_pfm(values));
-  if (!path.ends_with(".exr")) return save_picture(path, picture());
+void save_result(const std::string& path, const LinearImage& values, const std::function<Rgba8Image()>& picture,
+                 Delivery& out) {
+  if (path.ends_with(".pfm")) return out.save(path, encode_pfm(values));
+  if (!path.ends_with(".exr")) return save_picture(path, picture(), out);
   const Linear& first = *values.values().data();
   constexpr std::size_t step = sizeof(Linear) / sizeof(float);
-  save_bytes(path, encode_exr(values.width(), values.height(),
-                              {{"R", ExrType::Float, &first.r, nullptr, step},
-                               {"G", ExrType::Float, &first.g, nullptr, step},
-                               {"B", ExrType::Float, &first.b, nullptr, step},
-                               {"A", ExrType::Float, &first.a, nullptr, step}}));
+  out.save(path, encode_exr(values.width(), values.height(),
+                            {{"R", ExrType::Float, &first.r, nullptr, step},
+                             {"G", ExrType::Float, &first.g, nullptr, step},
+                             {"B", ExrType::Float, &first.b, nullptr, step},
+                             {"A", ExrType::Float, &first.a, nullptr, step}}));
 }
 
-void save_plots(const std::string& path, const std::vector<Plot>& plots, int columns, const PlotSize& size) {
-  if (!path.ends_with(".svg")) return save_picture(path, plots_picture(plots, columns, size));
-  const std::string svg = plots_svg(plots, columns, size);
-  save_bytes(path, {reinterpret_cast<const std::uint8_t*>(svg.data()), svg.size()});
-}
-
-void print_result(const SignalArgs& args, const std::string& text, const Json::Object& json) {
+void print_result(const SignalArgs& args, const std::string& text, const Json::Object& json, Delivery& out) {
   Json::Object report{{"format", args.report}, {"version", report_version}};
   report.insert(report.end(), json.begin(), json.end());
   const std::string line = args.prints_json ? Json(std::move(report)).text() + '\n' : text;
-  if (args.output != "-" || args.prints_json) print_report(line, args.output == "-");
+  if (args.output != "-" || args.prints_json) out.print_report(line, args.output == "-");
 }
 
 std::vector<int> parse_whole_list(const std::string& text, int low, int high) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "zoneplate/cli/args.h"
+#include "zoneplate/cli/process/confined.h"
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/report/json.h"
 #include "zoneplate/report/plot.h"
@@ -21,10 +22,19 @@ struct SignalArgs {
   bool prints_json = false;
   bool uses_codes = false;  ///< operates on display codes instead of linear light
   int threads = 0;
+  ReadingLimits limits;
 };
 
 /// The options --output, --json and --threads; `output_meaning` is the help text of --output.
+std::vector<Option> output_options(SignalArgs& args, const std::string& output_meaning);
+
+/// The same and those of limits, for subcommands that read files.
 std::vector<Option> signal_options(SignalArgs& args, const std::string& output_meaning);
+
+/// Runs the work of a subcommand in a confined process (process/confined.h), with the threads of the arguments. It
+/// reads `inputs`, of which messages about limits name the first, and writes `args.output` and `more_outputs`.
+void run_subcommand(const SignalArgs& args, const std::vector<std::string>& inputs,
+                    const std::vector<std::string>& more_outputs, const std::function<void(Delivery&)>& work);
 
 /// The option --codes, for subcommands that change images.
 Option codes_option(SignalArgs& args);
@@ -46,22 +56,20 @@ void check_picture_name(const std::string& path);
 void check_result_name(const std::string& path);
 void check_plot_name(const std::string& path);
 
-void save_picture(const std::string& path, const Rgba8Image& picture);
+void save_picture(const std::string& path, const Rgba8Image& picture, Delivery& out);
 
 /// Writes a result: to .pfm and .exr the values as premultiplied floats, neither clamped nor shifted; to any other name
 /// the display image `picture()`.
-void save_result(const std::string& path, const LinearImage& values, const std::function<Rgba8Image()>& picture);
+void save_result(const std::string& path, const LinearImage& values, const std::function<Rgba8Image()>& picture,
+                 Delivery& out);
 
 /// The outputs of save_result, for the help.
 inline constexpr const char* result_meaning =
     "The image to write: a .png file, or - for stdout; .pfm and .exr hold the values themselves, in floats";
 
-/// Writes the plots in the format of the output's extension.
-void save_plots(const std::string& path, const std::vector<Plot>& plots, int columns, const PlotSize& size);
-
 /// Prints the results to stdout, as text or as one line of JSON with "format" and "version" before the members of
 /// `json`. Where the image is written to stdout, JSON goes to stderr instead and text is omitted.
-void print_result(const SignalArgs& args, const std::string& text, const Json::Object& json);
+void print_result(const SignalArgs& args, const std::string& text, const Json::Object& json, Delivery& out);
 
 /// Parses "1,3,5": integers in [low, high], at least one.
 std::vector<int> parse_whole_list(const std::string& text, int low, int high);

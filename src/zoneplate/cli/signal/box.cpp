@@ -68,7 +68,7 @@ Syntax make_syntax(BoxArgs& args) {
           "and dark are exchanged.\n"};
   syntax.options = {{"--widths", "W,...", "Widths in pixels; default 3,7,15", "Options", true,
                      [&](auto& text) { args.widths = parse_whole_list(text, 1, greatest_width); }}};
-  for (Option& option : signal_options(args, "The plots to write: a .svg or .png file, or - for PNG on stdout"))
+  for (Option& option : output_options(args, "The plots to write: a .svg or .png file, or - for PNG on stdout"))
     syntax.options.push_back(std::move(option));
   return syntax;
 }
@@ -81,8 +81,6 @@ void run_signal_box(std::span<const std::string> arguments) {
   if (!parse(syntax, arguments)) return;
   if (!syntax.found_operands.empty()) throw Error(ErrorKind::Usage, "signal box takes no operands: --widths 3,7,15");
   check_plot_name(args.output);
-  if (!args.output.empty()) save_plots(args.output, {kernels_plot(args), responses_plot(args)}, 2, {});
-
   std::string text = "  width (pixels)   first zero   half power at   response at 1/2 (cycles per pixel)\n";
   Json::Array rows;
   for (const int width : args.widths) {
@@ -91,7 +89,10 @@ void run_signal_box(std::span<const std::string> arguments) {
     rows.emplace_back(Json::Object{
         {"width", width}, {"first_zero", zero}, {"half_power", half}, {"response_at_nyquist", at_nyquist}});
   }
-  print_result(args, text, {{"output", args.output}, {"boxes", std::move(rows)}});
+  run_subcommand(args, {}, {}, [&](Delivery& out) {
+    if (!args.output.empty()) out.save_plots(args.output, std::vector{kernels_plot(args), responses_plot(args)}, 2, {});
+    print_result(args, text, {{"output", args.output}, {"boxes", rows}}, out);
+  });
 }
 
 }  // namespace zoneplate::cli

@@ -187,16 +187,16 @@ Rgba8Image figure_of(const std::string& input, const ConvolveArgs& args, const L
        .text = {}});
 }
 
-void run_image(const ConvolveArgs& args, const std::string& input) {
-  const LinearImage image = load_signal(input, args.uses_codes);
+void convolve_image(const ConvolveArgs& args, const std::string& input, Delivery& out) {
+  const LinearImage image = load_signal(input, args.uses_codes, out);
   const KernelChoice& kernel = args.kernel;
   const Results results = convolved(args, image, kernel);
-  if (!args.output.empty())
-    save_result(args.output, results.image, [&] {
-      return args.is_side_by_side ? figure_of(input, args, image, kernel, results.image)
-                                  : picture_of(args, kernel, results.image);
-    });
-  print_result(args, text_of(input, args, image, kernel, results), json_of(input, args, image, kernel, results));
+  const auto picture = [&] {
+    return args.is_side_by_side ? figure_of(input, args, image, kernel, results.image)
+                                : picture_of(args, kernel, results.image);
+  };
+  if (!args.output.empty()) save_result(args.output, results.image, picture, out);
+  print_result(args, text_of(input, args, image, kernel, results), json_of(input, args, image, kernel, results), out);
 }
 
 Plane<double> parse_values(const std::string& text) {
@@ -236,7 +236,10 @@ Syntax make_syntax(ConvolveArgs& args) {
   const std::string group = "Options";
   syntax.options = {
       {"--kernel", "KERNEL", "Kernel: a name, numbers or a file of numbers; default gaussian:sigma=2", group, true,
-       [&](auto& text) { args.kernel = parse_kernel_choice(text); }},
+       [&](auto& text) {
+         args.kernel_file = is_kernel_file(text) ? text : "";
+         if (args.kernel_file.empty()) args.kernel = parse_kernel_choice(text);
+       }},
       {"--values", "NUMBERS", "A row of numbers to convolve instead of an image; -o then writes a plot", group, true,
        [&](auto& text) { args.values = parse_values(text); }},
       {"--via", "WAY", "space (by the definition), frequency (product of the spectra) or both; default space", group,
@@ -261,13 +264,15 @@ void run_signal_convolve(std::span<const std::string> arguments) {
   if (!parse(syntax, arguments)) return;
   if (args.values && !syntax.found_operands.empty())
     throw Error(ErrorKind::Usage, "expected either an IMAGE or --values, not both");
-  if (args.values) {
-    check_plot_name(args.output);
-    return with_threads(args.threads, [&] { convolve_row(args); });
-  }
-  const std::string& input = only_operand(syntax, "one IMAGE, or --values");
-  args.is_side_by_side ? check_picture_name(args.output) : check_result_name(args.output);
-  with_threads(args.threads, [&] { run_image(args, input); });
+  const std::string input = args.values ? "" : only_operand(syntax, "one IMAGE, or --values");
+  args.values            ? check_plot_name(args.output)
+  : args.is_side_by_side ? check_picture_name(args.output)
+                         : check_result_name(args.output);
+  run_subcommand(args, {args.values ? args.kernel_file : input, args.kernel_file}, {}, [&](Delivery& out) {
+    if (!args.kernel_file.empty())
+      out.read(args.kernel_file, [&] { args.kernel = parse_kernel_choice(args.kernel_file); });
+    args.values ? convolve_row(args, out) : convolve_image(args, input, out);
+  });
 }
 
 }  // namespace zoneplate::cli

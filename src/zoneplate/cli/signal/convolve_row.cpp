@@ -64,7 +64,7 @@ Plot row_plot(const ConvolveArgs& args, const Row& row) {
 
 }  // namespace
 
-void convolve_row(const ConvolveArgs& args) {
+void convolve_row(const ConvolveArgs& args, Delivery& out) {
   const Row row = convolved_row(args);
   std::string text =
       fmt::format("values {}\nkernel {}\nresult {}\n", joined(row.in), joined(row.taps), joined(row.out));
@@ -76,8 +76,8 @@ void convolve_row(const ConvolveArgs& args) {
                     {"border", name_of(args.border)},
                     {"result", std::move(result)}};
   if (row.apart) json.emplace_back("difference", *row.apart);
-  if (!args.output.empty()) save_plots(args.output, {row_plot(args, row)}, 1, {});
-  print_result(args, text, json);
+  if (!args.output.empty()) out.save_plots(args.output, std::vector{row_plot(args, row)}, 1, {});
+  print_result(args, text, json, out);
 }
 
 }  // namespace zoneplate::cli

@@ -178,15 +178,17 @@ void run_signal_decimate(std::span<const std::string> arguments) {
   const std::string& input = only_operand(syntax, "one IMAGE");
   check_picture_name(args.output);
   for (const std::string& path : {args.naive_path, args.filtered_path}) check_result_name(path);
-  with_threads(args.threads, [&] {
-    const Pair pair = make_pair(args, load_signal(input, args.uses_codes));
-    if (!args.output.empty()) save_picture(args.output, figure_of(input, args, pair));
-    if (!args.naive_path.empty())
-      save_result(args.naive_path, pair.naive, [&] { return shown(pair.naive, args.uses_codes); });
-    if (!args.filtered_path.empty())
-      save_result(args.filtered_path, pair.filtered, [&] { return shown(pair.filtered, args.uses_codes); });
+  run_subcommand(args, {input}, {args.naive_path, args.filtered_path}, [&](Delivery& out) {
+    const Pair pair = make_pair(args, load_signal(input, args.uses_codes, out));
+    if (!args.output.empty()) save_picture(args.output, figure_of(input, args, pair), out);
+    const auto save = [&](const std::string& path, const LinearImage& image) {
+      if (!path.empty())
+        save_result(
+            path, image, [&] { return shown(image, args.uses_codes); }, out);
+    };
+    save(args.naive_path, pair.naive), save(args.filtered_path, pair.filtered);
     const std::vector<Figures> rows = measure(args, pair);
-    print_result(args, text_of(input, pair, rows), json_of(input, args, pair, rows));
+    print_result(args, text_of(input, pair, rows), json_of(input, args, pair, rows), out);
   });
 }
 

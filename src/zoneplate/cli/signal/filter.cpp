@@ -106,15 +106,16 @@ Rgba8Image picture_of(const FilterArgs& args, const LinearImage& result) {
   return args.loses_mean() ? shown_around_grey(result) : shown(result, args.uses_codes);
 }
 
-Rgba8Image figure_of(const std::string& input, const FilterArgs& args, const LinearImage& before,
-                     const LinearImage& after) {
+constexpr PlotSize plot_size{panel_px, panel_px * 3 / 4};
+
+Figure figure_of(const std::string& input, const FilterArgs& args, const LinearImage& before,
+                 const LinearImage& after) {
   const Spectrum was = fourier(luminance(before)), is = fourier(luminance(after));
   const MagnitudeScale scale{.peak = strongest_magnitude(was)};  // a common scale for comparison
-  const Rgba8Image plot = plot_picture(response_plot(args), {panel_px, panel_px * 3 / 4});
   const std::string around = args.loses_mean() ? " The mean is removed: mid-grey is 0." : "";
   const std::string shape =
       before.width() == before.height() ? "" : " The filter is isotropic; the plot has the image's aspect ratio.";
-  const Figure figure{
+  return {
       .title = fmt::format("{}: {}", title_of(input), name_of(args)),
       .rows = {{{fitted(shown(before, args.uses_codes)), "Image\nThe input."},
                 {magnitude_panel(was, scale), fmt::format("Its spectrum\nFrequency 0 in the middle, ½ cycle per pixel "
@@ -124,9 +125,8 @@ Rgba8Image figure_of(const std::string& input, const FilterArgs& args, const Lin
                  "Response\nThe factor of each frequency: white 1, black 0." + shape}},
                {{fitted(picture_of(args, after)), "Filtered image\nThe inverse transform of the product." + around},
                 {magnitude_panel(is, scale), "Its spectrum\nThe product of the two above, on the same scale."},
-                {plot, ""}}},
+                {{}, "", response_plot(args)}}},
       .text = {}};
-  return compose(figure);
 }
 
 Syntax make_syntax(FilterArgs& args) {
@@ -172,8 +172,8 @@ Syntax make_syntax(FilterArgs& args) {
   return syntax;
 }
 
-void tell_result(const std::string& input, const FilterArgs& args, const LinearImage& before,
-                 const LinearImage& after) {
+void tell_result(const std::string& input, const FilterArgs& args, const LinearImage& before, const LinearImage& after,
+                 Delivery& out) {
   const double was = variance(luminance(before)), is = variance(luminance(after));
   const double kept = was > 0 ? is / was : 1;
   const bool has_low = args.filter.pass != Pass::Low, has_high = args.filter.pass != Pass::High;
@@ -190,7 +190,8 @@ void tell_result(const std::string& input, const FilterArgs& args, const LinearI
                 {"high", has_high ? Json(args.filter.high) : Json()},
                 {"border", name_of(args.border)},
                 {"variance_before", was},
-                {"variance_after", is}});
+                {"variance_after", is}},
+               out);
 }
 
 }  // namespace
@@ -203,14 +204,15 @@ void run_signal_filter(std::span<const std::string> arguments) {
   if (args.passes_given != 1)
     throw Error(ErrorKind::Usage, "expected one of --low-pass, --high-pass, --band-pass and --band-stop");
   args.is_side_by_side ? check_picture_name(args.output) : check_result_name(args.output);
-  with_threads(args.threads, [&] {
-    const LinearImage before = load_signal(input, args.uses_codes);
+  run_subcommand(args, {input}, {}, [&](Delivery& out) {
+    const LinearImage before = load_signal(input, args.uses_codes, out);
     const LinearImage after = filtered(before, args.filter, args.border);
-    if (!args.output.empty())
-      save_result(args.output, after, [&] {
-        return args.is_side_by_side ? figure_of(input, args, before, after) : picture_of(args, after);
-      });
-    tell_result(input, args, before, after);
+    if (args.is_side_by_side && !args.output.empty())
+      out.save_figure(args.output, figure_of(input, args, before, after), plot_size);
+    else if (!args.output.empty())
+      save_result(
+          args.output, after, [&] { return picture_of(args, after); }, out);
+    tell_result(input, args, before, after, out);
   });
 }
 

@@ -84,10 +84,14 @@ Plane<double> parse_number_rows(const std::string& text) {
   return out;
 }
 
-KernelChoice parse_kernel_choice(const std::string& text) {
+bool is_kernel_file(const std::string& text) {
   std::error_code ignored;
+  return std::filesystem::is_regular_file(text, ignored);
+}
+
+KernelChoice parse_kernel_choice(const std::string& text) {
   KernelChoice choice;
-  if (std::filesystem::is_regular_file(text, ignored)) {
+  if (is_kernel_file(text)) {
     const FileBytes file(text, greatest_file);
     try {
       choice = of_numbers(text, without_comments({file.bytes().begin(), file.bytes().end()}));

@@ -24,6 +24,9 @@ struct KernelChoice {
 /// Errors    ErrorKind::Usage for any other text, ErrorKind::Input for a file with other contents.
 KernelChoice parse_kernel_choice(const std::string& text);
 
+/// Whether the value of --kernel is the name of a file.
+bool is_kernel_file(const std::string& text);
+
 /// Parses "1 3/4 -.5": numbers and fractions separated by spaces and commas; rows separated by semicolons and line
 /// ends, all of the same length.
 ///

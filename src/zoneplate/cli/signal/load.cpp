@@ -18,8 +18,6 @@
 namespace zoneplate::cli {
 namespace {
 
-constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;
-
 /// Maps every pixel by value_of(code), a function of a straight code, and premultiplies it.
 template <class Code, class ValueOf>
 LinearImage premultiplied(const Plane<Code>& codes, float greatest, const ValueOf& value_of) {
@@ -54,7 +52,7 @@ LinearImage as_codes(LinearImage image) {
   return image;
 }
 
-LinearImage load_file(const std::string& operand, bool uses_codes) {
+LinearImage load_file(const std::string& operand, bool uses_codes, std::uint64_t most_pixels) {
   const FileBytes file(operand);
   if (is_hdr(file.bytes()) || is_exr(file.bytes()) || is_pfm(file.bytes())) {
     LinearImage light = is_hdr(file.bytes())   ? decode_hdr(file.bytes(), operand, most_pixels)
@@ -70,11 +68,17 @@ LinearImage load_file(const std::string& operand, bool uses_codes) {
 
 }  // namespace
 
-LinearImage load_signal(const std::string& operand, bool uses_codes) {
+LinearImage load_signal(const std::string& operand, bool uses_codes, std::uint64_t most_pixels) {
   if (is_pattern(operand)) return uses_codes ? as_codes(make_pattern(operand)) : make_pattern(operand);
   const MappedFileWatch watch;
-  LinearImage image = load_file(operand, uses_codes);
+  LinearImage image = load_file(operand, uses_codes, most_pixels);
   watch.check(operand);
+  return image;
+}
+
+LinearImage load_signal(const std::string& operand, bool uses_codes, Delivery& out) {
+  LinearImage image;
+  out.read(operand, [&] { image = load_signal(operand, uses_codes, out.limits().pixels); });
   return image;
 }
 

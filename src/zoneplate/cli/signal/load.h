@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "zoneplate/cli/process/confined.h"
 #include "zoneplate/image/rgb.h"
 
 namespace zoneplate::cli {
@@ -12,7 +13,11 @@ namespace zoneplate::cli {
 /// its folder.
 ///
 /// Units     linear light; with `uses_codes`, sRGB codes in [0, 1] instead. Premultiplied in both cases.
-/// Errors    ErrorKind::Input naming the file and the cause; ErrorKind::Usage for a pattern's parameters.
-LinearImage load_signal(const std::string& operand, bool uses_codes);
+/// Errors    ErrorKind::Input naming the file and the cause, also for more than `most_pixels`; ErrorKind::Usage for a
+///           pattern's parameters.
+LinearImage load_signal(const std::string& operand, bool uses_codes, std::uint64_t most_pixels = LoadLimits().pixels);
+
+/// The same within the limits of a confined process.
+LinearImage load_signal(const std::string& operand, bool uses_codes, Delivery& out);
 
 }  // namespace zoneplate::cli

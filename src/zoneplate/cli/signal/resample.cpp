@@ -101,13 +101,14 @@ void run_signal_resample(std::span<const std::string> arguments) {
   if (args.size.empty()) throw Error(ErrorKind::Usage, "--size is missing: the new size, such as 640x480 or 50%");
   if (args.output.empty()) throw Error(ErrorKind::Usage, "--output is missing: the image file to write");
   args.is_side_by_side ? check_picture_name(args.output) : check_result_name(args.output);
-  with_threads(args.threads, [&] {
-    const LinearImage image = load_signal(input, args.uses_codes);
+  run_subcommand(args, {input}, {}, [&](Delivery& out) {
+    const LinearImage image = load_signal(input, args.uses_codes, out);
     const int2 size = size_from(args.size, image.width(), image.height());
     const LinearImage result = resampled(image, size.x, size.y, args.kernel, args.border);
-    save_result(args.output, result, [&] {
+    const auto picture = [&] {
       return args.is_side_by_side ? figure_of(input, args, image, result) : shown(result, args.uses_codes);
-    });
+    };
+    save_result(args.output, result, picture, out);
     print_result(args,
                  fmt::format("{}, {} × {} to {} × {} by {}, border {}\n", input, image.width(), image.height(), size.x,
                              size.y, args.kernel, name_of(args.border)),
@@ -118,7 +119,8 @@ void run_signal_resample(std::span<const std::string> arguments) {
                   {"from_width", image.width()},
                   {"from_height", image.height()},
                   {"kernel", args.kernel},
-                  {"border", name_of(args.border)}});
+                  {"border", name_of(args.border)}},
+                 out);
   });
 }
 

@@ -154,7 +154,7 @@ Syntax make_syntax(SampleArgs& args) {
                      [&](auto& text) { args.frequency = parse_number(text, least, greatest); }},
                     {"--rate", "R", "Samples per second", group, true,
                      [&](auto& text) { args.rate = parse_number(text, least, greatest); }}};
-  for (Option& option : signal_options(args, "The plots to write: a .svg or .png file, or - for PNG on stdout"))
+  for (Option& option : output_options(args, "The plots to write: a .svg or .png file, or - for PNG on stdout"))
     syntax.options.push_back(std::move(option));
   return syntax;
 }
@@ -170,9 +170,11 @@ void run_signal_sample(std::span<const std::string> arguments) {
   if (args.frequency == 0 || args.rate == 0) throw Error(ErrorKind::Usage, "--frequency and --rate are required");
   if (args.frequency > 1000 * args.rate) throw Error(ErrorKind::Usage, "--frequency is more than 1000 times the rate");
   check_plot_name(args.output);
-  if (!args.output.empty())
-    save_plots(args.output, {waves_plot(args), copies_plot(args)}, 1, {.width = 1000, .height = 380});
-  print_result(args, text_of(args), json_of(args));
+  run_subcommand(args, {}, {}, [&](Delivery& out) {
+    if (!args.output.empty())
+      out.save_plots(args.output, std::vector{waves_plot(args), copies_plot(args)}, 1, {.width = 1000, .height = 380});
+    print_result(args, text_of(args), json_of(args), out);
+  });
 }
 
 }  // namespace zoneplate::cli

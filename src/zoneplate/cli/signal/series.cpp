@@ -135,7 +135,7 @@ Syntax make_syntax(SeriesArgs& args) {
           "as 1/n², without overshoot. An edge in an image is such a discontinuity: it is not band-limited.\n"};
   syntax.options = {{"--terms", "N,...", "Highest harmonic of each sum; default 1,3,5,15", "Options", true,
                      [&](auto& text) { args.terms = parse_whole_list(text, 1, greatest_term); }}};
-  for (Option& option : signal_options(args, "The plot to write: a .svg or .png file, or - for PNG on stdout"))
+  for (Option& option : output_options(args, "The plot to write: a .svg or .png file, or - for PNG on stdout"))
     syntax.options.push_back(std::move(option));
   return syntax;
 }
@@ -148,10 +148,13 @@ void run_signal_series(std::span<const std::string> arguments) {
   if (!parse(syntax, arguments)) return;
   const Wave wave = parse_wave(only_operand(syntax, "a wave: square, triangle or sawtooth"));
   check_plot_name(args.output);
-  std::vector<Sum> sums;
-  for (const int n : args.terms) sums.push_back(summarize(wave, n));
-  if (!args.output.empty()) save_plots(args.output, {sums_plot(wave, args), harmonics_plot(wave, args)}, 2, {});
-  print_result(args, text_of(wave, sums), json_of(wave, args, sums));
+  run_subcommand(args, {}, {}, [&](Delivery& out) {
+    std::vector<Sum> sums;
+    for (const int n : args.terms) sums.push_back(summarize(wave, n));
+    if (!args.output.empty())
+      out.save_plots(args.output, std::vector{sums_plot(wave, args), harmonics_plot(wave, args)}, 2, {});
+    print_result(args, text_of(wave, sums), json_of(wave, args, sums), out);
+  });
 }
 
 }  // namespace zoneplate::cli

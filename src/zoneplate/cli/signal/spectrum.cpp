@@ -180,7 +180,9 @@ Json::Object json_of(const std::string& input, const SpectrumArgs& args, const A
   return json;
 }
 
-Rgba8Image figure_of(const std::string& input, const SpectrumArgs& args, const Analysis& a) {
+constexpr PlotSize plot_size{panel_px, panel_px * 3 / 4};
+
+Figure figure_of(const std::string& input, const SpectrumArgs& args, const Analysis& a) {
   LinearImage grey(a.plane.width(), a.plane.height());
   for (std::size_t i = 0; i < grey.values().size(); ++i) {
     const float v = a.plane.values()[i];
@@ -190,7 +192,7 @@ Rgba8Image figure_of(const std::string& input, const SpectrumArgs& args, const A
   const std::string how = args.is_periodic        ? "its periodic part"
                           : args.window == "none" ? "as it is"
                                                   : "under the window " + args.window;
-  Figure figure{
+  return {
       .title = "Spectrum of " + title_of(input),
       .rows =
           {{{fitted(shown(grey, args.uses_codes)), fmt::format("Image\nIts luminance, {}.", how)},
@@ -199,9 +201,8 @@ Rgba8Image figure_of(const std::string& input, const SpectrumArgs& args, const A
                                     args.range_db)}},
            {{phase_panel(a.spectrum),
              "Phase\nPhase of each frequency: white 0, orange a quarter turn, black half a turn, blue three quarters."},
-            {plot_picture(radial_plot(profile_of(a.spectrum), args.range_db), {panel_px, panel_px * 3 / 4}), ""}}},
+            {{}, "", radial_plot(profile_of(a.spectrum), args.range_db)}}},
       .text = {}};
-  return compose(figure);
 }
 
 Syntax make_syntax(SpectrumArgs& args) {
@@ -245,16 +246,16 @@ Syntax make_syntax(SpectrumArgs& args) {
   return syntax;
 }
 
-void save(const std::string& input, const SpectrumArgs& args, const Analysis& a) {
+void save(const std::string& input, const SpectrumArgs& args, const Analysis& a, Delivery& out) {
   switch (args.shown) {
     case Shown::Magnitude:
-      return save_picture(args.output, paint_magnitude(a.spectrum, {.range_db = args.range_db}));
+      return save_picture(args.output, paint_magnitude(a.spectrum, {.range_db = args.range_db}), out);
     case Shown::Phase:
-      return save_picture(args.output, paint_phase(a.spectrum));
+      return save_picture(args.output, paint_phase(a.spectrum), out);
     case Shown::Radial:
-      return save_plots(args.output, {radial_plot(profile_of(a.spectrum), args.range_db)}, 1, {});
+      return out.save_plots(args.output, std::vector{radial_plot(profile_of(a.spectrum), args.range_db)}, 1, {});
     case Shown::Everything:
-      return save_picture(args.output, figure_of(input, args, a));
+      return out.save_figure(args.output, figure_of(input, args, a), plot_size);
   }
 }
 
@@ -268,10 +269,10 @@ void run_signal_spectrum(std::span<const std::string> arguments) {
   if (args.is_periodic && args.window != "none")
     throw Error(ErrorKind::Usage, "--window and --periodic cannot be combined: both remove the effect of the borders");
   args.shown == Shown::Radial ? check_plot_name(args.output) : check_picture_name(args.output);
-  with_threads(args.threads, [&] {
-    const Analysis analysis = analyse(args, load_signal(input, args.uses_codes));
-    if (!args.output.empty()) save(input, args, analysis);
-    print_result(args, text_of(input, args, analysis), json_of(input, args, analysis));
+  run_subcommand(args, {input}, {}, [&](Delivery& out) {
+    const Analysis analysis = analyse(args, load_signal(input, args.uses_codes, out));
+    if (!args.output.empty()) save(input, args, analysis, out);
+    print_result(args, text_of(input, args, analysis), json_of(input, args, analysis), out);
   });
 }
 

@@ -24,15 +24,13 @@
 namespace zoneplate::cli {
 namespace {
 
-constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;
-
 struct LevelsArgs : SignalArgs {
   LevelOptions options;
   TexelMeaning meaning = TexelMeaning::Color;
   bool shows_ripmap = false;
 };
 
-TexelImage load_texels(const std::string& operand) {
+TexelImage load_texels(const std::string& operand, std::uint64_t most_pixels) {
   if (is_pattern(operand)) return shown(make_pattern(operand), false);
   const MappedFileWatch watch;
   const FileBytes file(operand);
@@ -147,7 +145,7 @@ double coverage_of(const TextureView& view, int l, float cutoff) {
   return static_cast<double>(passing) / (static_cast<double>(view.width[l]) * view.height[l]);
 }
 
-void print_levels(const LevelsArgs& args, const std::string& input, const TextureView& view) {
+void print_levels(const LevelsArgs& args, const std::string& input, const TextureView& view, Delivery& out) {
   const TexelCodes codes{view, false};
   const Memory m = memory_of(view, codes.bytes());
   const auto ratio = [&](std::int64_t bytes) { return static_cast<double>(bytes) / static_cast<double>(m.first); };
@@ -176,7 +174,8 @@ void print_levels(const LevelsArgs& args, const std::string& input, const Textur
                 {"levels", std::move(levels)},
                 {"mip_bytes", static_cast<double>(m.mips)},
                 {"ripmap_bytes", static_cast<double>(m.ripmap)},
-                {"summed_area_bytes", static_cast<double>(m.sums)}});
+                {"summed_area_bytes", static_cast<double>(m.sums)}},
+               out);
 }
 
 Syntax make_syntax(LevelsArgs& args) {
@@ -223,13 +222,16 @@ void run_texture_levels(std::span<const std::string> arguments) {
   if (!parse(syntax, arguments)) return;
   const std::string& input = only_operand(syntax, "one IMAGE");
   check_picture_name(args.output);
-  with_threads(args.threads, [&] {
-    const Texture texture(load_texels(input), args.meaning, args.options);
+  run_subcommand(args, {input}, {}, [&](Delivery& out) {
+    TexelImage texels;
+    out.read(input, [&] { texels = load_texels(input, out.limits().pixels); });
+    const Texture texture(std::move(texels), args.meaning, args.options);
     const bool is_color = args.meaning == TexelMeaning::Color;
     if (!args.output.empty())
       save_picture(args.output,
-                   args.shows_ripmap ? ripmap_of(texture.ripmap(), is_color) : pyramid_of(texture.view(), is_color));
-    print_levels(args, input, texture.view());
+                   args.shows_ripmap ? ripmap_of(texture.ripmap(), is_color) : pyramid_of(texture.view(), is_color),
+                   out);
+    print_levels(args, input, texture.view(), out);
   });
 }
 

@@ -63,8 +63,8 @@ void run_texture_normal_from_height(std::span<const std::string> arguments) {
   if (!parse(syntax, arguments)) return;
   const std::string& input = only_operand(syntax, "one IMAGE");
   check_result_name(args.output);
-  with_threads(args.threads, [&] {
-    const Plane<float3> normals = normals_of(luminance(load_signal(input, true)), args.options);
+  run_subcommand(args, {input}, {}, [&](Delivery& out) {
+    const Plane<float3> normals = normals_of(luminance(load_signal(input, true, out)), args.options);
     LinearImage encoded(normals.width(), normals.height());
     float steepest = 1;
     for (std::size_t i = 0; i < normals.values().size(); ++i) {
@@ -73,9 +73,10 @@ void run_texture_normal_from_height(std::span<const std::string> arguments) {
       steepest = std::min(steepest, n.z);
     }
     if (args.output.ends_with(".pfm") || args.output.ends_with(".exr")) {
-      save_result(args.output, encoded, [] { return Rgba8Image(); });
+      save_result(
+          args.output, encoded, [] { return Rgba8Image(); }, out);
     } else if (!args.output.empty()) {
-      save_bytes(args.output, encode_png(shown(encoded, true), {.has_alpha = false, .is_srgb = false}));
+      out.save(args.output, encode_png(shown(encoded, true), {.has_alpha = false, .is_srgb = false}));
     }
     print_result(
         args,
@@ -84,7 +85,8 @@ void run_texture_normal_from_height(std::span<const std::string> arguments) {
          {"output", args.output},
          {"width", normals.width()},
          {"height", normals.height()},
-         {"least_z", steepest}});
+         {"least_z", steepest}},
+        out);
   });
 }
 

@@ -10,6 +10,7 @@
 #include "zoneplate/base/callback_error.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/utf8.h"
+#include "zoneplate/os/file.h"
 
 namespace zoneplate {
 namespace {
@@ -46,6 +47,7 @@ Font::Font(const std::string& path) {
   FT_Face face = nullptr;
   std::error_code ignored;
   if (!std::filesystem::exists(path, ignored)) throw Error(ErrorKind::Input, path + ": no such file");
+  check_is_file(path);
   if (FT_New_Face(library, path.c_str(), 0, &face) != 0) throw Error(ErrorKind::Input, path + ": not a font");
   face_.reset(face);
   if (FT_IS_SCALABLE(face) == 0 || face->units_per_EM == 0)

@@ -48,10 +48,8 @@ DisplayImage display_of(const Rgba16Image& codes) {
   return image;
 }
 
-constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;
-
-DisplayImage decode_display(std::span<const std::uint8_t> bytes, const std::string& path) {
-  if (is_jpeg(bytes)) return display_of(decode_jpeg(bytes, path));
+DisplayImage decode_display(std::span<const std::uint8_t> bytes, const std::string& path, std::uint64_t most_pixels) {
+  if (is_jpeg(bytes)) return display_of(decode_jpeg(bytes, path, most_pixels));
   if (is_webp(bytes)) return display_of(decode_webp(bytes, path, most_pixels));
   if (!is_png(bytes)) throw unread_format(bytes, path, "PNG, JPEG, WebP, HDR, EXR or PFM");
   const PngImage png = decode_png_as_stored(bytes, path, most_pixels);
@@ -175,11 +173,11 @@ std::vector<std::uint64_t> frame_numbers(const std::vector<std::string>& paths) 
 
 }  // namespace
 
-Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name) {
-  return is_hdr(bytes)   ? make_picture(decode_hdr(bytes, name))
-         : is_exr(bytes) ? make_picture(decode_exr_as_stored(bytes, name))
-         : is_pfm(bytes) ? make_picture(decode_pfm(bytes, name))
-                         : make_picture(decode_display(bytes, name));
+Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t most_pixels) {
+  return is_hdr(bytes)   ? make_picture(decode_hdr(bytes, name, most_pixels))
+         : is_exr(bytes) ? make_picture(decode_exr_as_stored(bytes, name, most_pixels))
+         : is_pfm(bytes) ? make_picture(decode_pfm(bytes, name, most_pixels))
+                         : make_picture(decode_display(bytes, name, most_pixels));
 }
 
 ImageFile open_image(const std::string& path) {
@@ -188,14 +186,16 @@ ImageFile open_image(const std::string& path) {
   return {path, bytes, std::move(file)};
 }
 
-Picture decode_file(const ImageFile& file) {
+Picture decode_file(const ImageFile& file, std::uint64_t most_pixels) {
   const MappedFileWatch watch;
-  Picture picture = decode_picture(file.bytes, file.name);
+  Picture picture = decode_picture(file.bytes, file.name, most_pixels);
   watch.check(file.name);
   return picture;
 }
 
-Picture load_picture(const std::string& path) { return decode_file(open_image(path)); }
+Picture load_picture(const std::string& path, std::uint64_t most_pixels) {
+  return decode_file(open_image(path), most_pixels);
+}
 
 std::vector<std::string> list_pictures_below(const std::string& directory) {
   return if_any(files_of<fs::recursive_directory_iterator>(directory, is_picture_name), directory);

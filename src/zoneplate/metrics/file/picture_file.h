@@ -17,18 +17,19 @@ namespace zoneplate::metrics {
 ImageFile open_image(const std::string& path);
 
 /// Decodes it as load_picture does.
-Picture decode_file(const ImageFile& file);
+Picture decode_file(const ImageFile& file, std::uint64_t most_pixels = std::uint64_t{1} << 28);
 
 /// Loads an image from a PNG (8 or 16 bits), JPEG, WebP, HDR, EXR or PFM file, recognised by its first bytes. "-" is
 /// stdin.
 ///
 /// HDR, EXR and PFM contain unbounded linear light, which is kept as it is stored, with NaN and infinities; their
 /// display-referred values are clamped.
-/// Errors    ErrorKind::Input naming the file and the cause.
-Picture load_picture(const std::string& path);
+/// Errors    ErrorKind::Input naming the file and the cause, also for more than `most_pixels`.
+Picture load_picture(const std::string& path, std::uint64_t most_pixels = std::uint64_t{1} << 28);
 
 /// The same from the bytes of a file; `name` is for messages.
-Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name);
+Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name,
+                       std::uint64_t most_pixels = std::uint64_t{1} << 28);
 
 /// The image files of one operand, in order.
 struct PictureFiles {

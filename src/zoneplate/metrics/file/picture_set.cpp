@@ -14,6 +14,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/metrics/file/picture_file.h"
+#include "zoneplate/os/file.h"
 #include "zoneplate/os/run_program.h"
 
 namespace zoneplate::metrics {
@@ -56,10 +57,10 @@ std::vector<std::span<const std::uint8_t>> split_png_stream(std::span<const std:
 }
 
 /// The frames of a video, which are kept as PNG files in memory.
-PictureSet open_video(const std::string& path) {
+PictureSet open_video(const std::string& path, const ProgramLimits& limits) {
   std::error_code error;
   if (!fs::exists(path, error)) throw Error(ErrorKind::Input, path + ": no such file");
-  const ProgramLimits limits{.milliseconds = 3'600'000, .bytes = std::size_t{1} << 34};
+  check_is_file(path);
   auto stream = std::make_shared<std::vector<std::uint8_t>>();
   try {
     ProgramResult result = run_child("ffmpeg",
@@ -104,8 +105,8 @@ std::string without_extension(const std::string& path) { return fs::path(path).r
 
 }  // namespace
 
-PictureSet open_pictures(const std::string& operand) {
-  if (is_video_name(operand) && !is_directory(operand)) return open_video(operand);
+PictureSet open_pictures(const std::string& operand, const ProgramLimits& decoder) {
+  if (is_video_name(operand) && !is_directory(operand)) return open_video(operand, decoder);
   PictureSet set{.is_directory = is_directory(operand)};
   PictureFiles files = set.is_directory ? PictureFiles{list_pictures_below(operand)} : list_pictures(operand);
   set.numbers = std::move(files.numbers);
@@ -117,11 +118,10 @@ PictureSet open_pictures(const std::string& operand) {
     set.names.push_back(set.is_directory ? fs::path(path).lexically_relative(operand).string()
                                          : fs::path(path).filename().string());
   set.open = [paths](std::size_t i) { return open_image((*paths)[i]); };
+  set.files = *paths;
   set.are_frames = are_frames(*paths);
   return set;
 }
-
-Picture PictureSet::load(std::size_t index) const { return decode_file(open(index)); }
 
 namespace {
 

@@ -7,8 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "zoneplate/metrics/file/picture_file.h"
 #include "zoneplate/metrics/file/stored.h"
 #include "zoneplate/metrics/picture.h"
+#include "zoneplate/os/run_program.h"
 
 namespace zoneplate::metrics {
 
@@ -21,15 +23,21 @@ struct PictureSet {
   bool are_frames = false;                     ///< their names differ only by numbers, or they are those of a video
   std::vector<std::string> others = {};        ///< images and films of a directory in formats that are not read there
 
-  Picture load(std::size_t index) const;  ///< decode_file(open(index))
+  std::vector<std::string> files = {};         ///< the files that `open` opens
+  std::function<Picture(const ImageFile&)> decode = [](const ImageFile& file) { return decode_file(file); };
+
+  Picture load(std::size_t index) const { return decode(open(index)); }
 };
+
+inline constexpr ProgramLimits video_limits{.milliseconds = 3'600'000, .bytes = std::size_t{1} << 34};
 
 /// Lists the images of an operand.
 ///
 /// A directory: its images and those of its subfolders, in natural order. A video (.mp4, .m4v, .mov, .mkv, .webm, .avi,
 /// .gif, .apng): its frames, decoded by ffmpeg. Anything else: as list_pictures (metrics/file/picture_file.h).
 /// Errors    ErrorKind::Input if nothing is found, or ffmpeg cannot decode the video.
-PictureSet open_pictures(const std::string& operand);
+/// `decoder` limits the frames of a video.
+PictureSet open_pictures(const std::string& operand, const ProgramLimits& decoder = video_limits);
 
 /// Two images to compare, as indices into their sets; one of them may be missing.
 struct PicturePair {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/render/item_process.h"
+#include "zoneplate/cli/process/item_process.h"
 
 #include <fmt/format.h>
 
@@ -25,20 +25,21 @@ std::string late_reading(const std::string& name, const LoadLimits& limits) {
   return fmt::format("{}: takes longer to load than the limit of {:.6g} s (--max-import-seconds)", name,
                      limits.seconds);
 }
-std::string late_item(const ItemLimits& limits) {
-  return fmt::format("{}: takes longer than the limit of {:.6g} s (--max-seconds)", limits.name, limits.seconds);
-}
 /// `limit` is memory_limit_text of the limits.
-std::string out_of_memory(const ItemLimits& limits, const std::string& limit, const std::bad_alloc& error,
-                          bool has_read) {
+std::string out_of_memory(const std::string& name, const ItemLimits& limits, const std::string& limit,
+                          const std::bad_alloc& error, bool has_read) {
   const auto* named = dynamic_cast<const OutOfMemory*>(&error);
   return fmt::format(
-      "{}: {} more memory than the limit of {}", limits.name,
-      named ? std::string(named->what()) + " need" : std::string(has_read ? "drawing it" : "reading it") + " needs",
+      "{}: {} more memory than the limit of {}", name,
+      named ? std::string(named->what()) + " need" : std::string(has_read ? limits.work : "reading it") + " needs",
       limit);
 }
 
 }  // namespace
+
+std::string late_item(const std::string& name, double seconds) {
+  return fmt::format("{}: takes longer than the limit of {:.6g} s (--max-seconds)", name, seconds);
+}
 
 ItemProcess::ItemProcess(ItemLimits limits, std::size_t jobs, Work work)
     : limits_(std::move(limits)), jobs_(jobs), work_(std::move(work)) {}
@@ -47,8 +48,8 @@ ItemProcess::~ItemProcess() = default;
 
 void ItemProcess::check_time() const {
   if (!has_read_ && reading_.ms() / 1000 > limits_.load.seconds + grace)
-    throw Error(ErrorKind::Input, late_reading(limits_.name, limits_.load));
-  if (watch_.ms() / 1000 > limits_.seconds + grace) throw Error(ErrorKind::Failed, late_item(limits_));
+    throw Error(ErrorKind::Input, late_reading(input_, limits_.load));
+  if (watch_.ms() / 1000 > limits_.seconds + grace) throw Error(ErrorKind::Failed, late_item(input_, limits_.seconds));
 }
 
 void ItemProcess::start(std::size_t first) {
@@ -62,8 +63,8 @@ void ItemProcess::start(std::size_t first) {
   limits.readable = limits_.readable;
   limits.worker = "its process";
   limits.siblings = limits_.siblings;
-  child_ = std::make_unique<LimitedChild>(limits_.name, limits,
-                                          [this, first](ChildAnswer& answer) { work_on(first, answer); });
+  child_ = std::make_unique<LimitedChild>(
+      limits_.name, limits, [this, first](ChildAnswer& answer) { work_on(first, answer); }, limits_.open);
 }
 
 void ItemProcess::start_ahead() noexcept {
@@ -80,7 +81,8 @@ void ItemProcess::work_on(std::size_t first, ChildAnswer& answer) {
     sender.begin_job();
     try {
       std::vector<std::uint8_t> result;
-      with_deadline(limits_.seconds, ErrorKind::Failed, late_item(limits_), [&] { result = work_(job, sender); });
+      with_deadline(limits_.seconds, ErrorKind::Failed, late_item(limits_.name, limits_.seconds),
+                    [&] { result = work_(job, sender); });
       sender.result(result);
       continue;
     } catch (const LibraryNeeded& needed) {
@@ -89,11 +91,12 @@ void ItemProcess::work_on(std::size_t first, ChildAnswer& answer) {
       // Errors after reading and rendering errors do not contain the model's name.
       const std::string message = error.what();
       const bool needs_name = sender.is_past_reading() || error.kind() == ErrorKind::Failed;
-      const bool is_named = !needs_name || message.find(limits_.name) != message.npos;
+      const bool is_named = !limits_.names_errors || !needs_name || message.find(limits_.name) != message.npos;
       sender.failure(error.kind(), is_named ? message : limits_.name + ": " + message);
     } catch (const std::bad_alloc& error) {
       sender.failure(sender.is_past_reading() ? ErrorKind::Failed : ErrorKind::Input,
-                     out_of_memory(limits_, memory_limit_, error, sender.is_past_reading()));
+                     out_of_memory(sender.input().empty() ? limits_.name : sender.input(), limits_, memory_limit_, error,
+                                   sender.is_past_reading()));
     } catch (const std::exception& error) {
       sender.failure(ErrorKind::Failed, limits_.name + ": " + error.what());
     }
@@ -121,9 +124,13 @@ std::vector<std::uint8_t> ItemProcess::next(ItemEvents events) {
   const std::size_t job = next_++;
   watch_ = reading_ = Stopwatch();
   has_read_ = false;
+  input_ = limits_.name;
   std::optional<std::pair<Library, std::string>> needed;
   events.has_read = [&] { has_read_ = true; };
-  events.begins_to_read = [&] { has_read_ = false, reading_ = Stopwatch(); };
+  events.begins_to_read = [&](const std::string& input) {
+    has_read_ = false, reading_ = Stopwatch();
+    input_ = input.empty() ? limits_.name : input;
+  };
   events.needs_library = [&](Library library, const std::string& message) { needed.emplace(library, message); };
   try {
     if (!child_) start(job);

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "zoneplate/base/clock.h"
-#include "zoneplate/cli/render/item_messages.h"
+#include "zoneplate/cli/process/item_messages.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/os/limited_child.h"
 
@@ -25,6 +25,9 @@ struct ItemLimits {
   bool is_sandboxed = true;                                  ///< if the kernel supports sandboxes
   std::optional<std::vector<std::string>> readable = {};     ///< files and folders; nothing: every file
   LimitedChildren* siblings = nullptr;                       ///< the processes that work at the same time
+  std::function<void()> open = {};                           ///< runs in the process before it is confined
+  bool names_errors = true;                                  ///< errors begin with `name`
+  const char* work = "drawing it";                           ///< after reading, in messages about memory
 };
 
 /// Runs the work of one item, or of several items with one model, in a separate process: a sandboxed fork of this one
@@ -65,10 +68,14 @@ class ItemProcess {
   Work work_;
   std::string memory_limit_;  ///< for messages
   std::size_t next_ = 0;
+  std::string input_;  ///< the file that is read, or was read last
   std::unique_ptr<LimitedChild> child_;
   Stopwatch watch_, reading_;
   bool has_read_ = false;
 };
+
+/// The message about an item that takes longer than its time limit.
+std::string late_item(const std::string& name, double seconds);
 
 /// Reads a model with the limit of import time. Called in an item's process.
 ///

@@ -19,6 +19,9 @@ namespace zoneplate::cli {
 // Messages from an item's process (item_process.h) to the parent process: a header of fixed size, followed by the
 // number of bytes that it states. The receiver does not trust them.
 
+/// How a text is printed (cli/log.h): `print`, `print_report` to stdout or to stderr, `say_warning`.
+enum class TextKind : std::uint8_t { Output, Report, Aside, Warning };
+
 /// The sender of messages; thread-safe.
 class ItemSender {
  public:
@@ -32,11 +35,17 @@ class ItemSender {
   void progress(std::string_view stage, double done);
   /// Reports that reading is complete, so that its time limit no longer applies; or that the next file is read, for
   /// which the limit begins anew. A job begins by reading.
+  /// `input` is the file's name in messages about limits from now on; empty: that of the item.
   void has_read();
-  void begins_to_read();
+  void begins_to_read(const std::string& input = {});
   /// Sends a whole file. `frame` is its number in a sequence; `layer` is its index among the data passes, or -1
   /// for the image. The receiver determines the file's name from both.
   void file(int frame, int layer, std::span<const std::uint8_t> bytes);
+  /// Sends a whole file by its name, or the plots of one, which the receiver has drawn (packed_plots.h).
+  void named_file(const std::string& name, std::span<const std::uint8_t> bytes);
+  void plots(const std::string& name, std::span<const std::uint8_t> bytes);
+  /// Sends text that the receiver prints.
+  void text(TextKind kind, std::string_view text);
   /// A function that sends the progress of a stage which begins at `from` and ends at `to`, in whole per cents that
   /// only rise; any thread may call it with the fraction of the stage that is complete.
   std::function<void(double)> progress_of(std::string stage, double from, double to);
@@ -51,7 +60,9 @@ class ItemSender {
 
   /// Whether the current job does not read.
   bool is_past_reading() const { return is_past_reading_; }
-  void begin_job() { is_past_reading_ = false; }
+  /// The input that is read, or was read last; empty: that of the item.
+  const std::string& input() const { return input_; }
+  void begin_job() { is_past_reading_ = false, input_.clear(); }
 
  private:
   enum class Kind : std::uint8_t;
@@ -59,9 +70,11 @@ class ItemSender {
   friend std::optional<std::vector<std::uint8_t>> receive_message(const std::string&, const struct ItemEvents&,
                                                                   const std::function<void(std::span<std::uint8_t>)>&);
   void send(Kind kind, int first, int second, std::span<const std::uint8_t> bytes);
+  void send_named(Kind kind, std::string_view name, std::span<const std::uint8_t> bytes);
 
   Write write_;
   std::mutex mutex_;
+  std::string input_;
   bool is_past_reading_ = false, sends_progress_ = true;
 };
 
@@ -73,7 +86,11 @@ struct ItemEvents {
   std::function<void(int frame, int layer, std::uint64_t size, const Read& read)> file;
   std::function<void(std::uint64_t size, const Read& read)> film_frame;
   std::function<void(std::uint64_t key, std::uint64_t size, const Read& read)> environment;
-  std::function<void()> has_read, begins_to_read;
+  std::function<void(const std::string& name, std::uint64_t size, const Read& read)> named_file;
+  std::function<void(const std::string& name, std::uint64_t size, const Read& read)> plots;
+  std::function<void(TextKind kind, const std::string& text)> text;
+  std::function<void()> has_read;
+  std::function<void(const std::string& input)> begins_to_read;
   std::function<void(Library library, const std::string& message)> needs_library;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/render/item_process.h"
+#include "zoneplate/cli/process/item_process.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/render/item_messages.h"
+#include "zoneplate/cli/process/item_messages.h"
 
 #include <algorithm>
 #include <utility>
@@ -13,6 +13,9 @@ enum class ItemSender::Kind : std::uint8_t {
   HasRead,
   BeginsToRead,
   File,
+  NamedFile,
+  Plots,
+  Text,
   FilmFrame,
   Environment,
   Result,
@@ -63,6 +66,15 @@ class Body {
     const std::vector<std::uint8_t> bytes = rest();
     return {bytes.begin(), bytes.end()};
   }
+  /// The next bytes as a name.
+  std::string name(std::int32_t size) {
+    constexpr std::int32_t most = 1 << 16;
+    if (size < 0 || size > most) fail("of a file without a name");
+    std::string name(static_cast<std::size_t>(size), ' ');
+    read({reinterpret_cast<std::uint8_t*>(name.data()), name.size()});
+    return name;
+  }
+  std::uint64_t size_left() const { return left_; }
   void check_end() const {
     if (left_ > 0) fail("longer than its parts");
   }
@@ -77,6 +89,16 @@ class Body {
 };
 
 }  // namespace
+
+/// The name is the first part of the message, whose length is in the header.
+void ItemSender::send_named(Kind kind, std::string_view name, std::span<const std::uint8_t> bytes) {
+  const Header header{
+      .kind = kind, .first = static_cast<std::int32_t>(name.size()), .second = 0, .size = name.size() + bytes.size()};
+  const std::lock_guard lock(mutex_);
+  write_({reinterpret_cast<const std::uint8_t*>(&header), sizeof header});
+  write_(bytes_of(name));
+  write_(bytes);
+}
 
 void ItemSender::send(Kind kind, int first, int second, std::span<const std::uint8_t> bytes) {
   const Header header{.kind = kind, .first = first, .second = second, .size = bytes.size()};
@@ -103,12 +125,21 @@ void ItemSender::has_read() {
   is_past_reading_ = true;
   send(Kind::HasRead, 0, 0, {});
 }
-void ItemSender::begins_to_read() {
-  is_past_reading_ = false;
-  send(Kind::BeginsToRead, 0, 0, {});
+void ItemSender::begins_to_read(const std::string& input) {
+  is_past_reading_ = false, input_ = input;
+  send(Kind::BeginsToRead, 0, 0, bytes_of(input));
 }
 void ItemSender::file(int frame, int layer, std::span<const std::uint8_t> bytes) {
   send(Kind::File, frame, layer, bytes);
+}
+void ItemSender::named_file(const std::string& name, std::span<const std::uint8_t> bytes) {
+  send_named(Kind::NamedFile, name, bytes);
+}
+void ItemSender::plots(const std::string& name, std::span<const std::uint8_t> bytes) {
+  send_named(Kind::Plots, name, bytes);
+}
+void ItemSender::text(TextKind kind, std::string_view text) {
+  send(Kind::Text, static_cast<int>(kind), 0, bytes_of(text));
 }
 void ItemSender::film_frame(const Rgba8Image& image) {
   const auto* first = reinterpret_cast<const std::uint8_t*>(image.values().data());
@@ -144,9 +175,18 @@ std::optional<std::vector<std::uint8_t>> receive_message(const std::string& plac
   } else if (header.kind == Kind::HasRead && events.has_read) {
     events.has_read();
   } else if (header.kind == Kind::BeginsToRead && events.begins_to_read) {
-    events.begins_to_read();
+    events.begins_to_read(body.text());
   } else if (header.kind == Kind::File && events.file && header.second >= -1) {
     events.file(header.first, header.second, header.size, read);
+  } else if (header.kind == Kind::NamedFile && events.named_file) {
+    const std::string name = body.name(header.first);
+    events.named_file(name, body.size_left(), read);
+  } else if (header.kind == Kind::Plots && events.plots) {
+    const std::string name = body.name(header.first);
+    events.plots(name, body.size_left(), read);
+  } else if (header.kind == Kind::Text && events.text && header.first >= 0 &&
+             header.first <= static_cast<int>(TextKind::Warning)) {
+    events.text(static_cast<TextKind>(header.first), body.text());
   } else if (header.kind == Kind::FilmFrame && events.film_frame) {
     events.film_frame(header.size, read);
   } else if (header.kind == Kind::Environment && events.environment) {

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "zoneplate/cli/args.h"
+#include "zoneplate/cli/compare/trial.h"
+#include "zoneplate/cli/render/args.h"
+
+namespace zoneplate::cli {
+
+/// The arguments of `zoneplate compare`.
+struct CompareArgs {
+  RenderArgs render;  ///< size, view, lights, tone mapping, limits: the options of `zoneplate render`
+  std::vector<std::string> scenes, command;
+  std::string methods = "all", reference, page, metrics;
+  bool replaces = false;  ///< an earlier comparison in the folder of the output
+
+  /// The file by which save_folder recognises the folder that it replaces; empty: none.
+  std::string replaced() const { return replaces ? "compare.json" : ""; }
+  /// The beginning of the paths of its files.
+  std::string folder() const { return render.output + '/'; }
+  int turns = 3, frames = 1;
+};
+
+/// The applicable options of `render`, and the verb's own.
+Syntax compare_syntax(CompareArgs& args);
+
+/// Errors    ErrorKind::Usage for an invalid method, metric or reference; ErrorKind::Input for a reference that is no
+///           file.
+TrialOptions trial_options(const CompareArgs& args);
+
+/// The scenes of the operands; `all` is every built-in scene that shows a class of artifacts.
+std::vector<std::string> scenes_of(const std::vector<std::string>& operands);
+
+/// Reports an invalid scene name before the first scene is drawn.
+void check_scenes(const CompareArgs& args);
+
+}  // namespace zoneplate::cli
