@@ -27,11 +27,49 @@ namespace fs = std::filesystem;
 
 constexpr const char* is_there = "is there already; give another folder or remove it";
 
-/// True for a folder, not a link to one, with a file of this name.
-bool is_folder_with(const std::string& path, const std::string& file) {
+/// The status of what has this name, itself and not where a link leads; nothing if there is nothing.
+std::optional<struct stat> status_of(const std::string& path) {
   struct stat status {};
-  return !file.empty() && ::lstat(path.c_str(), &status) == 0 && S_ISDIR(status.st_mode) &&
-         ::lstat((path + '/' + file).c_str(), &status) == 0 && S_ISREG(status.st_mode);
+  if (::lstat(path.c_str(), &status) != 0) return std::nullopt;
+  return status;
+}
+
+/// The name within the folder of the first entry that is not an earlier file or subfolder; nothing if all are.
+std::optional<std::string> foreign_entry(const std::string& folder, const std::set<std::string>& earlier) {
+  std::set<std::string> foreign;
+  for (fs::recursive_directory_iterator entry(folder), end; entry != end; ++entry) {
+    const std::string name = entry->path().lexically_relative(folder).string();
+    const bool is_plain = !entry->is_symlink() && (entry->is_directory() || entry->is_regular_file());
+    if (is_plain && earlier.contains(name)) continue;
+    foreign.insert(name);
+    entry.disable_recursion_pending();
+  }
+  if (foreign.empty()) return std::nullopt;
+  return *foreign.begin();
+}
+
+/// Requires  there is something of this name.
+void check_replaceable(const std::string& path, const EarlierFiles& earlier) {
+  const std::optional<struct stat> status = status_of(path);
+  if (!earlier || !status || !S_ISDIR(status->st_mode)) refuse(path, is_there);
+  std::optional<std::string> foreign;
+  try {
+    foreign = foreign_entry(path, *earlier);
+  } catch (const fs::filesystem_error& error) {
+    refuse(path, "cannot be read: " + error.code().message());
+  }
+  if (foreign)
+    refuse(path, fmt::format("is not replaced, because it has {}, which is not of the earlier output", *foreign));
+}
+
+/// A name of a file, or of one in a subfolder.
+bool is_inner_name(const std::string& name) {
+  const std::size_t slash = name.find('/');
+  const auto is_part = [](std::string_view part) {
+    return !part.empty() && part != "." && part != ".." && part.find_first_of(std::string_view("/\0", 2)) == part.npos;
+  };
+  if (slash == name.npos) return is_part(name);
+  return is_part(std::string_view(name).substr(0, slash)) && is_part(std::string_view(name).substr(slash + 1));
 }
 
 std::string without_slashes(std::string path) {
@@ -101,6 +139,7 @@ class StagedFolder {
   StagedFolder& operator=(const StagedFolder&) = delete;
 
   void write(const OutputFile& file) {
+    if (!is_inner_name(file.name)) throw Error(ErrorKind::Failed, file.name + ": is no name of a file in a folder");
     if (const std::size_t slash = file.name.find('/'); slash != std::string::npos) {
       const std::string folder = root_ + '/' + file.name.substr(0, slash);
       if (folders_.insert(folder).second && ::mkdir(folder.c_str(), 0777) != 0)
@@ -111,8 +150,11 @@ class StagedFolder {
     save_bytes(path, file.bytes);
   }
 
-  void commit(const std::string& replaced) {
-    if (is_folder_with(target_, replaced) && exchange()) return;
+  void commit(const EarlierFiles& earlier) {
+    if (earlier && status_of(target_)) {
+      check_replaceable(target_, earlier);
+      if (exchange(*earlier)) return;
+    }
     int result = ::renameat2(AT_FDCWD, root_.c_str(), AT_FDCWD, target_.c_str(), RENAME_NOREPLACE);
     // File systems without this flag use plain rename, which replaces only empty folders.
     if (result != 0 && (errno == EINVAL || errno == ENOSYS)) result = ::rename(root_.c_str(), target_.c_str());
@@ -124,12 +166,19 @@ class StagedFolder {
   }
 
  private:
-  /// Gives the staged folder the target's name, and removes the folder that had it. False if the file system cannot.
-  bool exchange() {
+  /// Gives the staged folder the target's name, and removes the earlier files. False if the file system cannot.
+  bool exchange(const std::set<std::string>& earlier) {
     if (::renameat2(AT_FDCWD, root_.c_str(), AT_FDCWD, target_.c_str(), RENAME_EXCHANGE) != 0) return false;
     is_committed_ = true;
-    std::error_code ignored;
-    fs::remove_all(root_, ignored);
+    for (const std::string& name : earlier) {
+      const std::string path = root_ + '/' + name;
+      const std::optional<struct stat> status = status_of(path);
+      if (is_inner_name(name) && status && S_ISREG(status->st_mode)) ::unlink(path.c_str());
+    }
+    for (const std::string& name : earlier)
+      if (is_inner_name(name)) ::rmdir((root_ + '/' + name).c_str());
+    if (::rmdir(root_.c_str()) != 0)
+      refuse(target_, "is replaced; files that are not of the earlier output are kept in " + root_);
     return true;
   }
 
@@ -140,27 +189,24 @@ class StagedFolder {
 
 }  // namespace
 
-void check_output_folder(const std::string& output, const std::string& replaced) {
+void check_output_folder(const std::string& output, const EarlierFiles& earlier) {
   if (output.empty()) throw Error(ErrorKind::Usage, "no output: give -o DIR");
   const std::string path = without_slashes(output);
-  struct stat status {};
-  if (::lstat(path.c_str(), &status) == 0 && !is_folder_with(path, replaced))
-    refuse(path, replaced.empty()
-                     ? is_there
-                     : fmt::format("is there already, and is not a folder with {}: it is not replaced", replaced));
-  if (is_folder_with(path, replaced)) return check_parent(path);
-  if (errno != ENOENT && errno != ENOTDIR) refuse(path, std::string("cannot be made: ") + std::strerror(errno));
+  if (status_of(path))
+    check_replaceable(path, earlier);
+  else if (errno != ENOENT && errno != ENOTDIR)
+    refuse(path, std::string("cannot be made: ") + std::strerror(errno));
   check_parent(path);
 }
 
-void save_folder(const std::string& output, std::span<const OutputFile> files, const std::string& replaced) {
+void save_folder(const std::string& output, std::span<const OutputFile> files, const EarlierFiles& earlier) {
   const HeldSignals signals;
   StagedFolder staged(without_slashes(output));
   for (const OutputFile& file : files) {
     if (signals.has_one()) refuse(output, "is not made: a signal ended the run");
     staged.write(file);
   }
-  staged.commit(replaced);
+  staged.commit(earlier);
 }
 
 }  // namespace zoneplate::cli

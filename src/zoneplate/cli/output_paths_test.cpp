@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <set>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/os/file.h"
@@ -93,21 +94,53 @@ TEST_F(OutputPaths, NothingThatWasThereIsReplacedOrRemoved) {
   EXPECT_EQ(all(), after);
 }
 
-TEST_F(OutputPaths, AFolderIsReplacedOnlyIfItHasTheNamedFile) {
-  put("file", "text");
+TEST_F(OutputPaths, AFolderOfEarlierFilesAloneIsReplaced) {
+  const std::set<std::string> earlier{"a.txt", "deep", "deep/old.txt", "gone.txt"};
   fs::create_directories(place / "out" / "deep");
   put("out/deep/old.txt", "old");
-  for (const char* other : {"out", "file"}) {
-    EXPECT_EQ(refusal([&] { check_output_folder(at(other), "a.txt"); }),
-              std::string(other) + ": is there already, and is not a folder with a.txt: it is not replaced");
-    EXPECT_NE(refusal([&] { save_folder(at(other), two_files, "a.txt"); }), "");
-  }
   put("out/a.txt", "earlier");
-  EXPECT_EQ(refusal([&] { check_output_folder(at("out"), "a.txt"); }), "");
-  save_folder(at("out"), two_files, "a.txt");
-  auto after = whole;
-  after["file"] = "text";
-  EXPECT_EQ(all(), after);
+  EXPECT_EQ(refusal([&] { check_output_folder(at("out/"), earlier); }), "");
+  save_folder(at("out/"), two_files, earlier);
+  EXPECT_EQ(all(), whole);
+}
+
+TEST_F(OutputPaths, AFolderWithAnythingElseIsNotReplaced) {
+  const std::set<std::string> earlier{"a.txt", "deep", "deep/old.txt"};
+  const auto expect_refused = [&](const std::string& why) {
+    const auto before = all();
+    EXPECT_EQ(refusal([&] { check_output_folder(at("out"), earlier); }), "out: " + why);
+    EXPECT_EQ(refusal([&] { save_folder(at("out"), two_files, earlier); }), "out: " + why);
+    EXPECT_EQ(all(), before);
+  };
+  const auto other = [](const std::string& name) {
+    return "is not replaced, because it has " + name + ", which is not of the earlier output";
+  };
+  put("out", "text");
+  expect_refused("is there already; give another folder or remove it");
+  fs::remove(place / "out");
+  fs::create_directories(place / "out" / "deep");
+  put("out/a.txt", "earlier");
+  put("out/thesis.tex", "precious");
+  expect_refused(other("thesis.tex"));
+  fs::rename(place / "out/thesis.tex", place / "out/deep/notes.txt");
+  expect_refused(other("deep/notes.txt"));
+  fs::remove(place / "out/deep/notes.txt");
+  fs::create_directories(place / "out/mine");
+  put("out/mine/x", "precious");
+  expect_refused(other("mine"));
+  fs::remove_all(place / "out/mine");
+  put("precious", "mine");
+  fs::create_symlink("../../precious", place / "out/deep/old.txt");  // a name of an earlier file, but a link
+  expect_refused(other("deep/old.txt"));
+  fs::remove(place / "out/deep/old.txt");
+  save_folder(at("out"), two_files, earlier);
+  EXPECT_EQ(all().at("precious"), "mine");
+}
+
+TEST_F(OutputPaths, NoFileIsWrittenBesideTheFolder) {
+  for (const char* name : {"../a", "/a", "a/../b", "a/b/c", "a/", "..", "", "a/.."})
+    EXPECT_THROW(save_folder(at("out"), std::vector<OutputFile>{{name, {}}}), Error) << name;
+  EXPECT_TRUE(all().empty());
 }
 
 TEST_F(OutputPaths, AfterAnErrorNothingStays) {

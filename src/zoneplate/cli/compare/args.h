@@ -17,8 +17,6 @@ struct CompareArgs {
   std::string methods = "all", reference, page, metrics;
   bool replaces = false;  ///< an earlier comparison in the folder of the output
 
-  /// The file by which save_folder recognises the folder that it replaces; empty: none.
-  std::string replaced() const { return replaces ? "compare.json" : ""; }
   /// The beginning of the paths of its files.
   std::string folder() const { return render.output + '/'; }
   int turns = 3, frames = 1;

@@ -8,6 +8,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/compare/args.h"
+#include "zoneplate/cli/compare/earlier.h"
 #include "zoneplate/cli/compare/page.h"
 #include "zoneplate/cli/compare/pictures.h"
 #include "zoneplate/cli/log.h"
@@ -199,8 +200,8 @@ class ComparedFiles {
     if (args_.render.output.empty() || !path.starts_with(folder)) refuse("is no file of a comparison");
     files_.push_back({path.substr(folder.size()), std::move(bytes)});
   }
-  void save() const {
-    if (!args_.render.output.empty()) save_folder(args_.render.output, files_, args_.replaced());
+  void save(const EarlierFiles& earlier) const {
+    if (!args_.render.output.empty()) save_folder(args_.render.output, files_, earlier);
     if (!args_.page.empty()) save_bytes(args_.page, page_);
   }
 
@@ -226,7 +227,9 @@ void run_compare(std::span<const std::string> arguments) {
   check_environment(args.render);
   const TrialOptions options = trial_options(args);
   if (!args.page.empty()) check_savable(args.page);
-  if (args.page.empty() || !args.render.output.empty()) check_output_folder(args.render.output, args.replaced());
+  EarlierFiles earlier;
+  if (args.replaces && !args.render.output.empty()) earlier = earlier_files(args.render.output, limits_of(args));
+  if (args.page.empty() || !args.render.output.empty()) check_output_folder(args.render.output, earlier);
   check_scenes(args);
   if (args.render.verbosity == Verbosity::Quiet && !args.render.progress) args.render.progress = ProgressKind::None;
   // Throws before the work if plots cannot be drawn.
@@ -257,7 +260,7 @@ void run_compare(std::span<const std::string> arguments) {
       });
     });
   });
-  files.save();  // without other threads, as save_folder requires
+  files.save(earlier);  // without other threads, as save_folder requires
   if (args.render.verbosity != Verbosity::Quiet || args.render.prints_json) print_report({text.begin(), text.end()});
 }
 

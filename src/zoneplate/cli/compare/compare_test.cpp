@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <thread>
 
@@ -196,7 +197,7 @@ TEST_F(CompareVerb, RefusesBeforeItWorksAndLeavesNothing) {
   expect("triangles cyclic --aa none -o out --reference small.png", 2, "one image is a reference for one scene");
   fs::create_directory(place / "there");
   expect("triangles --aa none -o there", 4, "is there already");
-  expect("triangles --aa none -o there --force", 4, "is not a folder with compare.json");
+  expect("triangles --aa none -o there --force", 4, "is not the output of a comparison");
   std::size_t names = 0;
   for (const auto& entry : fs::directory_iterator(place)) names += !entry.path().empty();
   EXPECT_EQ(names, 2u);  // small.png and there
@@ -238,6 +239,38 @@ TEST_F(CompareVerb, LeavesWhatIsNotItsOwn) {
   EXPECT_TRUE(fs::exists(place / "out/compare.json"));
   EXPECT_TRUE(fs::exists(place / "out/triangles/none.png"));
   EXPECT_EQ(std::distance(fs::directory_iterator(place), fs::directory_iterator()), 2);  // out and .out.tmp
+}
+
+TEST_F(CompareVerb, ForceReplacesTheFilesOfAnEarlierComparisonAlone) {
+  const std::string one = std::string("compare triangles --aa none -o out --force") + small;
+  ASSERT_EQ(run(one).code, 0);
+  ASSERT_EQ(run(std::string("compare cyclic --aa msaa:n=4 -o out --force") + small).code, 0);
+  EXPECT_TRUE(fs::exists(place / "out/cyclic/msaa-n-4.png"));
+  EXPECT_FALSE(fs::exists(place / "out/triangles"));
+  // An error before minutes of work; nothing changes.
+  const std::string slow = "compare city --turns 100 --aa ssaa:n=16 --size 4096x4096 --force -o ";
+  const auto put = [&](const std::string& name) {
+    fs::create_directories((place / name).parent_path());
+    save_bytes((place / name).string(), std::vector<std::uint8_t>{'p'});
+  };
+  for (const std::string& name : {std::string("thesis.tex"), std::string("mine/x"), std::string("cyclic/notes.txt")}) {
+    put("out/" + name);
+    const ProgramAnswer answer = run(slow + "out");
+    EXPECT_EQ(answer.code, 4);
+    EXPECT_TRUE(contains(answer.out, "out: is not replaced, because it has " + name.substr(0, name.find("/x"))))
+        << answer.out;
+    EXPECT_EQ(text_of("out/" + name), "p");
+    fs::remove_all(place / "out/mine"), fs::remove(place / "out" / name);
+  }
+  put("proj/thesis.tex");
+  for (const char* report : {"{}", "", "{\"format\":\"zoneplate-dataset\"}", "[1]"}) {
+    save_bytes((place / "proj/compare.json").string(), std::vector<std::uint8_t>(report, report + std::strlen(report)));
+    const ProgramAnswer answer = run(slow + "proj");
+    EXPECT_EQ(answer.code, 4);
+    EXPECT_TRUE(contains(answer.out, "proj: is there already, and is not the output of a comparison")) << answer.out;
+  }
+  EXPECT_EQ(text_of("proj/thesis.tex"), "p");
+  EXPECT_EQ(run(one).code, 0);
 }
 
 // If a surface's texture has no mip levels, exact edges are not sufficient: the default reference also samples
