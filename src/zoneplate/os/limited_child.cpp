@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <exception>
@@ -103,11 +104,12 @@ std::string cause_of(int status, const LimitedChild::Limits& limits) {
       return limits.worker + " made a system call that it has no right to, and was ended";
     case SIGXCPU:
     case SIGKILL: {
-      // The child's own limit of time is infinite or lower than that of this process.
+      // A child without a limit of processor time has that of this process.
       rlimit time{};
-      const bool is_limited = ::getrlimit(RLIMIT_CPU, &time) == 0 && time.rlim_cur != RLIM_INFINITY;
-      return with_options(limits.worker + " ran out of time or memory" + (is_limited ? " (ulimit -t is set)" : ""),
-                          limits);
+      const bool has_limit_of_session =
+          std::isinf(limits.seconds) && ::getrlimit(RLIMIT_CPU, &time) == 0 && time.rlim_cur != RLIM_INFINITY;
+      if (has_limit_of_session) return limits.worker + " ran out of processor time or memory (ulimit -t)";
+      return with_options(limits.worker + " ran out of time or memory", limits);
     }
     default:
       return limits.worker + " crashed (signal " + std::to_string(WTERMSIG(status)) + ")";

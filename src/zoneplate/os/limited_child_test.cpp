@@ -4,13 +4,16 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
+#include <limits>
 #include <numeric>
 #include <vector>
 
@@ -184,6 +187,20 @@ TEST(LimitedChildren, WorkWhileTheParentReadsOneOfThem) {
   EXPECT_EQ(bytes, std::vector<std::uint8_t>(size, 2));
   EXPECT_THROW(second.read(bytes.data(), 1), Error);
   ::close(second_has_ended[0]);
+}
+
+// `ulimit -t` of the session ends a child that has no limit of processor time of its own.
+TEST(LimitedChild, ALimitOfProcessorTimeOfTheSessionIsNamed) {
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_CPU, &before), 0);
+  rlimit limit = before;
+  limit.rlim_cur = std::min<rlim_t>(100'000, before.rlim_max);  // seconds
+  ASSERT_EQ(::setrlimit(RLIMIT_CPU, &limit), 0);
+  const std::string message =
+      complaint_about([](ChildAnswer&) { std::raise(SIGKILL); },
+                      {.seconds = std::numeric_limits<double>::infinity(), .options = "--more", .is_sandboxed = false});
+  ::setrlimit(RLIMIT_CPU, &before);
+  EXPECT_EQ(message, "model.xyz: its reader ran out of processor time or memory (ulimit -t)");
 }
 
 }  // namespace
