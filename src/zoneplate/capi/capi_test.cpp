@@ -265,6 +265,25 @@ TEST(Capi, MeasuresAndFiltersArrays) {
   EXPECT_EQ(array(ImageHandle(made), "color").shape[1], 48);
 }
 
+TEST(Capi, MeasuresSilhouettesAndRefusesWhatIsNotFinite) {
+  std::vector<std::uint8_t> black(4 * 16 * 16, 0), nothing(4 * 16 * 16, 0);
+  for (std::size_t i = 3; i < black.size(); i += 4) black[i] = 255;
+  const zoneplate_array logo = capi::array_of(black.data(), ZONEPLATE_UINT8, {16, 16, 4});
+  const zoneplate_array gone = capi::array_of(nothing.data(), ZONEPLATE_UINT8, {16, 16, 4});
+  double value = 0;
+  ASSERT_EQ(zoneplate_measure(&logo, &gone, "mse", &value, nullptr, nullptr), ZONEPLATE_OK) << zoneplate_error_text();
+  EXPECT_EQ(value, 1);  // over white
+
+  std::vector<float> light(3 * 16 * 16, 0.5f), wrong = light;
+  wrong[3] = std::nanf("");
+  const zoneplate_array good = capi::array_of(light.data(), ZONEPLATE_FLOAT32, {16, 16, 3});
+  const zoneplate_array bad = capi::array_of(wrong.data(), ZONEPLATE_FLOAT32, {16, 16, 3});
+  for (const auto& [a, b] : {std::pair(&good, &bad), std::pair(&bad, &good), std::pair(&bad, &bad)}) {
+    EXPECT_EQ(zoneplate_measure(a, b, "psnr", &value, nullptr, nullptr), ZONEPLATE_INPUT);
+    EXPECT_NE(std::string(zoneplate_error_text()).find("has 1 pixels with NaN"), std::string::npos);
+  }
+}
+
 TEST(Capi, TransformsPlanes) {
   std::vector<float> wave(32 * 16);
   for (std::size_t i = 0; i < wave.size(); ++i) wave[i] = i % 8 < 4 ? 1.0f : 0.0f;  // a period of 8 pixels along x

@@ -66,7 +66,7 @@ metrics::Picture finite_picture_of(const zoneplate_array& array, const char* nam
   metrics::Picture picture = picture_of(array, name);
   if (const std::size_t pixels = metrics::count_not_finite(picture); pixels > 0)
     throw Error(ErrorKind::Input,
-                fmt::format("{}: has {} pixels that are NaN or infinite, expected finite values", name, pixels));
+                fmt::format("{}: has {} pixels with NaN or infinite values, expected finite ones", name, pixels));
   return picture;
 }
 

@@ -305,7 +305,7 @@ std::string text_of(const std::vector<metrics::ChannelCount>& counts) {
   return text;
 }
 
-std::string number_text(double value) { return fmt::format("{:.6g}", value); }
+std::string number_text(double value) { return fmt::format("{:.6g}", value + 0.0); }  // 0 for -0
 
 Rgba8Image paint_over(const Plane<float>& map, const DisplayImage& reference, float gain) {
   Rgba8Image out(map.width(), map.height());
