@@ -295,12 +295,14 @@ void run_filter(std::span<const std::string> arguments) {
   const std::vector<FilterItem> items = plan_items(operand, args.output);
   FramePasses passes;
   if (!method.empty()) passes = find_passes(operand, items, args.depth, args.motion);
+  std::vector<std::string> kept;
   if (!args.replaces_inputs) {
-    std::vector<std::string> data = passes.depth;
-    data.insert(data.end(), passes.motion.begin(), passes.motion.end());
-    if (!args.jitter.empty()) data.push_back(args.jitter);
-    check_inputs_remain(items, data);
+    for (const FilterItem& item : items) kept.push_back(item.input);
+    for (const std::vector<std::string>* pass : {&passes.depth, &passes.motion})
+      kept.insert(kept.end(), pass->begin(), pass->end());
+    if (!args.jitter.empty()) kept.push_back(args.jitter);
   }
+  check_outputs(items, kept);
   if (items.front().output != args.output) {
     const fs::path folder = fs::path(items.front().output).parent_path();
     std::error_code error;

@@ -12,6 +12,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/batch/frame_name.h"
+#include "zoneplate/cli/batch/output_files.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/codec/save.h"
 #include "zoneplate/metrics/file/picture_file.h"
@@ -20,13 +21,6 @@ namespace zoneplate::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// The file that a name means, without links and "..".
-std::string file_of(const std::string& path) {
-  std::error_code error;
-  const fs::path file = fs::weakly_canonical(path, error);
-  return error ? fs::path(path).lexically_normal().string() : file.string();
-}
 
 std::string output_in_folder(const std::string& folder, const std::string& input) {
   const std::string ending = is_linear_file(input) || extension_of(input) == ".hdr" ? ".exr" : ".png";
@@ -113,28 +107,27 @@ std::vector<FilterItem> plan_items(const std::string& operand, const std::string
   const metrics::PictureFiles inputs = metrics::list_pictures(operand);
   if (inputs.paths.size() == 1 && inputs.paths.front() == operand) return {{operand, output}};
   std::vector<FilterItem> items;
-  std::map<std::string, std::string> input_of;  // maps an output to its input
   for (std::size_t i = 0; i < inputs.paths.size(); ++i) {
     FilterItem item{.input = inputs.paths[i], .output = {}};
     if (!inputs.numbers.empty()) item.frame = inputs.numbers[i];
     item.output = output_of(output, item.input, item.frame);
-    const auto [first, is_new] = input_of.emplace(file_of(item.output), item.input);
-    if (!is_new)
-      throw Error(ErrorKind::Usage, fmt::format("--output: {} and {} would both be written to {}", first->second,
-                                                item.input, item.output));
     items.push_back(std::move(item));
   }
   return items;
 }
 
-void check_inputs_remain(std::span<const FilterItem> items, std::span<const std::string> data) {
-  std::map<std::string, std::string> read;  // by file
-  for (const std::string& path : data) read.emplace(file_of(path), path);
-  for (const FilterItem& item : items) read.emplace(file_of(item.input), item.input);
-  for (const FilterItem& item : items)
-    if (const auto found = item.output == "-" ? read.end() : read.find(file_of(item.output)); found != read.end())
-      throw Error(ErrorKind::Usage, fmt::format("{}: would replace the input {}; write elsewhere, or give --force",
-                                                item.output, found->second));
+void check_outputs(std::span<const FilterItem> items, std::span<const std::string> kept) {
+  OutputFiles files;
+  for (std::size_t i = 0; i < items.size(); ++i) files.add(items[i].output, i);
+  for (std::size_t i = 0; i < kept.size(); ++i) files.add(kept[i], items.size() + i, true);
+  const std::optional<OutputFiles::Collision> found = files.find_collision();
+  if (!found) return;
+  if (found->is_read)
+    throw Error(ErrorKind::Usage, fmt::format("{}: would replace the input {}; write elsewhere, or give --force",
+                                              items[found->first].output, kept[found->second - items.size()]));
+  throw Error(ErrorKind::Usage,
+              fmt::format("--output: {} and {} would both be written to {}", items[found->first].input,
+                          items[found->second].input, items[found->first].output));
 }
 
 FramePasses find_passes(const std::string& operand, std::span<const FilterItem> items, const std::string& depth,

@@ -21,14 +21,14 @@ bool is_linear_file(const std::string& path);
 /// The images of the operand, and the output file of each: `output` itself for one file; for several a name with a
 /// placeholder for the frame number, as render has it, or else a folder.
 ///
-/// Errors    ErrorKind::Usage if two images have the same output file, or images without numbers have to be numbered.
+/// Errors    ErrorKind::Usage if images without numbers have to be numbered.
 std::vector<FilterItem> plan_items(const std::string& operand, const std::string& output);
 
-/// Refuses to write a file that is read: one of the inputs, or of the files with their data. Links and other spellings
+/// Requires that each image has its own output file, which is none of those that are kept. Links and other spellings
 /// of a name are the same file.
 ///
-/// Errors    ErrorKind::Usage naming the output and the input.
-void check_inputs_remain(std::span<const FilterItem> items, std::span<const std::string> data);
+/// Errors    ErrorKind::Usage naming the files.
+void check_outputs(std::span<const FilterItem> items, std::span<const std::string> kept);
 
 /// The files of other passes of a sequence, by pass; each operand names a sequence or is empty.
 struct FramePasses {
