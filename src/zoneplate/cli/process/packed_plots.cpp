@@ -138,7 +138,7 @@ std::vector<std::uint8_t> pack_plots(const PlotsToDraw& plots) {
 PlotsToDraw unpack_plots(std::span<const std::uint8_t> bytes) { return PlotReader(bytes).whole(); }
 
 std::vector<std::uint8_t> drawn_plots(PlotsToDraw plots, const std::string& path, double seconds) {
-  constexpr int usual_ms = ProgramLimits().milliseconds;
+  const int usual_ms = ProgramLimits().milliseconds;
   const int milliseconds = seconds * 1000 < usual_ms ? std::max(1, static_cast<int>(seconds * 1000)) : usual_ms;
   if (plots.figure) {
     for (std::vector<Panel>& row : plots.figure->rows)

@@ -29,7 +29,7 @@ struct PictureSet {
   Picture load(std::size_t index) const { return decode(open(index)); }
 };
 
-inline constexpr ProgramLimits video_limits{.milliseconds = 3'600'000, .bytes = std::size_t{1} << 34};
+inline const ProgramLimits video_limits{.milliseconds = 3'600'000, .bytes = std::size_t{1} << 34};
 
 /// Lists the images of an operand.
 ///
