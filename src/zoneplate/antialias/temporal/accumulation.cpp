@@ -251,42 +251,61 @@ void TemporalAccumulation::find_restless(const ObjectMotions& objects) {
   });
 }
 
-/// 1 where the light differs from that of the history, as far as TemporalKernels::find_relit finds it, and around such
-/// pixels; 0 elsewhere.
-///
-/// Pixels that had both lights in their history, and those at the border of a shadow, are found by their neighbours.
-void TemporalAccumulation::find_relit(const Frame& frame) {
-  constexpr int radius = 4;
+/// Compares this frame's luminances with those of the history: TemporalKernels::find_changes.
+void TemporalAccumulation::find_changes(const Frame& frame) {
   const int width = frames_.width(), height = frames_.height();
-  resize(current_.relit, width, height);
-  if (options_.parts.rectification == TemporalParts::Rectification::None) {
-    std::ranges::fill(current_.relit.values(), 0.0f);  // all history is kept
-    return;
-  }
-  const auto pixels = static_cast<std::size_t>(width);
-  const TemporalKernels& kernels = TemporalKernels::of();
-  Bordered& changes = current_.changes;
-  resize(changes, width + 2 * border, height + 2 * border), resize(current_.wide_relit, width, height);
-  std::vector<char> is_changed(static_cast<std::size_t>(height));  // by row
+  Current& out = current_;
+  for (Bordered* plane : {&out.changes, &out.drift, &out.bend, &next_noise_})
+    resize(*plane, width + 2 * border, height + 2 * border);
+  Bordered* const planes[] = {&out.changes, &out.drift, &out.bend, &last_, &fast_, &noise_};
   for_each_row(height, [&](int y) {
     const ChangeRow row{.linear = &frame.color(0, y).r,
                         .is_compressed = options_.parts.is_compressed,
-                        .restless = &current_.restless(0, y),
+                        .restless = &out.restless(0, y),
                         .history = colors_of(std::as_const(history_), y, 0),
                         .frames = &frames_(0, y),
-                        .squares = &squares_(0, y)};
-    is_changed[static_cast<std::size_t>(y)] = kernels.find_changes(row, &changes(border, y + border), pixels);
-    extend_row(changes.row(y + border));
+                        .last = pixels_of(last_, y),
+                        .step = &step_(0, y),
+                        .fast = pixels_of(fast_, y),
+                        .noise = pixels_of(noise_, y),
+                        .bend = pixels_of(out.bend, y),
+                        .changes = pixels_of(out.changes, y),
+                        .drift = pixels_of(out.drift, y)};
+    TemporalKernels::of().find_changes(row, static_cast<std::size_t>(width));
+    for (Bordered* plane : planes) extend_row(plane->row(y + border));
   });
-  if (std::ranges::none_of(is_changed, std::identity())) {
-    std::ranges::fill(current_.relit.values(), 0.0f);
+  for (Bordered* plane : planes) extend_rows(*plane);
+}
+
+/// How many frames history at rest may count as: TemporalKernels::find_drift; and where the light has changed at once,
+/// and around such pixels, `left_frames`.
+///
+/// Pixels that had both lights in their history, and those at the border of a shadow, are found by their neighbours.
+void TemporalAccumulation::find_lasting(const Frame& frame) {
+  constexpr int radius = 4;
+  const int width = frames_.width(), height = frames_.height();
+  Current& out = current_;
+  resize(out.lasting, width, height);
+  if (options_.parts.rectification == TemporalParts::Rectification::None) {
+    std::ranges::fill(out.lasting.values(), std::numeric_limits<float>::infinity());  // all history is kept
     return;
   }
-  extend_rows(changes);
+  find_changes(frame);
+  resize(out.relit, width, height), resize(out.wide_relit, width, height);
   std::vector<char> is_relit(static_cast<std::size_t>(height));  // by row
   for_each_row(height, [&](int y) {
-    const std::span<float> row = current_.relit.row(y), wide = current_.wide_relit.row(y);
-    if (!kernels.find_relit(&changes(border, y + border), changes.width(), row.data(), pixels)) return;
+    const DriftRow drift{.changes = pixels_of(out.changes, y),
+                         .drift = pixels_of(out.drift, y),
+                         .last = pixels_of(last_, y),
+                         .fast = pixels_of(fast_, y),
+                         .noise = pixels_of(noise_, y),
+                         .bend = pixels_of(out.bend, y),
+                         .stride = fast_.width(),
+                         .frames = &frames_(0, y)};
+    const std::span<float> row = out.relit.row(y), wide = out.wide_relit.row(y);
+    if (!TemporalKernels::of().find_drift(drift, &out.lasting(0, y), row.data(), pixels_of(next_noise_, y),
+                                          static_cast<std::size_t>(width)))
+      return;
     is_relit[static_cast<std::size_t>(y)] = 1;
     int last = -radius - 1;
     for (int x = -radius; x < width; ++x) {
@@ -295,13 +314,18 @@ void TemporalAccumulation::find_relit(const Frame& frame) {
     }
   });
   for_each_row(height, [&](int y) {
-    const std::span<float> row = current_.relit.row(y);
-    std::ranges::fill(row, 0.0f);
-    for (int k = std::max(y - radius, 0); k <= std::min(y + radius, height - 1); ++k)
-      if (is_relit[static_cast<std::size_t>(k)])
-        std::ranges::transform(row, current_.wide_relit.row(k), row.begin(),
-                               [](float a, float b) { return std::max(a, b); });
+    float *const lasting = &out.lasting(0, y), *const noise = pixels_of(next_noise_, y),
+                 *const fast = pixels_of(fast_, y);
+    float *const step = &step_(0, y), *const last = pixels_of(last_, y);
+    for (int k = std::max(y - radius, 0); k <= std::min(y + radius, height - 1); ++k) {
+      if (!is_relit[static_cast<std::size_t>(k)]) continue;
+      for (int x = 0; x < width; ++x)
+        // The noise and the mean of another light would let any later change pass.
+        if (out.wide_relit(x, k) > 0)
+          lasting[x] = TemporalParts::left_frames, noise[x] = step[x] = 0, fast[x] = last[x];
+    }
   });
+  std::swap(noise_, next_noise_);
 }
 
 /// The mean motions of the objects of this frame and of the last one.
@@ -349,7 +373,10 @@ void TemporalAccumulation::begin_history(const Frame& frame) {
   for (const std::uint32_t id : frame.object_id.values())
     if (id != Frame::no_id) past_objects_ = std::max(past_objects_, std::size_t{id} + 2);
   const bool is_confidence = options_.parts.blend == TemporalParts::Blend::Confidence;
-  if (options_.parts.trusts_rest) squares_ = Plane<float>(width, height);
+  if (options_.parts.trusts_rest) {
+    step_ = Plane<float>(width, height);
+    last_ = fast_ = noise_ = Bordered(width + 2 * border, height + 2 * border);
+  }
   frames_ = Plane<float>(width, height, is_confidence ? 1 / options_.parts.least_weight : 1.0f);
 }
 
@@ -377,11 +404,10 @@ LinearImage TemporalAccumulation::blended(Frame& frame) {
     parts.trusts_rest = false;
   }
   const std::vector<float> column = columns(width);
-  const bool keeps_squares = options_.parts.trusts_rest && !context_.is_first;
-  if (keeps_squares) find_relit(frame);
+  const bool tests_light = options_.parts.trusts_rest && !context_.is_first;
+  if (tests_light) find_lasting(frame);
   resize(next_history_, width, 4 * height);
   resize(next_frames_, width, height);
-  if (keeps_squares) resize(next_squares_, width, height);
   const auto stride = static_cast<std::ptrdiff_t>(width + 2 * border);
   const auto resolve_row = [&](int y, const ColorPlanes<const float>& color) {
     const float* const nearness = begin_of(current.nearness, y);
@@ -392,22 +418,20 @@ LinearImage TemporalAccumulation::blended(Frame& frame) {
                           .surface = begin_of(current.surface, y),
                           .last_depth = or_nearness(current.last_depth),
                           .last_nearness = or_nearness(current.last_nearness),
-                          .restless = keeps_squares ? &current.restless(0, y) : nullptr,
-                          .relit = keeps_squares ? &current.relit(0, y) : nullptr,
+                          .restless = tests_light ? &current.restless(0, y) : nullptr,
+                          .lasting = tests_light ? &current.lasting(0, y) : nullptr,
                           .stride = stride,
                           .column = column.data(),
                           .y = y,
                           .history = colors_of(std::as_const(history_), 0, 0),
                           .frames = &frames_(0, 0),
-                          .squares = squares_.values().data(),
                           .past_surface = past_surface_.values().data(),
                           .past_depth = past_depth_.values().data(),
                           .past_nearness = past_nearness_.values().data(),
                           .width = width,
                           .height = height,
                           .resolved = colors_of(next_history_, y, 0),
-                          .frames_out = &next_frames_(0, y),
-                          .squares_out = keeps_squares ? &next_squares_(0, y) : nullptr};
+                          .frames_out = &next_frames_(0, y)};
     const TemporalKernels& kernels = TemporalKernels::of();
     kernels.resolve(row, parts, static_cast<std::size_t>(width));
     kernels.decode(colors_of(std::as_const(next_history_), y, 0), row.color, &frame.color(0, y).r, parts.is_compressed,
@@ -425,18 +449,21 @@ LinearImage TemporalAccumulation::blended(Frame& frame) {
   });
   std::swap(history_, next_history_);
   if (!context_.is_first) std::swap(frames_, next_frames_);
-  if (keeps_squares) std::swap(squares_, next_squares_);
-  if (context_.is_first && options_.parts.trusts_rest)
-    for (int y = 0; y < height; ++y) {
-      const auto color = colors_of(std::as_const(history_), y, 0);
-      const float *const red = color.channel(0), *const green = color.channel(1), *const blue = color.channel(2);
-      const std::span<float> squares = squares_.row(y);
-      for (std::size_t x = 0; x < squares.size(); ++x) {
-        const float luma = (red[x] + blue[x]) * 0.25f + green[x] * 0.5f;
-        squares[x] = luma * luma;
-      }
-    }
+  if (context_.is_first && options_.parts.trusts_rest) begin_luminances();
   return std::move(frame.color);
+}
+
+/// Of the first frame alone.
+void TemporalAccumulation::begin_luminances() {
+  for_each_row(step_.height(), [&](int y) {
+    const auto color = colors_of(std::as_const(history_), y, 0);
+    const float *const red = color.channel(0), *const green = color.channel(1), *const blue = color.channel(2);
+    float *const last = pixels_of(last_, y), *const fast = pixels_of(fast_, y);
+    for (int x = 0; x < step_.width(); ++x) {
+      const float luminance = red[x] * 0.2126f + green[x] * 0.7152f + blue[x] * 0.0722f;
+      last[x] = fast[x] = luminance;
+    }
+  });
 }
 
 LinearImage TemporalAccumulation::sharpened(LinearImage image) const {

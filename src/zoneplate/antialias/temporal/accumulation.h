@@ -29,8 +29,8 @@ class TemporalAccumulation : public Resolver {
   using ColorRows = Plane<float>;
   /// The planes of this frame; those that no part reads are empty, or of earlier frames.
   struct Current {
-    Bordered nearness, motion[2], surface, last_depth, last_nearness, changes;
-    Plane<float> restless, relit, wide_relit;
+    Bordered nearness, motion[2], surface, last_depth, last_nearness, changes, drift, bend;
+    Plane<float> restless, lasting, relit, wide_relit;
   };
   /// Buffers that threads use in turns, so that they stay in the caches.
   class Buffers {
@@ -51,8 +51,10 @@ class TemporalAccumulation : public Resolver {
   };
   ObjectMotions object_motions(const Frame& frame);
   void find_restless(const ObjectMotions& objects);
-  void find_relit(const Frame& frame);
+  void find_changes(const Frame& frame);
+  void find_lasting(const Frame& frame);
   void begin_history(const Frame& frame);
+  void begin_luminances();
   void keep_surfaces(const Frame& frame);
   LinearImage blended(Frame& frame);
   LinearImage sharpened(LinearImage image) const;
@@ -63,7 +65,10 @@ class TemporalAccumulation : public Resolver {
 
   Current current_;
   ColorRows history_, next_history_;  ///< encoded
-  Plane<float> frames_, next_frames_, squares_, next_squares_;
+  Plane<float> frames_, next_frames_;
+  /// Luminance: of the last frame, its difference from the frame before, its mean over few frames, and its variance.
+  Bordered last_, fast_, noise_, next_noise_;
+  Plane<float> step_;
   Plane<float> past_surface_, past_depth_, past_nearness_;
   Buffers band_buffers_;
   std::size_t past_objects_ = 0;  ///< one more than the greatest number of an object so far, and one for none

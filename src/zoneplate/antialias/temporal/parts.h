@@ -36,8 +36,8 @@ struct TemporalParts {
   float gamma = 1;         ///< of Variance and Both, for surfaces at rest
   float moving_gamma = 1;  ///< the same at `fast` pixels per frame
   Rejection rejection = Rejection::Both;
-  /// Where all surfaces around move as one, or rest, history is neither tested nor rectified, unless the current luma
-  /// differs from that of the history by four times the standard deviation of earlier frames.
+  /// Where all surfaces around rest, history is neither tested nor rectified, unless the light changes, at once or
+  /// slowly: TemporalKernels::find_drift.
   bool trusts_rest = false;
   float tolerance = 0.01f;  ///< of depths, relative
   Blend blend = Blend::Count;
@@ -50,8 +50,9 @@ struct TemporalParts {
   /// The number of frames that the history counts as where a surface has left, or the light has changed: what remains
   /// fades soon.
   static constexpr float left_frames = 2;
-  static constexpr float known_frames = 3;  ///< in a history whose spread is that of its samples
-  static constexpr float fast = 128;        ///< pixels per frame
+  static constexpr float unlimited = 65536;  ///< more frames do not count
+  static constexpr float known_frames = 3;   ///< in a history whose spread is that of its samples
+  static constexpr float fast = 128;         ///< pixels per frame
 };
 
 }  // namespace zoneplate::antialias

@@ -26,14 +26,13 @@ struct TemporalRow {
   const float* last_nearness;      ///< its reversed depth in the last frame
   const float*
       restless;  ///< 0 where the 3 × 3 surfaces move as one, as those of the last frame did; 2 where one has left
-  const float* relit;  ///< 1 where the light has changed, 0 elsewhere
+  const float* lasting;  ///< by TemporalKernels::find_drift: infinite where history at rest is trusted
   std::ptrdiff_t stride;
   const float* column;  ///< 0, 1, 2, ...
   int y;
 
   ColorPlanes<const float> history;
-  const float* frames;   ///< the number of frames in each pixel of the history, or its confidence
-  const float* squares;  ///< the mean squared luma of the frames in the history
+  const float* frames;  ///< the number of frames in each pixel of the history, or its confidence
   const float* past_surface;
   const float* past_depth;
   const float* past_nearness;
@@ -41,7 +40,6 @@ struct TemporalRow {
 
   ColorPlanes<float> resolved;  ///< the history of the next frame
   float* frames_out;
-  float* squares_out;
 };
 
 /// One row of a frame's surfaces, for TemporalKernels::take_surfaces.
@@ -69,7 +67,21 @@ struct ChangeRow {
   bool is_compressed;
   const float* restless;
   ColorPlanes<const float> history;  ///< of this row
-  const float *frames, *squares;
+  const float* frames;
+  float* last;         ///< luminance of the last frame; becomes that of this one
+  float* step;         ///< its difference from the frame before; likewise
+  float* fast;         ///< its mean over few frames
+  const float* noise;  ///< its variance by the jitter
+  float* bend;         ///< the change of `step`
+  float* changes;
+  float* drift;
+};
+
+/// One row of what `find_changes` has made, for TemporalKernels::find_drift.
+struct DriftRow {
+  const float *changes, *drift, *last, *fast, *noise, *bend;  ///< with borders of a pixel
+  std::ptrdiff_t stride;                                      ///< floats from one row of theirs to the next
+  const float* frames;
 };
 
 struct TemporalKernels : PerIsa<TemporalKernels> {
@@ -89,19 +101,24 @@ struct TemporalKernels : PerIsa<TemporalKernels> {
   /// 1 where a surface moves, or the 3 × 3 surfaces do not move as one, 2 where a surface of the last frame moves
   /// otherwise, 0 elsewhere. An object of the last frame is taken to have moved by its mean motion.
   void (*find_unrest)(const UnrestRow& row, float* unrest, std::size_t n);
-  /// 1 where the luma of a pixel at rest is greater than the spread of its history allows, -1 where it is less,
-  /// 0 elsewhere.
+  /// Brings the luminances of a row up to this frame, and compares them with the history.
   ///
-  /// @return   true if any is not 0.
-  bool (*find_changes)(const ChangeRow& row, float* changes, std::size_t n);
-  /// 1 where at least seven of 3 × 3 changes are 1, or seven are -1, beyond those of the other sign, and 0 elsewhere:
-  /// the light has changed.
+  /// `changes` are 1 where a pixel at rest is brighter than the spread of its history allows, -1 where it is darker,
+  /// 0 elsewhere; `drift` is the difference of the mean of few frames from the history's, 0 where surfaces do not rest.
+  void (*find_changes)(const ChangeRow& row, std::size_t n);
+  /// The number of frames that history at rest may count as: infinite where it is trusted, otherwise it is rectified
+  /// and counts as `unlimited` frames or less.
   ///
-  /// The samples of a still scene change along edges and in details of a pixel's width; an edge at rest crosses three
-  /// of 3 × 3 pixels, or five if it is diagonal. The rows of `changes` are `stride` apart; it has a border of a pixel.
+  /// It is not trusted where it differs from this frame's sample and from mean ± deviation of 3 × 3 samples by more
+  /// than four deviations of the noise. It counts as `left_frames` where the light drifts: where the mean of few frames
+  /// differs from the history's by more than their standard errors, in the sum over 3 × 3 pixels.
   ///
-  /// @return   true if the light has changed anywhere in the row.
-  bool (*find_relit)(const float* changes, std::ptrdiff_t stride, float* relit, std::size_t n);
+  /// `relit` is 1 where at least seven of 3 × 3 changes are 1, or seven are -1, beyond those of the other sign, and 0
+  /// elsewhere: the light has changed at once. The samples of a still scene change along edges and in details of a
+  /// pixel's width; an edge at rest crosses three of 3 × 3 pixels, or five if it is diagonal.
+  ///
+  /// @return   true if any is relit.
+  bool (*find_drift)(const DriftRow& row, float* lasting, float* relit, float* next_noise, std::size_t n);
   /// Resolves n pixels of a row: filters the current colours, reprojects, validates and rectifies the history, and
   /// blends both.
   ///

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
+
+#include "zoneplate/antialias/temporal/drift_lanes.h"
 #include "zoneplate/antialias/temporal/history_lanes.h"
 #include "zoneplate/antialias/temporal/range_lanes.h"
 #include "zoneplate/antialias/temporal/rectification_lanes.h"
@@ -11,7 +14,6 @@
 /// The kernels of antialias/temporal/resolve.h over the lane types of math/lanes.h.
 namespace zoneplate::stages {
 
-using antialias::ChangeRow;
 using antialias::TemporalKernels;
 
 /// True where the history belongs to the followed surface, as far as the parts test it.
@@ -31,61 +33,6 @@ template <class F>
   }
   const F before = nearest_past.value(row.past_nearness, 0, 0);
   return source.is_inside & ((nearest - farthest > edge) | (threshold >= before - surface.last_nearness));
-}
-
-/// The statistics of luma in a history.
-///
-/// Samples on an edge vary between both of its sides: one side of sixteen differs from the mean by 3.9 standard
-/// deviations.
-template <class F>
-struct History {
-  F mean, variance;
-  /// The greatest difference from the mean that a sample of the same light has.
-  [[gnu::always_inline]] F spread() const { return F(4.0f) * sqrt(variance) + F(0.02f) * mean + F(0.002f); }
-};
-
-template <class Full, class One>
-[[gnu::flatten]] bool find_changes(const ChangeRow& row, float* changes, std::size_t n) {
-  bool is_any = false;
-  for_row<Full, One>(n, [&]<class F>(std::size_t at) {
-    const auto i = static_cast<std::ptrdiff_t>(at);
-    const F zero(0.0f), one(1.0f);
-    const auto is_known =
-        (F::load(row.restless + i) == zero) & (F::load(row.frames + i) >= F(TemporalParts::known_frames));
-    if (none(is_known)) {
-      zero.store(changes + i);
-      return;
-    }
-    const F luma = luma_of(encoded_color<F>(row.linear + 4 * i, row.is_compressed)),
-            mean = luma_of(Rgba<F>::load(row.history, i));
-    const History<F> past{mean, max(F::load(row.squares + i) - mean * mean, zero)};
-    const F difference = luma - mean;
-    const F sign = select(difference > zero, one, -one);
-    const auto is_changed = is_known & (abs(difference) > past.spread());
-    is_any = is_any || !none(is_changed);
-    where(is_changed, sign).store(changes + i);
-  });
-  return is_any;
-}
-
-/// The sum of 3 x 3 values around value i.
-template <class F>
-[[gnu::always_inline]] inline F sum_around(const float* values, std::ptrdiff_t stride, std::ptrdiff_t i) {
-  F sum(0.0f);
-  for (int k = 0; k < 9; ++k) sum = sum + F::load(values + i + k % 3 - 1 + (k / 3 - 1) * stride);
-  return sum;
-}
-
-template <class Full, class One>
-[[gnu::flatten]] bool find_relit(const float* changes, std::ptrdiff_t stride, float* relit, std::size_t n) {
-  bool is_any = false;
-  for_row<Full, One>(n, [&]<class F>(std::size_t at) {
-    const F sum = sum_around<F>(changes, stride, static_cast<std::ptrdiff_t>(at));
-    const auto is_relit = abs(sum) > F(6.5f);
-    is_any = is_any || !none(is_relit);
-    where(is_relit, F(1.0f)).store(relit + at);
-  });
-  return is_any;
 }
 
 /// Most of a row by wide vectors, which halve the number of instructions, then by narrower ones.
@@ -111,36 +58,21 @@ template <class Wide, class Full, class One>
     const Rgba<F> past = is_flat ? around.middle : history_of(row.history, row, parts, source, i);
     const PastPixels<F> nearest_past = nearest_pixels(row, source, i);
     Rgba<F> history = past;
-    F square(0.0f);
-    auto relit = nowhere, is_trusted = nowhere;
-    if (parts.trusts_rest) square = nearest_past.value(row.squares, 0, 0);
+    auto is_trusted = nowhere;
+    F lasting(std::numeric_limits<float>::infinity());
     if (!none(is_steady)) {
-      const F frames = nearest_past.value(row.frames, 0, 0);
-      const F luma = luma_of(current), mean = luma_of(past);
-      const History<F> earlier{mean, max(square - mean * mean, zero)};
-      relit = is_steady & (F::load(row.relit + i) > F(0.5f));
-      const auto is_plausible = ((F(8.0f) > frames) | (earlier.spread() > abs(luma - mean)));
-      is_trusted = is_steady & is_plausible & (F(0.5f) > where(relit, one));
+      lasting = select(is_steady, F::load(row.lasting + i), lasting);
+      is_trusted = is_steady & (lasting > F(TemporalParts::unlimited));
     }
     auto valid = is_trusted;
     if (!all(is_trusted)) {
       if (!is_flat) history = select(is_trusted, past, rectified(past, around, parts, gamma));
       valid = valid | is_valid(row, parts, surface, source, nearest_past, i);
-      // The squares of another light would let any later change pass as spread.
-      const F allowed = luma_of(history);
-      square = select(relit, allowed * allowed, square);
     }
     Share<F> share = valid_share(row, parts, source, nearest_past, current, history, i);
-    if (parts.trusts_rest) {
-      share.weight = select(relit, max(share.weight, F(1 / TemporalParts::left_frames)), share.weight);
-      share.frames = select(relit, min(share.frames, F(TemporalParts::left_frames)), share.frames);
-    }
+    if (parts.trusts_rest) share = {max(share.weight, one / lasting), min(share.frames, lasting)};
     const F weight = weighted(share.weight, current, history, parts.weighting);
     Rgba<F> result = select(valid, history + (current - history) * weight, current);
-    if (parts.trusts_rest) {
-      const F luma = luma_of(current);
-      select(valid, square + (luma * luma - square) * weight, luma * luma).store(row.squares_out + i);
-    }
     if (parts.keeps_current_alpha) result.c[3] = current.c[3];
     result.store(row.resolved, i);
     F frames = select(valid, share.frames, one);
@@ -162,7 +94,7 @@ constexpr TemporalKernels temporal() {
           .take_surfaces = &take_surfaces<Full, One>,
           .find_unrest = &find_unrest<Full, One>,
           .find_changes = &find_changes<Full, One>,
-          .find_relit = &find_relit<Full, One>,
+          .find_drift = &find_drift<Full, One>,
           .resolve = &resolve_temporal<Wide, Full, One>,
           .sharpen = &sharpen_temporal<Full, One>};
 }

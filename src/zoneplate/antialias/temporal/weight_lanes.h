@@ -39,7 +39,7 @@ template <class F>
     case Blend::Fixed:
       return {least, one};
     case Blend::Count: {
-      const F frames = min(nearest_past.value(row.frames, 0, 0) + one, F(65536.0f));
+      const F frames = min(nearest_past.value(row.frames, 0, 0) + one, F(TemporalParts::unlimited));
       return {max(one / frames, least), frames};
     }
     case Blend::Contrast: {

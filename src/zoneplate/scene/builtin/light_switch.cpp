@@ -14,9 +14,7 @@ Scene make(std::span<const std::int64_t> values) {
   const float radius = box.size().y / 2;
   scene.instances[0].world_from_object =
       scaling(float3{0.5f / radius, 0.5f / radius, 0.5f / radius}) * translation(-box.centre());
-  add_part(scene, unlit("wall", {1, 1, 1}), make_squares(0.2f, -4));
-  scene.materials.back().model = ShadingModel::MetallicRoughness;
-  scene.materials.back().metallic = 0, scene.materials.back().roughness = 1;
+  add_part(scene, lit("wall", {1, 1, 1}), make_squares(0.2f, -4));
   Mesh lamp, board;
   add_disc(lamp, {0.85f, 0.55f, 1}, 0.12f);
   add_quad(board, {{-0.25f, -0.3f, 2}, {0.25f, -0.3f, 2}, {0.25f, 0.3f, 2}, {-0.25f, 0.3f, 2}});

@@ -23,6 +23,13 @@ Material unlit(const char* name, float3 light) {
   return m;
 }
 
+Material lit(const char* name, float3 color) {
+  Material m = unlit(name, color);
+  m.model = ShadingModel::MetallicRoughness;
+  m.metallic = 0, m.roughness = 1;
+  return m;
+}
+
 void add_quad(Mesh& mesh, const float3 (&corner)[4]) {
   constexpr float2 uv[4] = {{0, 1}, {1, 1}, {1, 0}, {0, 0}};
   const auto first = static_cast<std::uint32_t>(mesh.position.size());

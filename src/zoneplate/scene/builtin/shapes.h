@@ -10,6 +10,9 @@ namespace zoneplate {
 /// An unlit double-sided surface of this colour.
 Material unlit(const char* name, float3 light);
 
+/// The same surface, matt and lit.
+Material lit(const char* name, float3 color);
+
 /// Adds a flat quad of counter-clockwise corners: lower left, lower right, upper right, upper left; uv from (0, 1) to
 /// (1, 0).
 void add_quad(Mesh& mesh, const float3 (&corner)[4]);
