@@ -93,7 +93,7 @@ bool is_seen_filtered(Words words, const fs::path& folder) {
 }
 
 TEST_F(Confinement, EveryVerbWorksUnderAFilter) {
-  if (!sandbox_support().filters_calls) GTEST_SKIP() << "no seccomp";
+  if (!sandbox_lacks().filter.empty()) GTEST_SKIP() << "no seccomp";
   for (const auto& [command, input] : slow_commands()) {
     const Words words = command.with(input, "made.png");
     fs::remove_all(place / "made.png");
@@ -128,6 +128,24 @@ TEST_F(Confinement, EveryOptionOfLimitsActs) {
       EXPECT_EQ(fs::exists(place / "made.png"), r.code == 5) << about;
       fs::remove_all(place / "made.png");
     }
+}
+
+TEST_F(Confinement, LargeOutputsKeepTheLimits) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer takes memory of its own";
+#endif
+  const Words limits{"--max-memory", "200M", "--max-import-seconds", "2", "--max-seconds", "2"};
+  const Words compare{"compare", "--aa", "none", "-o", "made.png"};
+  const Words sheet{"contact-sheet", "-o", "made.png", "--size", "3000x3000"};
+  for (const Words& words : {with(compare, {"triangles", "--reference", "ssaa:n=2", "--size", "8000x8000"}),
+                             with(compare, {"teapot", "--size", "1500x1500"}), with(sheet, Words(12, "triangles"))}) {
+    const MeasuredRun r = run(with(words, limits));
+    EXPECT_EQ(r.code, 1) << words[0] << r.err;
+    EXPECT_NE(r.err.find("--max-"), std::string::npos) << words[0] << r.err;
+    EXPECT_LT(r.seconds, 10) << words[0];
+    EXPECT_LT(r.resident_bytes, 260'000'000u) << words[0];
+    EXPECT_FALSE(fs::exists(place / "made.png")) << words[0];
+  }
 }
 
 TEST_F(Confinement, NoVerbWaitsForAFifoOrReadsADevice) {
