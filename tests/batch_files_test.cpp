@@ -181,6 +181,7 @@ TEST_F(BatchFiles, ExistingFilesAreSkippedIfAllOfThemAreWhole) {
   fs::resize_file(place / "s/a.exr", 500);
   EXPECT_EQ(run(single).code, 0);
   EXPECT_EQ(files("s"), expected_single);
+  EXPECT_TRUE(contains(run(single + " --json").out, R"("output":"s/a.exr","status":"skipped")"));
 
   // What is whole is not written again.
   const auto time = fs::last_write_time(place / "o/f.01.pfm");

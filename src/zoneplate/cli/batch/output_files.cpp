@@ -193,15 +193,19 @@ std::optional<OutputFiles::Collision> OutputFiles::of_patterns(std::span<const P
   return std::nullopt;
 }
 
-/// Tries each number in the name of a file as the number of a frame.
+/// Tries each number in the name of a file, and in those of its folders, as the number of a frame.
 std::optional<OutputFiles::Collision> OutputFiles::of_file(const Files& file, std::span<const Pattern> all) const {
-  const std::string_view name = file.before;
-  for (std::size_t at = 0; at < name.size(); ++at) {
+  const std::string path = folder_names_[file.folder] + file.before;
+  const std::string_view text = path;
+  for (std::size_t at = 0; at < path.size(); ++at) {
     std::size_t end = at + 1;
-    while (end < name.size() && is_digit(name[end])) ++end;
-    if (!is_digit(name[at]) && (name[at] != '-' || end == at + 1)) continue;
-    for (const Pattern& pattern : with_name(all, file.folder, name.substr(0, at), name.substr(end))) {
-      const auto frame = frame_of(name.substr(at, end - at), pattern.front().digits);
+    while (end < path.size() && is_digit(path[end])) ++end;
+    if (!is_digit(path[at]) && (path[at] != '-' || end == at + 1)) continue;
+    const std::size_t name = path.rfind('/', at) + 1;
+    const auto folder = resolved_folders_.find(path.substr(0, name));
+    if (folder == resolved_folders_.end()) continue;
+    for (const Pattern& pattern : with_name(all, folder->second, text.substr(name, at - name), text.substr(end))) {
+      const auto frame = frame_of(text.substr(at, end - at), pattern.front().digits);
       const Files* const frames = frame ? pattern.find(*frame) : nullptr;
       if (frames != nullptr && (frames->item != file.item || file.is_read)) return collision(file, *frames);
     }

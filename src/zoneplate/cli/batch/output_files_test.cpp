@@ -72,6 +72,9 @@ TEST(OutputFiles, FramesAreNumbersInAName) {
   EXPECT_TRUE(meet({"x1#.png", 0, 9}, {"x12.png"}));
   EXPECT_FALSE(meet({"x.####.depth.png", 0, 9}, {"x.0001.png"}));
   EXPECT_TRUE(meet({"x.####.depth.png", 0, 9}, {"x.0001.depth.png"}));
+  EXPECT_TRUE(meet({"shot/####/x.png", 0, 9}, {"shot/0001/x.png"}));
+  EXPECT_FALSE(meet({"shot/####/x.png", 0, 9}, {"shot/0010/x.png"}));
+  EXPECT_FALSE(meet({"shot/####/x.png", 0, 9}, {"shot/0001/y.png"}));
 }
 
 TEST(OutputFiles, ItemsShareAPatternIfTheirFramesDiffer) {

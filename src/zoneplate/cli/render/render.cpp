@@ -52,7 +52,10 @@ void run_render(std::span<const std::string> arguments) {
   if (const auto collision = files.find_collision())
     throw Error(ErrorKind::Usage,
                 fmt::format("{} would be written to {}, which is read as well", args.input, collision->path));
-  if (is_finished(args)) return;
+  if (is_finished(args)) {
+    if (args.prints_json) print_report(Json(plan_json(args, "skipped")).text() + '\n');
+    return;
+  }
   Summary summary;
   with_isa(args.isa, [&] { with_threads(args.threads, [&] { summary = RenderItems({args}).next(); }); });
   if (args.verbosity != Verbosity::Quiet)
