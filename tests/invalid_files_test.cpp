@@ -196,7 +196,7 @@ std::vector<Case> gltf_cases() {
       damaged_gltf("no-buffer", R"("buffer":0,"byteLength":36)", R"("buffer":5,"byteLength":36)", 3,
                    "bufferView 0: buffer is 5, expected an index below 1"),
       damaged_gltf("view-past-end", R"("byteOffset":36)", R"("byteOffset":37)", 3,
-                   "bufferView 1: ends at byte 43 of a buffer of 42 bytes"),
+                   "indices (accessor 1): it holds 5 bytes, expected 6"),
       damaged_gltf("accessor-past-end", R"("count":3,"type":"VEC3")", R"("count":4,"type":"VEC3")", 3,
                    "it holds 36 bytes, expected 48 (4 elements)"),
       damaged_gltf("count-1e300", R"("count":3,"type":"VEC3")", R"("count":1e300,"type":"VEC3")", 3, "count is 1e+300"),

@@ -283,9 +283,13 @@ zoneplate_status zoneplate_scene_add_mesh(zoneplate_scene* scene, const zoneplat
   return guarded([&] {
     required(scene, "scene").change([&](Scene& s) {
       Mesh added = mesh_of(mesh, s);
-      if (const std::uint64_t dropped = drop_not_finite(added))
+      const NotFinite lost = drop_not_finite(added);
+      if (lost.dropped > 0)
         s.warnings.push_back(fmt::format("mesh {}: {} primitives have a vertex that is not finite and are dropped",
-                                         s.meshes.size(), dropped));
+                                         s.meshes.size(), lost.dropped));
+      if (lost.replaced > 0)
+        s.warnings.push_back(fmt::format("mesh {}: attributes of {} vertices are not finite and are replaced",
+                                         s.meshes.size(), lost.replaced));
       s.meshes.push_back(std::move(added));
       give(index, s.meshes.size() - 1);
     });

@@ -36,28 +36,40 @@ bool all_finite(const Mesh& m, std::size_t begin, std::size_t end) {
          all_finite(floats_of(m.uv1, begin, end)) && all_finite(floats_of(m.color, begin, end));
 }
 
-void make_zero(Mesh& m, std::size_t i) {
-  m.position[i] = {};
-  if (!m.normal.empty()) m.normal[i] = {};
-  if (!m.tangent.empty()) m.tangent[i] = {};
-  if (!m.uv0.empty()) m.uv0[i] = {};
-  if (!m.uv1.empty()) m.uv1[i] = {};
-  if (!m.color.empty()) m.color[i] = {};
+/// Replaces the attributes of a vertex that are not finite; returns whether there are any.
+bool make_finite(Mesh& m, std::size_t i) {
+  bool is_replaced = false;
+  const auto replace = [&](auto& values, auto value) {
+    if (all_finite(floats_of(values, i, i + 1))) return;
+    values[i] = value;
+    is_replaced = true;
+  };
+  replace(m.normal, float3{});
+  replace(m.tangent, float4{});
+  replace(m.uv0, float2{});
+  replace(m.uv1, float2{});
+  replace(m.color, float4{1, 1, 1, 1});
+  return is_replaced;
 }
 
 }  // namespace
 
-std::uint64_t drop_not_finite(Mesh& m) {
+NotFinite drop_not_finite(Mesh& m) {
   std::vector<char> is_clean((m.position.size() + range_size - 1) / range_size);
   parallel_ranges(m.position.size(), range_size, [&](std::size_t begin, std::size_t end) {
     is_clean[begin / range_size] = all_finite(m, begin, end);
   });
-  if (std::find(is_clean.begin(), is_clean.end(), 0) == is_clean.end()) return 0;
+  if (std::find(is_clean.begin(), is_clean.end(), 0) == is_clean.end()) return {};
 
+  NotFinite out;
   std::vector<bool> is_bad(m.position.size());
   serial_ranges(m.position.size(), [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      if (!is_clean[i / range_size] && !all_finite(m, i, i + 1)) is_bad[i] = true, make_zero(m, i);
+      if (!is_clean[i / range_size]) {
+        if (make_finite(m, i)) ++out.replaced;
+        is_bad[i] = !all_finite(floats_of(m.position, i, i + 1));
+        if (is_bad[i]) m.position[i] = {};
+      }
   });
   const auto corners = static_cast<std::size_t>(m.vertices_per_primitive());
   std::size_t kept = 0;
@@ -66,9 +78,9 @@ std::uint64_t drop_not_finite(Mesh& m) {
     for (std::size_t c = 0; c < corners; ++c) m.index[kept + c] = m.index[k + c];
     kept += corners;
   }
-  const std::uint64_t dropped = (m.index.size() - kept) / corners;
+  out.dropped = (m.index.size() - kept) / corners;
   m.index.resize(kept);
-  return dropped;
+  return out;
 }
 
 }  // namespace zoneplate

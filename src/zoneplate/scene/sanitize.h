@@ -7,10 +7,16 @@
 
 namespace zoneplate {
 
-/// Replaces vertices that are not finite by zero and drops the primitives that use one; returns the number of dropped
-/// primitives.
+/// What drop_not_finite changed.
+struct NotFinite {
+  std::uint64_t dropped = 0;   ///< primitives
+  std::uint64_t replaced = 0;  ///< vertices with other attributes
+};
+
+/// Drops the primitives that use a vertex whose position is not finite. Other attributes that are not finite do not
+/// cost a primitive: normals, tangents and texture coordinates become zero, colours white.
 ///
 /// Exact     the same bits for any number of threads.
-std::uint64_t drop_not_finite(Mesh& mesh);
+NotFinite drop_not_finite(Mesh& mesh);
 
 }  // namespace zoneplate

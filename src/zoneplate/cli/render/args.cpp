@@ -558,8 +558,10 @@ std::vector<Option> run_options(RenderArgs& a) {
       {"--quiet,-q", "", "Print errors only", group, false, [&](auto&) { a.verbosity = Verbosity::Quiet; }},
       {"--verbose,-v", "", "Print a summary with times", group, false,
        [&](auto&) { a.verbosity = Verbosity::Verbose; }},
-      {"--strict", "", "A texture that is missing or invalid is an error; otherwise it is a warning", group, false,
-       [&](auto&) { a.load.limits.is_strict = true; }},
+      {"--strict", "",
+       "A texture that is missing, or an invalid part of the model, is an error; otherwise it is left out with a "
+       "warning",
+       group, false, [&](auto&) { a.load.limits.is_strict = true; }},
       {"--no-cache", "",
        "Neither read nor write filtered environments in $XDG_CACHE_HOME/zoneplate or ~/.cache/zoneplate", group, false,
        [&](auto&) { a.cache.clear(); }},

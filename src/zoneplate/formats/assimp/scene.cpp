@@ -237,7 +237,7 @@ class Conversion {
       mesh.topology = corners == 1 ? Topology::Points : corners == 2 ? Topology::Lines : Topology::Triangles;
       mesh.index = std::move(index[corners - 1]);
       mesh.material = static_cast<int>(std::min<std::size_t>(m.mMaterialIndex, scene_.materials.size() - 1));
-      dropped_ += drop_not_finite(mesh);
+      dropped_ += drop_not_finite(mesh).dropped;
       if (mesh.index.empty()) continue;
       if (corners == 3 && mesh.normal.empty()) {
         budget_.take(mesh.position.size() * sizeof(float3) * 2);

@@ -19,7 +19,8 @@ auto read_last(const GltfMaker& maker, const std::string& number, Read read, con
 }
 
 template <class Read>
-std::string error_of(const GltfMaker& m, const std::string& number, Read read, const LoadLimits& limits = {}) {
+std::string error_of(const GltfMaker& m, const std::string& number, Read read, LoadLimits limits = {}) {
+  limits.is_strict = true;
   try {
     read_last(m, number, read, limits);
   } catch (const Error& e) {

@@ -98,14 +98,18 @@ std::vector<AnimationSpan> list_animations(GltfFile& file) {
     const JsonView json = file.root().element("animations", i, "animation");
     AnimationSpan span{json.text("name"), 0, 0};
     file.budget().take(2 * sizeof(AnimationSpan) + span.name.size());
+    bool is_first = true;
     for (std::size_t s = 0; s < json.count("samplers"); ++s) {
       file.budget().check_time();
       const JsonView sampler = json.element("samplers", s, "sampler");
-      const std::size_t input = sampler.index("input", file.count("accessors"));
-      if (!extents.contains(input)) extents[input] = extent(file, sampler);
-      const auto [begin, end] = extents[input];
-      span.begin = s == 0 ? begin : std::min(span.begin, begin);
-      span.end = s == 0 ? end : std::max(span.end, end);
+      file.read_optional([&] {
+        const std::size_t input = sampler.index("input", file.count("accessors"));
+        if (!extents.contains(input)) extents[input] = extent(file, sampler);
+        const auto [begin, end] = extents[input];
+        span.begin = is_first ? begin : std::min(span.begin, begin);
+        span.end = is_first ? end : std::max(span.end, end);
+        is_first = false;
+      });
     }
     span.end = std::max(span.end, span.begin);  // the accessors' min and max may be invalid
     out.push_back(std::move(span));
@@ -123,15 +127,16 @@ class Samplers {
 
   JsonView of(const JsonView& channel) const { return animation_.element("samplers", number_of(channel), "sampler"); }
   const std::vector<float>& value(const JsonView& channel, const GltfValueShape& shape) {
-    const auto [value, is_new] = values_.try_emplace({number_of(channel), shape});
-    if (is_new) {
+    const std::pair key(number_of(channel), shape);
+    if (!values_.contains(key)) {
       const JsonView sampler = of(channel);
       const std::size_t input = sampler.index("input", file_.count("accessors"));
       if (!keys_.contains(input)) keys_[input] = find_keys(file_, sampler, time_);
-      value->second = evaluate(file_, sampler, shape, keys_[input]);
+      values_[key] = evaluate(file_, sampler, shape, keys_[input]);
     }
-    file_.budget().take(sizeof(GltfNodePose) + value->second.size() * sizeof(float));
-    return value->second;
+    const std::vector<float>& value = values_.at(key);
+    file_.budget().take(sizeof(GltfNodePose) + value.size() * sizeof(float));
+    return value;
   }
 
  private:
@@ -166,6 +171,16 @@ void edit_property(GltfFile& file, const JsonView& channel, const JsonView& targ
   if (!file.edits().set(pointer, std::move(value))) ignore("leads to nothing");
 }
 
+void apply_channel(GltfFile& file, const JsonView& channel, Samplers& samplers, GltfPoses& poses) {
+  const JsonView target = channel.object("target");
+  const std::string word = target.text("path");
+  if (word == "pointer") return edit_property(file, channel, target, samplers);
+  const auto node = target.find_index("node", file.count("nodes"));
+  const std::optional<GltfPath> path = find_path(word);
+  if (!path) file.warn(target.place() + ": path " + quoted(word) + " is not supported, ignored");
+  if (node && path) set(poses[*node], *path, samplers.value(channel, shape_of(*path)));
+}
+
 }  // namespace
 
 void animate(GltfFile& file, std::size_t animation, double time, GltfPoses& poses) {
@@ -173,16 +188,7 @@ void animate(GltfFile& file, std::size_t animation, double time, GltfPoses& pose
   Samplers samplers(file, json, time);
   for (std::size_t c = 0; c < json.count("channels"); ++c) {
     file.budget().check_time();
-    const JsonView channel = json.element("channels", c, "channel"), target = channel.object("target");
-    const std::string word = target.text("path");
-    if (word == "pointer") {
-      edit_property(file, channel, target, samplers);
-      continue;
-    }
-    const auto node = target.find_index("node", file.count("nodes"));
-    const std::optional<GltfPath> path = find_path(word);
-    if (!path) file.warn(target.place() + ": path " + quoted(word) + " is not supported, ignored");
-    if (node && path) set(poses[*node], *path, samplers.value(channel, shape_of(*path)));
+    file.read_optional([&] { apply_channel(file, json.element("channels", c, "channel"), samplers, poses); });
   }
 }
 

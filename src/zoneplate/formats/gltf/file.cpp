@@ -28,6 +28,9 @@ std::pair<std::string_view, std::string_view> split_data_uri(std::string_view ur
   return {uri.substr(0, comma), uri.substr(comma + 1)};
 }
 
+/// The maximum number of elements of all accessors without a buffer view together.
+constexpr std::uint64_t most_zeros_in_all = std::uint64_t{1} << 23;
+
 }  // namespace
 
 GltfFile::GltfFile(const std::string& path, const LoadLimits& limits)
@@ -72,10 +75,21 @@ void GltfFile::read_chunks(std::span<const std::uint8_t> bytes) {
   if (!has_json) fail("GLB without a JSON chunk");
 }
 
-void GltfFile::check_asset() const {
+void GltfFile::leave_out(const Error& error) {
+  if (error.kind() != ErrorKind::Input || budget_.limits().is_strict || zeros_ > most_zeros_in_all) throw error;
+  budget_.take(0);  // exceeding the memory budget or the deadline is an error nevertheless
+  budget_.check_time();
+  if (!first_loss_) first_loss_ = error;
+  warn(std::string(error.what()) + "; left out");
+}
+
+void GltfFile::check_asset() {
   const auto major = [](const std::string& version) { return version.substr(0, version.find('.')); };
   const JsonView asset = root_->object("asset");
-  const std::string version = asset.text("version"), least = asset.text("minVersion", "2.0");
+  const bool is_number = asset.is_number("version") && !budget_.limits().is_strict;
+  if (is_number) warn(asset.place() + ": version is a number, expected a string");
+  const std::string version = is_number ? std::to_string(asset.number("version")) : asset.text("version");
+  const std::string least = asset.text("minVersion", "2.0");
   if (version.empty()) asset.fail("version is missing: not a glTF 2 file");
   if (major(version) != "2") asset.fail("version is " + quoted(version) + ", expected 2.0");
   if (least != "2.0") asset.fail("minVersion is " + quoted(least) + ", 2.0 is supported");
@@ -102,6 +116,12 @@ std::span<const std::uint8_t> GltfFile::buffer(std::size_t i) {
 std::span<const std::uint8_t> GltfFile::part_of_buffer(const JsonView& json) {
   const std::span<const std::uint8_t> all = buffer(json.index("buffer", count("buffers")));
   const std::uint64_t offset = json.whole("byteOffset", 0), size = json.whole("byteLength");
+  // What needs the bytes that are missing finds out itself.
+  if (offset <= all.size() && size > all.size() - offset && !budget_.limits().is_strict) {
+    warn(json.place() + ": ends at byte " + std::to_string(offset + size) + " of a buffer of " +
+         bytes_text(all.size()) + ", cut there");
+    return all.subspan(static_cast<std::size_t>(offset));
+  }
   if (offset > all.size() || size > all.size() - offset)
     json.fail("ends at byte " + std::to_string(offset + size) + " of a buffer of " + bytes_text(all.size()));
   return all.subspan(static_cast<std::size_t>(offset), static_cast<std::size_t>(size));
@@ -159,11 +179,10 @@ GltfBytes GltfFile::load_uri(const JsonView& owner, const std::string& uri) {
 }
 
 void GltfFile::take_zeros(const JsonView& accessor, std::uint64_t count) {
-  constexpr std::uint64_t most_zeros = std::uint64_t{1} << 23;
   zeros_ += count;
-  if (zeros_ > most_zeros)
+  if (zeros_ > most_zeros_in_all)
     accessor.fail("has no bufferView, as other accessors of " + std::to_string(zeros_) + " elements in all, at most " +
-                  std::to_string(most_zeros) + " may be zero");
+                  std::to_string(most_zeros_in_all) + " may be zero");
 }
 
 void GltfFile::warn(const std::string& text) {

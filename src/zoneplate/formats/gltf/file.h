@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "zoneplate/base/error.h"
 #include "zoneplate/formats/import/load_options.h"
 #include "zoneplate/formats/json/json.h"
 #include "zoneplate/formats/json/json_edits.h"
@@ -62,13 +63,29 @@ class GltfFile {
   /// Resets the count of take_zeros, for another scene of the file.
   void forget_zeros() { zeros_ = 0; }
 
+  /// Reads a part that the picture can do without. An invalid one is left out with a warning, or is an error if the
+  /// limits are strict.
+  ///
+  /// Errors    exceeded limits; errors that are not of the file.
+  template <class Read>
+  void read_optional(const Read& read) {
+    try {
+      read();
+    } catch (const Error& error) {
+      leave_out(error);
+    }
+  }
+  /// The error of the first part that read_optional left out.
+  const std::optional<Error>& first_loss() const { return first_loss_; }
+
   /// Adds a warning about ignored content; equal texts are added once. The number of warnings is limited.
   void warn(const std::string& text);
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
   void read_chunks(std::span<const std::uint8_t> bytes);
-  void check_asset() const;
+  void check_asset();
+  void leave_out(const Error& error);
   std::span<const std::uint8_t> buffer(std::size_t i);
   std::span<const std::uint8_t> part_of_buffer(const JsonView& json);
 
@@ -84,6 +101,7 @@ class GltfFile {
   std::map<std::size_t, std::vector<std::uint8_t>> unpacked_;  ///< by index of the compressed buffer view
   std::map<std::size_t, std::vector<std::uint8_t>> decoded_;   ///< by index of the accessor
   std::uint64_t zeros_ = 0;
+  std::optional<Error> first_loss_;
   std::vector<std::string> warnings_;
   std::set<std::string> warned_;
 };

@@ -9,7 +9,8 @@
 namespace zoneplate {
 namespace {
 
-std::string error_of(const std::string& path, const LoadLimits& limits = {}) {
+std::string error_of(const std::string& path, LoadLimits limits = {}) {
+  limits.is_strict = true;
   try {
     load_gltf(path, limits);
   } catch (const Error& e) {

@@ -165,6 +165,7 @@ class SceneReader {
 
  private:
   void add_node(const GltfNode& node);
+  void add_camera(const GltfNode& node);
   void add_light(const GltfNode& node, const JsonView& use);
   void add_mesh(const GltfNode& node, std::size_t mesh);
   void add_name(const GltfNode& node, std::size_t mesh);
@@ -279,7 +280,14 @@ bool SceneReader::is_near(std::size_t mesh, const float4x4& world_from_object) {
   return zoneplate::is_near(*part.used, world_from_object);
 }
 
+/// Whether a transform has the scale 0, by which animations hide a node: its one point is not part of the bounds.
+bool is_hidden(const float4x4& world_from_object) {
+  const auto& axis = world_from_object.column;
+  return xyz(axis[0]) == float3{} && xyz(axis[1]) == float3{} && xyz(axis[2]) == float3{};
+}
+
 void SceneReader::add_instance(const GltfNode& node, std::size_t mesh, int object, const float4x4& world_from_object) {
+  if (is_hidden(world_from_object)) return;
   if (!is_near(mesh, world_from_object)) {
     file_.warn(node.json.place() + ": lies farther than 1e18 from the origin or nowhere, dropped");
     return;
@@ -343,6 +351,14 @@ void SceneReader::add_light(const GltfNode& node, const JsonView& use) {
 
 void SceneReader::add_node(const GltfNode& node) {
   file_.budget().check_time();
+  file_.read_optional([&] { add_camera(node); });
+  file_.read_optional([&] {
+    if (const auto use = node.json.extension("KHR_lights_punctual"); use && node.is_visible) add_light(node, *use);
+  });
+  if (const auto mesh = node.json.find_index("mesh", file_.count("meshes"))) add_mesh(node, *mesh);
+}
+
+void SceneReader::add_camera(const GltfNode& node) {
   if (const auto camera = node.json.find_index("camera", file_.count("cameras"))) {
     scene_.cameras.push_back(read_camera(file_.root().element("cameras", *camera, "camera"), node.world_from_node));
     float4x4& place = scene_.cameras.back().world_from_camera;
@@ -352,8 +368,6 @@ void SceneReader::add_node(const GltfNode& node) {
     }
     file_.budget().take(2 * sizeof(Camera) + scene_.cameras.back().name.size());
   }
-  if (const auto use = node.json.extension("KHR_lights_punctual"); use && node.is_visible) add_light(node, *use);
-  if (const auto mesh = node.json.find_index("mesh", file_.count("meshes"))) add_mesh(node, *mesh);
 }
 
 Scene SceneReader::read(const GltfMaterials& look, GltfModel::Images images) {
@@ -369,6 +383,7 @@ Scene SceneReader::read(const GltfMaterials& look, GltfModel::Images images) {
     Material& material = scene_.materials.emplace_back();
     material.name = "default", material.is_default = true;
   }
+  if (scene_.instances.empty() && file_.first_loss()) throw *file_.first_loss();
   if (scene_.instances.empty()) file_.warn(file_.root().place() + " nothing in the scene can be drawn");
   scene_.animations = list_animations(file_);
   scene_.variants = list_variants(file_);

@@ -116,11 +116,13 @@ std::vector<double> key_times(GltfFile& file, const SceneChoice& choice) {
     std::set<std::size_t> known;  // samplers that several channels share
     for (std::size_t c = 0; c < animation.count("channels"); ++c) {
       file.budget().check_time();
-      const JsonView channel = animation.element("channels", c, "channel");
-      const Target target = target_of(channel.object("target"));
-      if (!target.path && !target.is_visibility) continue;
-      const std::size_t sampler = channel.index("sampler", animation.count("samplers"));
-      if (known.insert(sampler).second) out.add(animation.element("samplers", sampler, "sampler"), target);
+      file.read_optional([&] {
+        const JsonView channel = animation.element("channels", c, "channel");
+        const Target target = target_of(channel.object("target"));
+        if (!target.path && !target.is_visibility) return;
+        const std::size_t sampler = channel.index("sampler", animation.count("samplers"));
+        if (known.insert(sampler).second) out.add(animation.element("samplers", sampler, "sampler"), target);
+      });
     }
   }
   return out.in_order();

@@ -19,19 +19,19 @@ class LayerReader {
       : file_(file), material_(material), texture_(texture) {}
 
   std::shared_ptr<const MaterialLayers> read() {
-    if (const auto e = find("KHR_materials_ior")) read_ior(*e);
-    if (const auto e = find("KHR_materials_specular")) read_specular(*e);
-    if (const auto e = find("KHR_materials_clearcoat")) read_clearcoat(*e);
-    if (const auto e = find("KHR_materials_sheen")) read_sheen(*e);
-    if (const auto e = find("KHR_materials_anisotropy")) read_anisotropy(*e);
-    if (const auto e = find("KHR_materials_iridescence")) read_iridescence(*e);
-    if (const auto e = find("KHR_materials_transmission"))
-      layers_.transmission = read_factor(file_, *e, "transmissionFactor", 0);
-    if (const auto e = find("KHR_materials_volume")) read_volume(*e);
-    if (const auto e = find("KHR_materials_dispersion"))
-      layers_.dispersion = read_factor(file_, *e, "dispersion", 0, unbounded);
-    if (const auto e = find("KHR_materials_diffuse_transmission")) read_diffuse_transmission(*e);
-    if (const auto e = find("KHR_materials_pbrSpecularGlossiness")) read_glossiness(*e);
+    read("KHR_materials_ior", [this](const JsonView& e) { read_ior(e); });
+    read("KHR_materials_specular", [this](const JsonView& e) { read_specular(e); });
+    read("KHR_materials_clearcoat", [this](const JsonView& e) { read_clearcoat(e); });
+    read("KHR_materials_sheen", [this](const JsonView& e) { read_sheen(e); });
+    read("KHR_materials_anisotropy", [this](const JsonView& e) { read_anisotropy(e); });
+    read("KHR_materials_iridescence", [this](const JsonView& e) { read_iridescence(e); });
+    read("KHR_materials_transmission",
+         [this](const JsonView& e) { layers_.transmission = read_factor(file_, e, "transmissionFactor", 0); });
+    read("KHR_materials_volume", [this](const JsonView& e) { read_volume(e); });
+    read("KHR_materials_dispersion",
+         [this](const JsonView& e) { layers_.dispersion = read_factor(file_, e, "dispersion", 0, unbounded); });
+    read("KHR_materials_diffuse_transmission", [this](const JsonView& e) { read_diffuse_transmission(e); });
+    read("KHR_materials_pbrSpecularGlossiness", [this](const JsonView& e) { read_glossiness(e); });
     if (!has_any_) return nullptr;
     for (const LayerTextureSlot& slot : layer_texture_slots)
       if (const auto e = material_.extension(slot.extension.data()); e && e->has(slot.gltf_name.data()))
@@ -41,10 +41,15 @@ class LayerReader {
   }
 
  private:
-  std::optional<JsonView> find(const char* extension) {
-    std::optional<JsonView> found = material_.extension(extension);
-    has_any_ = has_any_ || found;
-    return found;
+  /// Reads an extension, if the material has it; what of it is invalid keeps its default.
+  template <class Read>
+  void read(const char* extension, const Read& read_extension) {
+    file_.read_optional([&] {
+      const std::optional<JsonView> found = material_.extension(extension);
+      if (!found) return;
+      has_any_ = true;
+      read_extension(*found);
+    });
   }
 
   /// An index of refraction, at least 1.

@@ -17,8 +17,9 @@ inline Scene load(const GltfMaker& m, const LoadLimits& limits = {}) {
   return load_gltf(folder.write("f.glb", m.glb()), limits);
 }
 
-/// The error message of loading that file, without the file's name; "no error" if there is none.
-inline std::string error_of(const GltfMaker& m, const LoadLimits& limits = {}) {
+/// The error message of loading that file strictly, without the file's name; "no error" if there is none.
+inline std::string error_of(const GltfMaker& m, LoadLimits limits = {}) {
+  limits.is_strict = true;
   try {
     load(m, limits);
   } catch (const Error& e) {

@@ -74,6 +74,7 @@ class MaterialReader {
 
  private:
   TextureUse texture(const JsonView& owner, const std::string& key);
+  TextureUse read_texture(const JsonView& owner, const std::string& key);
   void read_textures(const JsonView& owner, bool is_metallic_roughness, Material& m);
   void read_base(const JsonView& json, const char* key, Material& m);
   void read_metallic_roughness(const JsonView& json, Material& m);
@@ -84,9 +85,15 @@ class MaterialReader {
   UsedImages images_;
 };
 
+/// The use of a texture under `key`; without image if there is none, or if it is invalid.
 TextureUse MaterialReader::texture(const JsonView& owner, const std::string& key) {
   TextureUse use;
-  if (!owner.has(key.c_str())) return use;
+  if (owner.has(key.c_str())) file_.read_optional([&] { use = read_texture(owner, key); });
+  return use;
+}
+
+TextureUse MaterialReader::read_texture(const JsonView& owner, const std::string& key) {
+  TextureUse use;
   const JsonView info = owner.object(key.c_str());
   const std::size_t number = info.index("index", file_.count("textures"));
   const std::uint64_t uv_set = read_transform(info, info.whole("texCoord", 0), use);
@@ -97,8 +104,10 @@ TextureUse MaterialReader::texture(const JsonView& owner, const std::string& key
   use.uv_set = static_cast<int>(uv_set);
 
   const JsonView texture = file_.root().element("textures", number, "texture");
-  if (const auto s = texture.find_index("sampler", file_.count("samplers")))
-    use.sampler = read_sampler(file_.root().element("samplers", *s, "sampler"));
+  file_.read_optional([&] {
+    if (const auto s = texture.find_index("sampler", file_.count("samplers")))
+      use.sampler = read_sampler(file_.root().element("samplers", *s, "sampler"));
+  });
   const auto basis = texture.extension("KHR_texture_basisu"), webp = texture.extension("EXT_texture_webp");
   if (const auto source = (basis ? *basis : webp ? *webp : texture).find_index("source", file_.count("images")))
     use.image = images_.use(*source);
@@ -115,7 +124,7 @@ void MaterialReader::read_textures(const JsonView& owner, bool is_metallic_rough
 }
 
 void MaterialReader::read_base(const JsonView& json, const char* key, Material& m) {
-  const std::vector<float> v = json.numbers(key, 4);
+  const std::vector<float> v = read_numbers(file_, json, key, 4);
   if (v.empty()) return;
   const auto channel = [&](float x) { return clamped(file_, json, key, x, 0, 1); };
   m.base_color = {channel(v[0]), channel(v[1]), channel(v[2]), channel(v[3])};
@@ -138,20 +147,22 @@ void MaterialReader::read_specular_glossiness(const JsonView& json, Material& m)
 }
 
 void MaterialReader::read_alpha(const JsonView& json, Material& m) {
-  const std::string mode = json.text("alphaMode", "OPAQUE");
-  if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
-    json.fail("alphaMode is " + quoted(mode) + ", expected OPAQUE, MASK or BLEND");
-  m.alpha_mode = mode == "MASK" ? AlphaMode::Mask : mode == "BLEND" ? AlphaMode::Blend : AlphaMode::Opaque;
+  file_.read_optional([&] {
+    const std::string mode = json.text("alphaMode", "OPAQUE");
+    if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND")
+      json.fail("alphaMode is " + quoted(mode) + ", expected OPAQUE, MASK or BLEND");
+    m.alpha_mode = mode == "MASK" ? AlphaMode::Mask : mode == "BLEND" ? AlphaMode::Blend : AlphaMode::Opaque;
+  });
   m.alpha_cutoff = read_factor(file_, json, "alphaCutoff", 0.5f, std::numeric_limits<float>::max());
 }
 
 Material MaterialReader::read(std::size_t i) {
   const JsonView json = file_.root().element("materials", i, "material");
   Material m;
-  m.name = json.text("name");
-  m.double_sided = json.flag("doubleSided", false);
+  file_.read_optional([&] { m.name = json.text("name"); });
+  file_.read_optional([&] { m.double_sided = json.flag("doubleSided", false); });
   read_alpha(json, m);
-  read_metallic_roughness(json.object("pbrMetallicRoughness"), m);
+  file_.read_optional([&] { read_metallic_roughness(json.object("pbrMetallicRoughness"), m); });
 
   const auto specular_glossiness = json.extension("KHR_materials_pbrSpecularGlossiness");
   if (specular_glossiness) read_specular_glossiness(*specular_glossiness, m);
@@ -160,8 +171,9 @@ Material MaterialReader::read(std::size_t i) {
   if (const auto strength = json.extension("KHR_materials_emissive_strength"))
     m.emissive = m.emissive * read_factor(file_, *strength, "emissiveStrength", 1, 1e9f);
   read_textures(json, false, m);
-  m.normal_scale = json.object("normalTexture").number("scale", 1.0f);
-  m.occlusion_strength = read_factor(file_, json.object("occlusionTexture"), "strength", 1);
+  file_.read_optional([&] { m.normal_scale = json.object("normalTexture").number("scale", 1.0f); });
+  file_.read_optional(
+      [&] { m.occlusion_strength = read_factor(file_, json.object("occlusionTexture"), "strength", 1); });
   if (json.extension("KHR_materials_unlit"))
     m.model = ShadingModel::Unlit;
   else

@@ -95,7 +95,7 @@ TEST(GltfMaterial, Samplers) {
   const auto sampler = [](const std::string& json) {
     GltfMaker m = painted(R"({"emissiveTexture":{"index":0}})", R"({"source":0,"sampler":0})");
     m.rest += R"(,"samplers":[{)" + json + "}]";
-    return load(m).materials.at(0).emissive_texture.sampler;
+    return load(m, {.is_strict = true}).materials.at(0).emissive_texture.sampler;
   };
   EXPECT_EQ(sampler(""), Sampler{});
   EXPECT_EQ(sampler(R"("wrapS":33071,"wrapT":33648)").wrap_u, Wrap::Clamp);

@@ -104,12 +104,16 @@ void apply_targets(const Primitive& p, std::span<const float> weights, Mesh& mes
     const JsonView target = p.json.element("targets", t, "target");
     // A target must have as many elements as the primitive's positions.
     const auto read = [&](const char* key, auto reader) -> decltype(reader(p.file, target, key, p.range)) {
-      if (!target.has(key)) return {};
-      auto deltas = reader(p.file, target, key, p.range);
-      p.file.budget().give_back(deltas.size() * sizeof(deltas[0]));
-      if (deltas.size() != mesh.position.size())
-        target.fail(std::string(key) + " has " + std::to_string(count_elements(p.file, target, key)) +
-                    " elements, expected " + std::to_string(count_elements(p.file, p.attributes, "POSITION")));
+      decltype(reader(p.file, target, key, p.range)) deltas;
+      if (!target.has(key)) return deltas;
+      p.file.read_optional([&] {
+        auto found = reader(p.file, target, key, p.range);
+        p.file.budget().give_back(found.size() * sizeof(found[0]));
+        if (found.size() != mesh.position.size())
+          target.fail(std::string(key) + " has " + std::to_string(count_elements(p.file, target, key)) +
+                      " elements, expected " + std::to_string(count_elements(p.file, p.attributes, "POSITION")));
+        deltas = std::move(found);
+      });
       return deltas;
     };
     add_scaled(mesh.position, read("POSITION", read_float3), weights[t]);
@@ -268,16 +272,26 @@ Mesh read_primitive(GltfFile& file, const JsonView& json, const GltfPose& pose, 
   m.index = list_primitives(std::move(order), static_cast<int>(mode));
   file.budget().give_back((count * 4 - m.index.size()) * sizeof(std::uint32_t));
   m.position = read_attribute(p, "POSITION", read_float3);
-  m.normal = read_attribute(p, "NORMAL", read_float3);
-  if (uv_set_of_tangents) m.tangent = read_attribute(p, "TANGENT", read_float4);
+  const auto read = [&](auto& values, const char* key, auto reader) {
+    file.read_optional([&] { values = read_attribute(p, key, reader); });
+  };
+  read(m.normal, "NORMAL", read_float3);
+  if (uv_set_of_tangents) read(m.tangent, "TANGENT", read_float4);
   if (m.normal.empty()) m.tangent.clear();  // as the specification requires
-  m.uv0 = read_attribute(p, "TEXCOORD_0", read_float2);
-  m.uv1 = read_attribute(p, "TEXCOORD_1", read_float2);
-  m.color = read_attribute(p, "COLOR_0", read_color);
+  read(m.uv0, "TEXCOORD_0", read_float2);
+  read(m.uv1, "TEXCOORD_1", read_float2);
+  read(m.color, "COLOR_0", read_color);
   apply_targets(p, weights, m);
+  // The specification requires it: exporters write 255 in floats, or bytes without the flag that normalizes them.
+  for (float4& c : m.color)
+    for (float* x : {&c.x, &c.y, &c.z, &c.w}) *x = std::clamp(*x, 0.0f, 1.0f);
   if (!pose.joints.empty()) apply_joints(p, pose.joints, m);
-  if (const std::uint64_t dropped = drop_not_finite(m))
-    p.file.warn(p.json.place() + ": vertices that are not finite, " + std::to_string(dropped) + " primitives dropped");
+  const NotFinite lost = drop_not_finite(m);
+  if (lost.dropped > 0)
+    file.warn(json.place() + ": vertices that are not finite, " + std::to_string(lost.dropped) + " primitives dropped");
+  if (lost.replaced > 0)
+    file.warn(json.place() + ": attributes of " + std::to_string(lost.replaced) +
+              " vertices are not finite and are replaced");
   complete(p, uv_set_of_tangents, m);
   return m;
 }
@@ -292,7 +306,9 @@ std::vector<GltfPrimitive> load_gltf_mesh(GltfFile& file, std::size_t number, co
   std::vector<GltfPrimitive> out;
   for (std::size_t i = 0; i < json.count("primitives"); ++i) {
     file.budget().check_time();
-    Mesh m = read_primitive(file, json.element("primitives", i, "primitive"), pose, weights, materials);
+    Mesh m;
+    file.read_optional(
+        [&] { m = read_primitive(file, json.element("primitives", i, "primitive"), pose, weights, materials); });
     if (m.index.empty()) continue;
     file.budget().take(3 * sizeof(Mesh) + name.size());  // growing lists have up to twice their size
     m.name = name;

@@ -72,9 +72,8 @@ std::vector<float> read_times(GltfFile& file, const JsonView& sampler) {
   std::vector<float> times = read_float(file, sampler, "input");
   if (times.empty()) sampler.fail("input has no elements");
   for (std::size_t i = 0; i < times.size(); ++i)
-    if (!(times[i] >= 0 && std::isfinite(times[i])) || (i > 0 && !(times[i] > times[i - 1])))
-      sampler.fail("input " + std::to_string(i) + " is " + std::to_string(times[i]) +
-                   ", expected growing times from 0");
+    if (!std::isfinite(times[i]) || (i > 0 && times[i] < times[i - 1]))
+      sampler.fail("input " + std::to_string(i) + " is " + std::to_string(times[i]) + ", expected growing times");
   return times;
 }
 

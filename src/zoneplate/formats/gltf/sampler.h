@@ -28,9 +28,10 @@ GltfValueShape shape_of(GltfPath path);
 enum class GltfInterpolation { Step, Linear, CubicSpline };
 GltfInterpolation read_interpolation(const JsonView& sampler);
 
-/// The times of a sampler's keys, in seconds.
+/// The times of a sampler's keys, in seconds. The specification requires them to grow strictly from 0, but exporters
+/// write negative ones, and a jump as two keys of one time, of which the later holds from there on.
 ///
-/// Errors    ErrorKind::Input unless they grow from 0 or more.
+/// Errors    ErrorKind::Input for times that are not finite or decrease.
 std::vector<float> read_times(GltfFile& file, const JsonView& sampler);
 
 /// A sampler's output as a list of floats, `width` to a value.

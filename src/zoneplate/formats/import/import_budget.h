@@ -3,6 +3,8 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/deadline.h"
@@ -46,6 +48,14 @@ class ImportBudget {
       throw Error(ErrorKind::Input, file_ + ": takes longer to load than the limit of " +
                                         std::to_string(static_cast<std::int64_t>(limits_.seconds * 1000)) +
                                         " ms (--max-import-seconds)");
+  }
+
+  /// Warns of an invalid part that is left out.
+  ///
+  /// Errors    ErrorKind::Input with the warning's text if the limits are strict.
+  void warn_of_flaw(std::vector<std::string>& warnings, std::string text) const {
+    if (limits_.is_strict) throw Error(ErrorKind::Input, text);
+    warnings.push_back(std::move(text));
   }
 
  private:

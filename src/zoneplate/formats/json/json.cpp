@@ -184,8 +184,14 @@ JsonView JsonView::object(const char* key, const std::string& name) const {
 std::optional<JsonView> JsonView::extension(const char* name) const {
   if (!has("extensions")) return std::nullopt;
   const JsonView all(object("extensions"));
-  if (!all.has(name)) return std::nullopt;
-  return JsonView(*all.find(name), join(place_, name));
+  const JsonValue* const found = all.find(name);
+  if (found == nullptr || found->kind == JsonValue::Kind::Null) return std::nullopt;
+  return JsonView(*found, join(place_, name));
+}
+
+bool JsonView::is_number(const char* key) const {
+  const JsonValue* const found = find(key);
+  return found != nullptr && found->kind == JsonValue::Kind::Number;
 }
 
 std::size_t JsonView::count(const char* key) const { return list(key).size(); }

@@ -51,12 +51,13 @@ class JsonView {
   [[noreturn]] void fail(const std::string& cause) const;
 
   bool has(const char* key) const { return find(key) != nullptr; }
+  bool is_number(const char* key) const;
   std::span<const std::string> keys() const { return value_->keys; }
 
   /// The object under `key`; an empty object if it is missing. Its name in messages is this one's followed by `name`.
   JsonView object(const char* key, const std::string& name) const;
   JsonView object(const char* key) const { return object(key, key); }
-  /// extensions.`name`, if present.
+  /// extensions.`name`, if present; null is not.
   std::optional<JsonView> extension(const char* name) const;
 
   std::size_t count(const char* list) const;

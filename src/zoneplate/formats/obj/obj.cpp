@@ -115,7 +115,7 @@ class Libraries {
   std::set<std::string> statements_, opened_;
 };
 
-void report_notes(const ObjFile& file, const std::string& name, std::vector<std::string>& warnings) {
+void report_notes(const ObjFile& file, const ImportBudget& budget, std::vector<std::string>& warnings) {
   constexpr const char* texts[] = {"has too few corners and is dropped",
                                    "is dropped",
                                    "is free-form geometry, which is not drawn",
@@ -132,7 +132,11 @@ void report_notes(const ObjFile& file, const std::string& name, std::vector<std:
     }
     if (sum.count == 0) continue;
     const std::string more = sum.count > 1 ? fmt::format(" (and {} more)", sum.count - 1) : "";
-    warnings.push_back(fmt::format("{}: line {}: {} {}{}", name, sum.line, sum.word, texts[kind], more));
+    const std::string text = fmt::format("{}: line {}: {} {}{}", budget.file(), sum.line, sum.word, texts[kind], more);
+    if (kind == static_cast<std::size_t>(ObjNote::BadCorner))
+      budget.warn_of_flaw(warnings, text);
+    else
+      warnings.push_back(text);
   }
 }
 
@@ -220,7 +224,7 @@ Scene load_obj(const std::string& path, const LoadLimits& limits) {
   Scene scene;
   ObjFile file =
       parse_obj(text_of(bytes), budget, [&](std::string_view part) { bytes.forget(part.data(), part.size()); });
-  report_notes(file, name, scene.warnings);
+  report_notes(file, budget, scene.warnings);
   if (!has_elements(file) && scene.warnings.empty()) make_points(file, budget);
 
   const std::filesystem::path place(path);

@@ -277,8 +277,7 @@ TEST_F(ObjModel, SaysWhatIsWrongAndWhere) {
 
 // A file whose faces are cut into parts reads them twice: the counts of vertices that follow are known only then.
 TEST_F(ObjModel, OneBadFaceDoesNotCostTheModel) {
-  const Scene scene =
-      load(square + "f 0 1 2\nf 1 2 3\nf 1 2 99\nf 1 x 3\nf 1x 2 3\nf 1// 2 /\nf -9 1 2\nf -4 -2 -1\n");
+  const Scene scene = load(square + "f 0 1 2\nf 1 2 3\nf 1 2 99\nf 1 x 3\nf 1x 2 3\nf 1// 2 /\nf -9 1 2\nf -4 -2 -1\n");
   ASSERT_EQ(scene.meshes.size(), 1u);
   EXPECT_EQ(scene.meshes[0].index, (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
   EXPECT_EQ(warnings_of(scene), "model.obj: line 5: face with the corner '0' (4 vertices) is dropped (and 5 more)\n");

@@ -185,8 +185,8 @@ void warn(Scene& scene, const ImportBudget& budget, std::uint64_t count, const c
 void warn_of_strays(Scene& scene, const ImportBudget& budget, const PlyStrays& strays, std::size_t vertices) {
   if (strays.count == 0) return;
   const std::string more = strays.count > 1 ? fmt::format(" (and {} more)", strays.count - 1) : "";
-  scene.warnings.push_back(fmt::format("{}: face {} uses vertex {}, there are {}: it is dropped{}", budget.file(),
-                                       strays.row, strays.index, vertices, more));
+  budget.warn_of_flaw(scene.warnings, fmt::format("{}: face {} uses vertex {}, there are {}: it is dropped{}",
+                                                  budget.file(), strays.row, strays.index, vertices, more));
 }
 
 }  // namespace
@@ -206,7 +206,7 @@ Scene load_ply(const std::string& path, const LoadLimits& limits) {
   }
 
   Scene scene;
-  scene.warnings = header.warnings;
+  for (const std::string& warning : header.warnings) budget.warn_of_flaw(scene.warnings, warning);
   const Found found = find_elements(header, body, budget);
   Mesh mesh;
   PlyFaces faces;

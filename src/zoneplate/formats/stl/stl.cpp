@@ -119,7 +119,7 @@ Mesh read_facets(Bytes bytes, std::uint64_t count, ImportBudget& budget) {
 }
 
 void add_mesh(Scene& scene, Mesh mesh, std::string name, ImportBudget& budget) {
-  if (const std::uint64_t dropped = drop_not_finite(mesh))
+  if (const std::uint64_t dropped = drop_not_finite(mesh).dropped)
     scene.warnings.push_back(fmt::format("{}: {} triangles that are not finite are dropped", budget.file(), dropped));
   if (mesh.index.empty()) return;
   mesh.name = name;
@@ -143,7 +143,8 @@ void read_binary(Bytes bytes, const std::string& name, Scene& scene, ImportBudge
                 fmt::format("{}: not an STL file, or cut off: its header states {} triangles, the file has {}",
                             budget.file(), said, held));
   if (is_wrong)
-    scene.warnings.push_back(
+    budget.warn_of_flaw(
+        scene.warnings,
         fmt::format("{}: its header states {} triangles, the file has {}, which are drawn", budget.file(), said, held));
   else if (bytes.size() > header_bytes + said * facet_bytes)
     scene.warnings.push_back(fmt::format("{}: {} bytes after the last triangle are ignored", budget.file(),
