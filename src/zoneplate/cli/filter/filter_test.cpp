@@ -161,6 +161,7 @@ class Recorder : public Resolver {
   Recorder(std::unique_ptr<Resolver> method, fs::path folder)
       : method_(std::move(method)), folder_(std::move(folder)) {}
 
+  bool has_history() const override { return method_->has_history(); }
   Request request(const FrameContext& context) override {
     index_ = context.index;
     Request request = method_->request(context);

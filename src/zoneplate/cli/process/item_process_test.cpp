@@ -239,7 +239,7 @@ TEST(ItemMessages, BytesThatAreNoMessageAreAnError) {
     damaged[i] = 0xff;
     if (const bool is_padding = (i > 0 && i < 4) || (i >= 12 && i < 16); is_padding)
       EXPECT_NO_THROW(receive(damaged)) << i;
-    else if (const bool is_a_number = i >= 4 && i < 12 && i % 4 != 3; is_a_number)
+    else if (const bool is_a_number = i >= 4 && i < 11; is_a_number)  // frames may be negative
       EXPECT_NO_THROW(receive(damaged)) << i;
     else
       EXPECT_THROW(receive(damaged), Error) << i;
