@@ -3,6 +3,7 @@
 // module's memory, and images are decoded by the browser.
 #include <emscripten/emscripten.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -41,11 +42,10 @@ EM_JS(void, copy_image, (int image, void* to), {
 
 namespace zoneplate {
 
-FileBytes::FileBytes(const std::string& path, std::uint64_t limit) {
-  // The module's memory opens no name of /proc/self/fd, which is a link there.
-  std::error_code failure;
-  const std::filesystem::path linked = std::filesystem::read_symlink(path, failure);
-  std::FILE* const file = std::fopen(failure ? path.c_str() : linked.c_str(), "rb");
+namespace {
+
+/// The contents of an open file, which is closed.
+std::span<const std::uint8_t> contents_of(std::FILE* file, const std::string& path, std::uint64_t limit) {
   if (file == nullptr) throw Error(ErrorKind::Input, path + ": no such file was dropped");
   std::fseek(file, 0, SEEK_END);
   const auto size = static_cast<std::size_t>(std::ftell(file));
@@ -57,8 +57,22 @@ FileBytes::FileBytes(const std::string& path, std::uint64_t limit) {
   auto* const memory = new std::uint8_t[size];
   const std::size_t read = std::fread(memory, 1, size, file);
   std::fclose(file);
-  bytes_ = {memory, read};
+  return {memory, read};
 }
+
+/// The module's memory opens no name of /proc/self/fd, which is a link there.
+std::FILE* open_by_name(const std::string& path) {
+  std::error_code failure;
+  const std::filesystem::path linked = std::filesystem::read_symlink(path, failure);
+  return std::fopen(failure ? path.c_str() : linked.c_str(), "rb");
+}
+
+}  // namespace
+
+FileBytes::FileBytes(const std::string& path, std::uint64_t limit)
+    : bytes_(contents_of(open_by_name(path), path, limit)) {}
+FileBytes::FileBytes(int descriptor, const std::string& path, std::uint64_t limit)
+    : bytes_(contents_of(::fdopen(::dup(descriptor), "rb"), path, limit)) {}
 FileBytes::~FileBytes() { delete[] bytes_.data(); }
 FileBytes::FileBytes(FileBytes&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
 FileBytes& FileBytes::operator=(FileBytes&& other) noexcept {

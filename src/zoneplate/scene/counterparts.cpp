@@ -14,7 +14,9 @@ std::pair<int, int> identity_of(const Instance& instance) { return {instance.obj
 std::vector<std::uint32_t> sorted(const std::vector<Instance>& instances) {
   std::vector<std::uint32_t> out(instances.size());
   std::iota(out.begin(), out.end(), 0u);
-  std::ranges::stable_sort(out, {}, [&](std::uint32_t i) { return identity_of(instances[i]); });
+  std::stable_sort(out.begin(), out.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return identity_of(instances[a]) < identity_of(instances[b]);
+  });
   return out;
 }
 
@@ -22,7 +24,9 @@ std::vector<std::uint32_t> sorted(const std::vector<Instance>& instances) {
 
 std::vector<std::uint32_t> counterparts(const Scene& now, const Scene& other) {
   std::vector<std::uint32_t> out(now.instances.size(), no_instance);
-  if (std::ranges::equal(now.instances, other.instances, {}, identity_of, identity_of)) {
+  const auto have_one_identity = [](const Instance& a, const Instance& b) { return identity_of(a) == identity_of(b); };
+  if (std::equal(now.instances.begin(), now.instances.end(), other.instances.begin(), other.instances.end(),
+                 have_one_identity)) {
     std::iota(out.begin(), out.end(), 0u);
     return out;
   }

@@ -68,7 +68,8 @@ class KeyTimes {
     };
     std::size_t longest = 0;
     for (std::vector<Extreme>& of_path : extremes_) {
-      std::ranges::stable_sort(of_path, std::ranges::greater(), &Extreme::range);
+      std::stable_sort(of_path.begin(), of_path.end(),
+                       [](const Extreme& a, const Extreme& b) { return a.range > b.range; });
       longest = std::max(longest, of_path.size());
     }
     // Ranges of translations, rotations, scales and weights have no common unit: their extremes take turns.
