@@ -27,8 +27,8 @@ struct SequenceFilter {
 /// True if the method keeps history of one-sample frames and reads no planes but those that files contain.
 bool filters_sequences(const std::string& method);
 
-/// Filters the frames in order and delivers each image, after it has checked that all files fit together. A pixel that is
-/// not finite takes the mean of its neighbours, so that it does not enter the history; a warning counts them.
+/// Filters the frames in order and delivers each image, after it has checked that all files fit together. A pixel that
+/// is not finite takes the mean of its neighbours, so that it does not enter the history; a warning counts them.
 ///
 /// Errors    ErrorKind::Input naming the file that is missing, lacks a channel or has another size.
 void filter_sequence(const SequenceFilter& filter, Delivery& out);

@@ -9,7 +9,8 @@
 
 namespace zoneplate::cli {
 
-/// Loads an image to filter within the limits of a confined process, with a warning if it is the first one of an animation.
+/// Loads an image to filter within the limits of a confined process, with a warning if it is the first one of an
+/// animation.
 ///
 /// Errors    those of load_picture (metrics/file/picture_file.h).
 metrics::Picture load_still(const std::string& path, Delivery& out);

@@ -95,8 +95,8 @@ void ItemProcess::work_on(std::size_t first, ChildAnswer& answer) {
       sender.failure(error.kind(), is_named ? message : limits_.name + ": " + message);
     } catch (const std::bad_alloc& error) {
       sender.failure(sender.is_past_reading() ? ErrorKind::Failed : ErrorKind::Input,
-                     out_of_memory(sender.input().empty() ? limits_.name : sender.input(), limits_, memory_limit_, error,
-                                   sender.is_past_reading()));
+                     out_of_memory(sender.input().empty() ? limits_.name : sender.input(), limits_, memory_limit_,
+                                   error, sender.is_past_reading()));
     } catch (const std::exception& error) {
       sender.failure(ErrorKind::Failed, limits_.name + ": " + error.what());
     }

@@ -12,8 +12,8 @@ namespace zoneplate::cli {
 /// Adds all files that an item writes, and those that it reads and that an image could replace. `item` is its number.
 void add_files(const RenderArgs& args, std::uint64_t item, OutputFiles& files);
 
-/// For --skip-existing: whether all files of an item are there and whole (cli/batch/whole_file.h), its image and its data
-/// passes. False for numbered frames, of which `finished_frames` are skipped.
+/// For --skip-existing: whether all files of an item are there and whole (cli/batch/whole_file.h), its image and its
+/// data passes. False for numbered frames, of which `finished_frames` are skipped.
 bool is_finished(const RenderArgs& args);
 
 /// The frames of an item whose files are all there and whole, sorted; none without --skip-existing.

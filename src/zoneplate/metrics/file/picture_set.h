@@ -23,7 +23,7 @@ struct PictureSet {
   bool are_frames = false;                     ///< their names differ only by numbers, or they are those of a video
   std::vector<std::string> others = {};        ///< images and films of a directory in formats that are not read there
 
-  std::vector<std::string> files = {};         ///< the files that `open` opens
+  std::vector<std::string> files = {};  ///< the files that `open` opens
   std::function<Picture(const ImageFile&)> decode = [](const ImageFile& file) { return decode_file(file); };
 
   Picture load(std::size_t index) const { return decode(open(index)); }
