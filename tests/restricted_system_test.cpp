@@ -112,7 +112,8 @@ TEST_F(RestrictedSystem, NoSandboxGivesNoWarning) {
 }
 
 TEST_F(RestrictedSystem, FewDescriptorsAreAWarning) {
-  const ProgramAnswer answer = run(arguments("plain.obj", "a.png"), "sh -c 'ulimit -n 5; exec 3>&- 4>&- \"$@\"' sh");
+  const ProgramAnswer answer =
+      run(arguments("plain.obj", "a.png"), "sh -c 'exec 3>&- 4>&-; ulimit -n 5; exec \"$@\"' sh");
   expect_one_warning(answer, {"Too many open files", "--no-sandbox"}, "plain.obj");
 }
 
