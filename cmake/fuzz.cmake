@@ -3,7 +3,7 @@
 #
 # They take in the readers alone, and none of what needs a child process: that would hide from the sanitizers. Of EXR
 # pictures that leaves the header.
-set(fuzzed_sources ${library_sources})
+set(fuzzed_sources ${library_sources} ${readers})
 list(FILTER fuzzed_sources INCLUDE REGEX "^src/zoneplate/(base|os|math|image|signal|sdf|codec|scene|formats)/|/builtin_makers_table")
 list(FILTER fuzzed_sources EXCLUDE REGEX "formats/gltf/draco\\.cpp$")
 set(fuzzed_simd_sources ${simd_sources})
@@ -37,7 +37,8 @@ foreach(format IN LISTS fuzz_formats)
   target_link_libraries(fuzz_${format} PRIVATE zoneplate_fuzzed)
   target_link_options(fuzz_${format} PRIVATE -fsanitize=fuzzer)
 endforeach()
-add_executable(fuzz_item fuzz/item_fuzz.cpp src/zoneplate/cli/process/item_messages.cpp src/zoneplate/cli/render/summary.cpp)
+add_executable(fuzz_item fuzz/item_fuzz.cpp src/zoneplate/cli/process/item_messages.cpp src/zoneplate/cli/render/summary.cpp
+               src/zoneplate/cli/percents.cpp)
 target_link_libraries(fuzz_item PRIVATE zoneplate_fuzzed)
 target_link_options(fuzz_item PRIVATE -fsanitize=fuzzer)
 add_executable(fuzz_seeds fuzz/seeds.cpp)

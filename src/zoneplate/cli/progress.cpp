@@ -3,9 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <atomic>
-#include <memory>
-#include <utility>
 
 #include "zoneplate/base/utf8.h"
 #include "zoneplate/cli/log.h"
@@ -35,15 +32,6 @@ void Progress::begin(std::string_view stage, double done) {
 
 void Progress::clear() {
   if (kind_ == ProgressKind::Bar) write_to_stderr(wipe);
-}
-
-std::function<void(double)> percents(double begin, double end, std::function<void(double)> report) {
-  auto last = std::make_shared<std::atomic<int>>(static_cast<int>(100 * begin));
-  return [begin, end, last, report = std::move(report)](double done) {
-    const int now = static_cast<int>(100 * (begin + (end - begin) * done));
-    for (int before = *last; before < now;)
-      if (last->compare_exchange_weak(before, now)) return report(now / 100.0);
-  };
 }
 
 ProgressKind parse_progress(const std::string& text) {

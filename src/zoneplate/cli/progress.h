@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <string>
 #include <string_view>
 
@@ -36,10 +35,6 @@ class Progress {
   ProgressKind kind_;
   Stopwatch watch_;
 };
-
-/// A function for RenderOptions::progress: it calls `report` with every new per cent of all work, while its argument
-/// goes from 0 to 1 and the work from `begin` to `end`. Any thread may call it.
-std::function<void(double)> percents(double begin, double end, std::function<void(double)> report);
 
 /// Parses the value of --progress: "auto" (a bar on a terminal, else none), "bar", "json" or "none".
 ProgressKind parse_progress(const std::string& text);

@@ -13,6 +13,7 @@
 #include "zoneplate/cli/compare/pictures.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/output_paths.h"
+#include "zoneplate/cli/percents.h"
 #include "zoneplate/cli/process/confined.h"
 #include "zoneplate/cli/render/environment_file.h"
 #include "zoneplate/cli/render/film.h"

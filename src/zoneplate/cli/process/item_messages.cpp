@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "zoneplate/cli/progress.h"
+#include "zoneplate/cli/percents.h"
 
 namespace zoneplate::cli {
 
