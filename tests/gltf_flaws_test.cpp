@@ -77,6 +77,23 @@ TEST(GltfFlaws, OfMaterials) {
   EXPECT_TRUE(scene.warnings.empty());
 }
 
+// An image that cannot be decoded shifts the indices of those after it, also where an animation changes materials.
+TEST(GltfFlaws, OfImagesOfAnimatedMaterials) {
+  GltfMaker m;
+  m.mesh(R"("POSITION":)" + m.floats("VEC3", triangle), R"(,"material":0)");
+  m.materials = R"({"emissiveTexture":{"index":0},"emissiveFactor":[1,1,1]})";
+  const std::string input = m.floats("SCALAR", {0, 1}), output = m.floats("VEC3", {0, 0, 0, 1, 1, 1});
+  m.rest = R"(,"textures":[{"source":0}],"images":[{"uri":"data:image/png;base64,iVBORw0KGgo="}],"animations":[)"
+           R"({"channels":[{"sampler":0,"target":{"path":"pointer","extensions":{"KHR_animation_pointer":)"
+           R"({"pointer":"/materials/0/emissiveFactor"}}}}],"samplers":[{"input":)" +
+           input + R"(,"output":)" + output + "}]}]";
+  const TestFolder folder;
+  const std::string path = folder.write("f.glb", m.glb());
+  const Scene scene = load_gltf(path, {}, {.animation = 0, .time = 0.5});
+  EXPECT_EQ(scene.materials.at(0).emissive_texture.image, -1);
+  EXPECT_EQ(scene.materials.at(0).emissive.x, 0.5f);
+}
+
 TEST(GltfFlaws, OfAttributes) {
   const auto mesh_with = [](const std::string& key, const std::string& type, const std::vector<float>& values) {
     GltfMaker m;

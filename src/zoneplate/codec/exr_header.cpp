@@ -41,7 +41,7 @@ std::vector<ExrPartChannel> channels_in(ExrBytes value) {
 /// Numbers as text; the primaries of Rec.709 are what a file without the attribute has.
 std::string floats_in(std::string_view name, ExrBytes value) {
   std::vector<float> numbers(value.size() / sizeof(float));
-  std::memcpy(numbers.data(), value.data(), numbers.size() * sizeof(float));
+  if (!numbers.empty()) std::memcpy(numbers.data(), value.data(), numbers.size() * sizeof(float));
   if (name == "chromaticities" && std::ranges::equal(numbers, rec709_chromaticities)) return {};
   std::string text(name);
   for (const float v : numbers) text += fmt::format(" {:g}", v);

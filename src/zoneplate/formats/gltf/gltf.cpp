@@ -371,7 +371,7 @@ void SceneReader::add_camera(const GltfNode& node) {
 }
 
 Scene SceneReader::read(const GltfMaterials& look, GltfModel::Images images) {
-  scene_.materials = file_.edits().touch("/materials/") ? read_materials(file_).materials : look.materials;
+  scene_.materials = file_.edits().touch("/materials/") ? read_materials(file_, look) : look.materials;
   if (images == GltfModel::Images::With) scene_.images = look.images;
   for (const GltfNode& node : nodes_.in_scene()) add_node(node);
 

@@ -219,7 +219,8 @@ EncodedImage read_image(GltfFile& file, std::size_t i) {
 /// Replaces the image indices of a material's textures by `number`; without an image the factor alone counts.
 void renumber_images(std::span<const int> number, Material& material) {
   const auto renumber = [&](TextureUse& use) {
-    if (use.image >= 0) use.image = number[static_cast<std::size_t>(use.image)];
+    const auto used = static_cast<std::size_t>(use.image);
+    if (use.image >= 0) use.image = used < number.size() ? number[used] : -1;
   };
   for (const MaterialTextureSlot& slot : material_texture_slots) renumber(material.*slot.use);
   if (material.layers == nullptr) return;
@@ -228,9 +229,8 @@ void renumber_images(std::span<const int> number, Material& material) {
   material.layers = std::move(layers);
 }
 
-}  // namespace
-
-GltfMaterials read_materials(GltfFile& file) {
+/// Reads all materials without their images: their textures have the indices of used images.
+GltfMaterials read_undecoded(GltfFile& file) {
   GltfMaterials out;
   MaterialReader reader(file);
   for (std::size_t i = 0; i < file.count("materials"); ++i) {
@@ -241,8 +241,10 @@ GltfMaterials read_materials(GltfFile& file) {
   return out;
 }
 
+}  // namespace
+
 GltfMaterials load_materials(GltfFile& file) {
-  GltfMaterials out = read_materials(file);
+  GltfMaterials out = read_undecoded(file);
   std::vector<EncodedImage> encoded(out.used_images.size());
   std::vector<std::string> trouble(encoded.size());
   for (std::size_t i = 0; i < encoded.size(); ++i) {
@@ -275,10 +277,10 @@ GltfMaterials load_materials(GltfFile& file) {
     file.budget().give_back(working);
     file.budget().check_time();
   }
-  std::vector<int> number(images.size(), -1);
+  out.image_numbers.assign(images.size(), -1);
   for (std::size_t i = 0; i < images.size(); ++i) {
     if (trouble[i].empty()) {
-      number[i] = static_cast<int>(out.images.size());
+      out.image_numbers[i] = static_cast<int>(out.images.size());
       out.images.push_back(std::move(images[i]));
     } else if (file.budget().limits().is_strict) {
       throw Error(ErrorKind::Input, trouble[i]);
@@ -287,10 +289,16 @@ GltfMaterials load_materials(GltfFile& file) {
     }
   }
   if (out.images.size() < images.size())
-    for (Material& material : out.materials) renumber_images(number, material);
+    for (Material& material : out.materials) renumber_images(out.image_numbers, material);
   for (const TextureImage& image : out.images)
     if (const auto warning = size_warning(image)) file.warn(file.budget().file() + ": " + *warning);
   return out;
+}
+
+std::vector<Material> read_materials(GltfFile& file, const GltfMaterials& decoded) {
+  GltfMaterials out = read_undecoded(file);
+  for (Material& material : out.materials) renumber_images(decoded.image_numbers, material);
+  return std::move(out.materials);
 }
 
 }  // namespace zoneplate

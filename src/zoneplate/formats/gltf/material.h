@@ -12,13 +12,14 @@ namespace zoneplate {
 struct GltfMaterials {
   std::vector<Material> materials;       ///< the file's, in its order
   std::vector<std::size_t> used_images;  ///< those of the file's images that a material uses
-  std::vector<TextureImage> images;      ///< the same, decoded
+  std::vector<int> image_numbers;        ///< for each of these, its index in `images`; -1: it could not be decoded
+  std::vector<TextureImage> images;      ///< the decoded ones
 };
 
-/// Reads all materials without their images.
+/// Reads all materials again, after an animation has changed their properties, with the images that are decoded.
 ///
 /// Errors    as load_materials, but for the images.
-GltfMaterials read_materials(GltfFile& file);
+std::vector<Material> read_materials(GltfFile& file, const GltfMaterials& decoded);
 
 /// Reads all materials and decodes the images that they use, the images in parallel.
 ///
