@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-
 #include "zoneplate/base/utf8.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/values.h"
