@@ -91,7 +91,7 @@ remove_outdated() {
   (cd "$directory" && xargs -r -d '\n' rm -f -- <<<"$objects" && find . -name '*.a' -delete)
 }
 
-# True if the arguments ask for help or for the version.
+# True if the arguments request help or the version.
 asks_for_help() {
   local argument
   for argument in "$@"; do

@@ -199,7 +199,7 @@ std::string limit_files(const std::vector<std::string>& readable) {
 /// end with it.
 SandboxLacks try_sandbox() {
   SandboxLacks lacks;
-  // The process that this one forks holds so many files more: the ends of its pipe, and the model.
+  // As many descriptors as a forked process needs beside those of this one: for its pipe, and for the model.
   const int more[] = {::open("/", O_PATH | O_CLOEXEC), ::open("/", O_PATH | O_CLOEXEC)};
   try {
     std::thread([&] {

@@ -47,7 +47,7 @@ struct Shape {
   Bounds bounds{};
   /// The number of operations within operations, at most `deepest`: functions may recurse to the operands.
   int depth = 0;
-  /// At least so many instructions evaluate the shape, however many of its operands are the same.
+  /// A lower bound of the number of instructions that evaluate the shape, even if operands are shared.
   std::size_t least_instructions = 1;
 
   /// Of a repetition: the number of columns and rows near a point, whose copies may be nearest to it.

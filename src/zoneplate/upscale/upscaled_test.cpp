@@ -111,7 +111,7 @@ TEST(Upscaled, TexturesAreFilteredForThePixelsOfTheImage) {
   EXPECT_NEAR(levels(40, 50), whole.mip_level(81, 101), 0.1f);
 }
 
-/// Asks for a frame of half the size, and measures how far the motion of surfaces at rest is from that of the camera.
+/// Requests a frame of half the size, and measures how far the motion of surfaces at rest is from that of the camera.
 class CameraFollower : public Resolver {
  public:
   explicit CameraFollower(float& greatest) : greatest_(greatest) {}

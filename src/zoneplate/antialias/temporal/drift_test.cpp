@@ -29,7 +29,7 @@ Linear grey(double light) {
   return {l, l, l, 1};
 }
 
-/// The frames of one surface at rest, each sampled where the method asks for it.
+/// The frames of one surface at rest, each sampled at the position that the method requests.
 std::vector<LinearImage> accumulated(const std::string& method, const LightAt& light, int frames) {
   TemporalAccumulation accumulation(temporal_options(Settings("method", temporal_params(), method)));
   std::vector<LinearImage> out;

@@ -227,7 +227,7 @@ class Judge {
 
   /// Metrics of several frames: over all pairs, if every frame could be compared.
   void measure_sequences(const std::vector<metrics::PicturePair>& pairs) {
-    // The images of a folder, as photo1 and photo2, are a sequence only for who asks for a metric of several frames.
+    // The images of a folder, as photo1 and photo2, are a sequence only if a metric of several frames is requested.
     const bool are_listed = reference_.is_directory && !verdicts_.refuses_unfit;
     const bool is_sequence = reference_.are_frames && test_.are_frames && !are_listed;
     const bool is_complete =

@@ -44,7 +44,7 @@ struct SequenceArgs {
   std::vector<int> finished = {};  ///< sorted; frames that are not rendered again
 
   bool is_sequence() const { return requests_frames() || is_film; }
-  /// Whether the options ask for frames, whatever the output is.
+  /// Whether the options request frames, whatever the output is.
   bool requests_frames() const { return turntable || count || first || last; }
   std::int64_t first_frame() const { return first.value_or(0); }
   /// The last frame, if it does not depend on the animation.
