@@ -93,10 +93,8 @@ MtlMaterial mtl_of(const aiMaterial& m) {
   out.emissive = find_color(m, "$clr.emissive");
   out.exponent = find_float(m, "$mat.shininess");
   out.opacity = find_float(m, "$mat.opacity");
-  if (out.opacity == 0.0f) out.opacity.reset();  // a fully transparent material is most likely an error of the exporter
   out.metallic = find_float(m, "$mat.metallicFactor");
   out.roughness = find_float(m, "$mat.roughnessFactor");
-  if (out.exponent == 0.0f) out.specular.reset();  // formats without highlights have exponent 0
   out.diffuse_map.file = find_image(m, {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR});
   // In FBX, COLLADA and 3DS a texture is the diffuse colour; in formats with a base colour it multiplies that.
   if (!out.diffuse_map.file.empty() && !find_color(m, "$clr.base")) out.diffuse.reset();

@@ -231,7 +231,7 @@ ObjMeshes make_meshes(const ObjFile& file, const ObjLayout& layout, const std::v
     });
     made[i].not_finite = builder.not_finite, made[i].too_concave = builder.too_concave;
     made[i].mesh = builder.take();
-    turn_to_normals(made[i].mesh);
+    if (!file.normals.empty()) turn_to_normals(made[i].mesh);  // normals that are made follow the corners
   });
   budget.check_time();
   budget.take(all_bytes);

@@ -58,7 +58,7 @@ float opacity_of(const MtlMaterial& mtl, ModelFolder& folder) {
   const float opacity = std::clamp(mtl.opacity.value_or(1 - mtl.transparency.value_or(0)), 0.0f, 1.0f);
   if (opacity > 0) return opacity;
   folder.warn(fmt::format("{}: material {}: {} would hide its surfaces, taken as opaque", folder.budget().file(),
-                          mtl.name, mtl.opacity ? "d 0" : "Tr 1"));
+                          mtl.name, mtl.opacity ? "opacity 0" : "Tr 1"));
   return 1;
 }
 

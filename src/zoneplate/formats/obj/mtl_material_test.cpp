@@ -60,7 +60,7 @@ TEST_F(MtlScene, AMaterialThatWouldHideItsSurfacesIsOpaque) {
     const Scene scene = load("newmtl m\nKd .8 .2 .2\n" + text);
     EXPECT_EQ(scene.materials.at(0).base_color.w, 1) << text;
     EXPECT_EQ(scene.materials.at(0).alpha_mode, AlphaMode::Opaque) << text;
-    EXPECT_EQ(warnings_of(scene), std::string("m.obj: material m: ") + (text[0] == 'T' ? "Tr 1" : "d 0") +
+    EXPECT_EQ(warnings_of(scene), std::string("m.obj: material m: ") + (text[0] == 'T' ? "Tr 1" : "opacity 0") +
                                       " would hide its surfaces, taken as opaque\n");
   }
   EXPECT_EQ(load("newmtl m\nTr 0.75\n").materials.at(0).base_color.w, 0.25f);
