@@ -99,6 +99,10 @@ TEST_F(BatchFiles, AnInputIsNotReplaced) {
   ASSERT_EQ(run("teapot -o sky.exr --size 16x8").code, 0);
   const std::string sky = text_of(place / "sky.exr");
   EXPECT_EQ(run("teapot -o ./sky.exr --hdri-file sky.exr --size 8").code, 2);
+  EXPECT_EQ(run("teapot -o ./sky.exr --hdri-file sky.exr --size 8 --dry-run").code, 2);
+  const std::string faces = "teapot --hdri-file 'sky_{face}.png' -o sky_px.png";
+  EXPECT_TRUE(contains(run(faces).out, "would be written to sky_px.png, which is read as well"));
+  EXPECT_TRUE(contains(run("contact-sheet " + faces).out, "would be written to sky_px.png, which is read as well"));
   write("jobs.jsonl", R"({"input":"teapot","output":"sky.exr"})"
                       "\n"
                       R"({"input":"teapot","output":"a.png","hdri-file":"sky.exr"})"

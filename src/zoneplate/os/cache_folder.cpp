@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <ctime>
 #include <filesystem>
 #include <memory>
@@ -23,17 +22,6 @@ namespace {
 constexpr std::string_view temporary_end = ".tmp";
 
 bool is_of_user(const struct stat& status) { return status.st_uid == ::geteuid(); }
-
-/// Writes all bytes to a regular file and closes it.
-bool write_and_close(int file, std::span<const std::uint8_t> bytes) {
-  bool is_written = true;
-  while (is_written && !bytes.empty()) {
-    const ssize_t n = ::write(file, bytes.data(), bytes.size());
-    if (n > 0) bytes = bytes.subspan(static_cast<std::size_t>(n));
-    is_written = n > 0 || (n < 0 && errno == EINTR);
-  }
-  return ::close(file) == 0 && is_written;
-}
 
 struct CachedFile {
   timespec used;
@@ -108,11 +96,11 @@ std::optional<FileBytes> CacheFolder::read(const std::string& name, std::uint64_
 
 void CacheFolder::store(const std::string& name, std::span<const std::uint8_t> bytes) const {
   const std::string temporary = "." + name + "." + std::to_string(::getpid()) + std::string(temporary_end);
-  ::unlinkat(folder_, temporary.c_str(), 0);  // of an interrupted process that had this number
-  const int file =
-      ::openat(folder_, temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, 0600);
+  // The name may be taken by a process of another container with this number, or left by one: then trim removes it.
+  const int file = ::openat(folder_, temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (file < 0) return;
-  if (!write_and_close(file, bytes) || ::renameat(folder_, temporary.c_str(), folder_, name.c_str()) != 0)
+  const bool is_written = write_fully(file, bytes) == 0;
+  if (::close(file) != 0 || !is_written || ::renameat(folder_, temporary.c_str(), folder_, name.c_str()) != 0)
     ::unlinkat(folder_, temporary.c_str(), 0);
 }
 

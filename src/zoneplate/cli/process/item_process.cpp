@@ -49,7 +49,8 @@ ItemProcess::~ItemProcess() = default;
 void ItemProcess::check_time() const {
   if (!has_read_ && reading_.ms() / 1000 > limits_.load.seconds + grace)
     throw Error(ErrorKind::Input, late_reading(input_, limits_.load));
-  if (watch_.ms() / 1000 > limits_.seconds + grace) throw Error(ErrorKind::Failed, late_item(input_, limits_.seconds));
+  if (watch_.ms() / 1000 > limits_.seconds + grace)
+    throw Error(ErrorKind::Failed, late_item(limits_.name, limits_.seconds));
 }
 
 void ItemProcess::start(std::size_t first) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/packed.h"
 #include "zoneplate/codec/png.h"
@@ -138,17 +139,20 @@ std::vector<std::uint8_t> pack_plots(const PlotsToDraw& plots) {
 PlotsToDraw unpack_plots(std::span<const std::uint8_t> bytes) { return PlotReader(bytes).whole(); }
 
 std::vector<std::uint8_t> drawn_plots(PlotsToDraw plots, const std::string& path, double seconds) {
-  const int usual_ms = ProgramLimits().milliseconds;
-  const int milliseconds = seconds * 1000 < usual_ms ? std::max(1, static_cast<int>(seconds * 1000)) : usual_ms;
+  const Stopwatch watch;
+  const auto milliseconds = [&] {
+    const double left = std::min<double>(ProgramLimits().milliseconds, seconds * 1000 - watch.ms());
+    return std::max(1, static_cast<int>(left));
+  };
   if (plots.figure) {
     for (std::vector<Panel>& row : plots.figure->rows)
       for (Panel& panel : row)
-        if (panel.plot && panel.picture.empty()) panel.picture = plot_picture(*panel.plot, plots.size, milliseconds);
+        if (panel.plot && panel.picture.empty()) panel.picture = plot_picture(*panel.plot, plots.size, milliseconds());
     return encode_png(compose(*plots.figure), {.has_alpha = false});
   }
   if (!path.ends_with(".svg"))
-    return encode_png(plots_picture(plots.plots, plots.columns, plots.size, milliseconds), {.has_alpha = false});
-  const std::string svg = plots_svg(plots.plots, plots.columns, plots.size, milliseconds);
+    return encode_png(plots_picture(plots.plots, plots.columns, plots.size, milliseconds()), {.has_alpha = false});
+  const std::string svg = plots_svg(plots.plots, plots.columns, plots.size, milliseconds());
   return {svg.begin(), svg.end()};
 }
 

@@ -280,7 +280,7 @@ class Batch {
   void print_line(const std::string& text) {
     if (common_.verbosity == Verbosity::Quiet || !trouble_.empty()) return;
     try {
-      print_report(text + '\n');
+      common_.is_dry_run ? print(text + '\n') : print_report(text + '\n');
     } catch (const Error& error) {
       trouble_ = error.what();
       say_error(trouble_ + "; the batch goes on without reports");

@@ -10,9 +10,11 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/base/size_text.h"
 #include "zoneplate/cli/batch/input_names.h"
 #include "zoneplate/cli/process/item_process.h"
 #include "zoneplate/cli/render/environment_file.h"
+#include "zoneplate/cli/render/item_files.h"
 #include "zoneplate/cli/render/picture.h"
 #include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/values.h"
@@ -152,8 +154,8 @@ void check_memory(const SheetArgs& args, std::size_t count) {
   const std::uint64_t limit = args.render.load.limits.memory;
   if (need > limit)
     throw Error(ErrorKind::Failed,
-                fmt::format("{}: a sheet of {} images of {}x{} needs {} MB of memory, --max-memory allows {} MB",
-                            args.output, count, width, height, need >> 20, limit >> 20));
+                fmt::format("{}: a sheet of {} images of {}x{} needs {} of memory, --max-memory allows {}", args.output,
+                            count, width, height, size_text(need), size_text(limit)));
 }
 
 Syntax make_syntax(SheetArgs& args) {
@@ -208,6 +210,10 @@ void run_contact_sheet(std::span<const std::string> arguments) {
 
   const std::vector<std::string> inputs = with_folders_listed(syntax.found_operands);
   const std::vector<std::string> names = short_names(inputs);
+  for (const std::string& input : inputs) {
+    args.render.input = input;
+    check_own_files(args.render);
+  }
   check_memory(args, names.size());
   std::vector<Panel> panels;
   Rendered sheet;

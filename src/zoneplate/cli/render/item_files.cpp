@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/cli/render/item_files.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <limits>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/batch/whole_file.h"
+#include "zoneplate/cli/render/environment_file.h"
 #include "zoneplate/cli/render/picture.h"
 #include "zoneplate/os/file.h"
 
@@ -45,7 +48,9 @@ std::string with_layer(const RenderArgs& args, const Aov& aov) {
 }  // namespace
 
 void add_files(const RenderArgs& args, std::uint64_t item, OutputFiles& files) {
-  for (const std::string& read : {args.input, args.hdri_file, args.default_material.texture})
+  std::vector<std::string> inputs = environment_files(args);
+  inputs.insert(inputs.end(), {args.input, args.default_material.texture});
+  for (const std::string& read : inputs)
     if (is_picture_ending(extension_of(read))) files.add(read, item, true);
   if (!args.frame_place) {
     for (int layer = -1; layer < static_cast<int>(args.aovs.size()); ++layer)
@@ -59,6 +64,14 @@ void add_files(const RenderArgs& args, std::uint64_t item, OutputFiles& files) {
   for (const Aov* aov : args.aovs)
     if (const std::string name = with_layer(args, *aov); name != args.output)
       files.add(name, *args.frame_place, frames, item);
+}
+
+void check_own_files(const RenderArgs& args) {
+  OutputFiles files;
+  add_files(args, 0, files);
+  if (const auto collision = files.find_collision())
+    throw Error(ErrorKind::Usage,
+                fmt::format("{} would be written to {}, which is read as well", args.input, collision->path));
 }
 
 bool is_finished(const RenderArgs& args) {

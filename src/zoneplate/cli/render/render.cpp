@@ -42,16 +42,13 @@ void run_render(std::span<const std::string> arguments) {
     return;
   }
   static_cast<void>(upscale::make_method(args.method));
+  check_own_files(args);
   if (args.is_dry_run) {
     check_input(args.input, args.load.format);
-    return print(args.prints_json ? Json(plan_json(args, "planned")).text() + '\n' : plan_text(args) + '\n');
+    return print(args.prints_json ? Json(plan_json(args, is_finished(args) ? "skipped" : "planned")).text() + '\n'
+                                  : plan_text(args) + '\n');
   }
   check_outputs(args);
-  OutputFiles files;
-  add_files(args, 0, files);
-  if (const auto collision = files.find_collision())
-    throw Error(ErrorKind::Usage,
-                fmt::format("{} would be written to {}, which is read as well", args.input, collision->path));
   if (is_finished(args)) {
     if (args.prints_json) print_report(Json(plan_json(args, "skipped")).text() + '\n');
     return;
