@@ -274,6 +274,7 @@ RenderedImage Renderer::render_still(const Camera& camera, const RenderSettings&
 RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int)>& moment,
                                     const RenderSettings& settings) {
   SceneView view = moment(0);
+  scene_ = std::move(view.scene);  // the ground of which the camera sees
   begin_frame(seeing_ground(view.camera, settings.options), settings);
   Request request = request_for(settings);
   if (method_->has_history())
@@ -287,8 +288,8 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
   Rounds rounds;
   Camera camera;
   for (int i = 0; i < count; ++i) {
-    if (i > 0) view = moment(i);
-    scene_ = std::move(view.scene), camera = seeing_ground(view.camera, settings.options);
+    if (i > 0) view = moment(i), scene_ = std::move(view.scene);
+    camera = seeing_ground(view.camera, settings.options);
     rounds = render_rounds(camera, request, options, out.counts);
     const Stopwatch watch;
     LinearImage picture = method_->resolve(rounds.frame);

@@ -99,7 +99,9 @@ Sequence::Sequence(SceneLoader loader, const MipOptions& mips, const SequenceTim
 
 void Sequence::set_view(const View& view, float aspect) {
   view_ = view, aspect_ = aspect;
-  Scene all = loader_.load ? all_poses() : scene_->scene();
+  // A camera of the scene is chosen anew for each frame, and needs no other pose unless it turns about all of them.
+  const bool follows = view.index && !timing_.turntable;
+  Scene all = !loader_.load ? scene_->scene() : follows ? loader_.load_shape(timing_.start) : all_poses();
   const Box bounds = all.bounds();
   centre_ = bounds.empty() ? float3{} : bounds.centre();
   if (is_seen_from_all_sides()) add_turns(all);

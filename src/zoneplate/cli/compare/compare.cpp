@@ -84,7 +84,11 @@ Sequence sequence_of(const CompareArgs& args, SceneSource& source) {
     set_look(args.render, scene);
     return scene;
   };
-  return {{at, at, [&source, choice] { return source.key_times(choice); }},
+  const auto shape = [&source, choice](double seconds) mutable {
+    choice.time = seconds;
+    return source.load_shape(choice);
+  };
+  return {{at, shape, [&source, choice] { return source.key_times(choice); }},
           args.render.mips,
           {.rate = trial_frame_rate, .duration = args.frames / trial_frame_rate}};
 }

@@ -155,13 +155,17 @@ class Shots {
     const Scene scene = source_.load({});
     if (!scene.animations.empty()) choice_.animation = 0;
     const auto load = [this](double seconds) { return at(seconds); };
+    const auto shape = [this](double seconds) {
+      choice_.time = seconds;
+      return source_.load_shape(choice_);
+    };
     const auto key_times = [this] { return source_.key_times(choice_); };
     // A sequence begins early enough to end within the animation, if it is long enough.
     double duration = 0;
     for (const auto& animation : scene.animations) duration = std::max(duration, static_cast<double>(animation.end));
     const double length = static_cast<double>(s.frames) / s.rate;
     const double start = std::max(0.0, duration - length) * static_cast<double>(path_.start());
-    return {{load, load, key_times}, {}, {.rate = static_cast<double>(s.rate), .start = start, .duration = length}};
+    return {{load, shape, key_times}, {}, {.rate = static_cast<double>(s.rate), .start = start, .duration = length}};
   }
 
   SceneSource& source_;

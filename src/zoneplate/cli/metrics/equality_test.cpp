@@ -97,6 +97,18 @@ TEST_F(Equality, ValuesThatAreNotFiniteFailEveryThreshold) {
   EXPECT_TRUE(contains(content_of_page(text_of(place / "r.html")), "is not finite: R in 256 pixels"));
 }
 
+// The channel depth.Z of one part and the channel Z of a part "depth" have one name.
+TEST_F(Equality, IsOfLayersWhoseNamesMeet) {
+  const auto parts = [](float inside, float depth) {
+    return exr_of_parts(
+        8, {{"beauty", {{"B", 0.5f}, {"G", 0.5f}, {"R", 0.5f}, {"depth.Z", inside}}}, {"depth", {{"Z", depth}}}});
+  };
+  save("one.exr", parts(1, 3)), save("part.exr", parts(1, 9)), save("layer.exr", parts(2, 3));
+  expect_different("one.exr part.exr", "depth.Z in 64 pixels");
+  expect_different("one.exr layer.exr", "depth.Z in 64 pixels");
+  EXPECT_EQ(run("one.exr one.exr --metric psnr").code, 0);
+}
+
 TEST_F(Equality, IsOfLayersAndParts) {
   save_exr("near.exr", grey, 3), save_exr("far.exr", grey, 9), save_exr("none.exr", grey);
   expect_different("near.exr far.exr", "stored values differ: Z in 16 pixels");

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "zoneplate/formats/gltf/nodes.h"
 #include "zoneplate/formats/gltf/sampler.h"
@@ -43,20 +45,19 @@ Target target_of(const JsonView& target) {
 class KeyTimes {
  public:
   explicit KeyTimes(GltfFile& file) : file_(file) {}
+  ~KeyTimes() { file_.budget().give_back(all_.capacity() * sizeof(double)); }
+  KeyTimes(const KeyTimes&) = delete;
+  KeyTimes& operator=(const KeyTimes&) = delete;
 
   void add(const JsonView& sampler, const Target& target) {
     const std::vector<float> times = read_times(file_, sampler);
     file_.budget().give_back(times.size() * sizeof(float));
-    for (const float time : times) all_.insert(static_cast<double>(time));
-    if (!target.path) return;
-    const bool is_cubic = read_interpolation(sampler) == GltfInterpolation::CubicSpline;
+    const bool is_cubic = target.path && read_interpolation(sampler) == GltfInterpolation::CubicSpline;
     const bool is_curved =
-        is_cubic || (*target.path == GltfPath::Rotation && read_interpolation(sampler) == GltfInterpolation::Linear);
-    for (std::size_t i = 1; is_curved && i < times.size(); ++i) {
-      const double begin = static_cast<double>(times[i - 1]), end = static_cast<double>(times[i]);
-      for (const double part : inner_parts) all_.insert(begin + part * (end - begin));
-    }
-    add_extremes(sampler, *target.path, times, is_cubic);
+        is_cubic || (target.path == GltfPath::Rotation && read_interpolation(sampler) == GltfInterpolation::Linear);
+    const std::size_t input = sampler.index("input", file_.count("accessors"));
+    if (known_inputs_.insert({input, is_curved}).second) add_times(times, is_curved);
+    if (target.path) add_extremes(sampler, *target.path, times, is_cubic);
   }
 
   /// All times in the order of their importance.
@@ -76,12 +77,32 @@ class KeyTimes {
     for (std::size_t i = 0; i < std::min(longest, most_times / 4); ++i)
       for (const std::vector<Extreme>& of_path : extremes_)
         if (i < of_path.size()) add(of_path[i].time);
-    const std::vector<double> all(all_.begin(), all_.end());
-    for (const std::size_t i : spread_order(all.size(), most_times)) add(all[i]);
+    std::sort(all_.begin(), all_.end());
+    const auto end = std::unique(all_.begin(), all_.end());
+    for (const std::size_t i : spread_order(static_cast<std::size_t>(end - all_.begin()), most_times)) add(all_[i]);
     return out;
   }
 
  private:
+  /// Many samplers may share the times of their keys: each accessor is added once, or again with the parts between.
+  void add_times(const std::vector<float>& times, bool is_curved) {
+    const std::size_t more = times.size() * (is_curved ? 1 + inner_parts.size() : 1);
+    file_.budget().check_time();
+    const std::size_t before = all_.capacity();
+    if (all_.size() + more > before) {
+      const std::size_t after = std::max(2 * before, all_.size() + more);
+      file_.budget().take((after - before) * sizeof(double));
+      all_.reserve(after);
+    }
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const double end = static_cast<double>(times[i]);
+      all_.push_back(end);
+      if (!is_curved || i == 0) continue;
+      const double begin = static_cast<double>(times[i - 1]);
+      for (const double part : inner_parts) all_.push_back(begin + part * (end - begin));
+    }
+  }
+
   void add_extremes(const JsonView& sampler, GltfPath path, const std::vector<float>& times, bool is_cubic) {
     const GltfValueShape shape = shape_of(path);
     if (read_shape(file_, sampler, "output").components != shape.width) return;  // animate() reports or ignores it
@@ -104,8 +125,9 @@ class KeyTimes {
   }
 
   GltfFile& file_;
-  std::set<double> all_;
-  std::array<std::vector<Extreme>, 4> extremes_;  // by GltfPath
+  std::vector<double> all_;
+  std::set<std::pair<std::size_t, bool>> known_inputs_;  // accessors of times, and whether with the parts between
+  std::array<std::vector<Extreme>, 4> extremes_;         // by GltfPath
 };
 
 }  // namespace

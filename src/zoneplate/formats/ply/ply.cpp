@@ -227,7 +227,10 @@ Scene load_ply(const std::string& path, const LoadLimits& limits) {
   if (mesh.index.empty())
     throw Error(ErrorKind::Input, scene.warnings.empty() ? budget.file() + ": holds no vertices"
                                                          : scene.warnings.front() + "; nothing is left to draw");
-  if (mesh.primitives() != primitives) faces.texture.clear();
+  if (mesh.primitives() != primitives && !faces.texture.empty()) {
+    faces.texture.clear();
+    scene.warnings.push_back(budget.file() + ": triangles are dropped, the others have the first texture");
+  }
   complete_normals(mesh, budget);
   if (has_normals) turn_to_normals(mesh);
   show_transparent(mesh, scene, budget.file());

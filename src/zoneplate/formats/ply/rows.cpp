@@ -375,7 +375,12 @@ std::vector<double> parse_ply_text(std::string_view body, std::size_t lines_befo
     numbers[i] = {};
   });
   if (!fills_rows(header, all, budget) && needs_lines(body, header, budget)) {
+    // Fewer numbers than before, in a list that grows while the rows are read.
+    budget.take(2 * all.size() * sizeof(double));
+    const std::size_t before = all.size();
+    all = {};
     all = parse_lines(body, header, budget);
+    budget.give_back((3 * before - all.size()) * sizeof(double));
     header.warnings.push_back(budget.file() + ": rows have more values than the header states, the rest is ignored");
   }
   for (PlyElement& element : header.elements)

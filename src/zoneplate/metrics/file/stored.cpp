@@ -37,8 +37,13 @@ Layers layers_of(const ImageFile& file) {
       return i == 0 && (is_rgb(c) || c.name == "A" || (is_grey && (c.name == "Y" || c.name == "RY" || c.name == "BY")));
     };
     const std::string prefix = i == 0 ? "" : parts[i].name.empty() ? fmt::format("{}.", i + 1) : parts[i].name + ".";
-    for (const ExrPartChannel& c : parts[i].channels)
-      if (!is_measured(c)) out.emplace(prefix + c.name, Layer{static_cast<int>(i), c.name, c.is_number});
+    for (const ExrPartChannel& c : parts[i].channels) {
+      if (is_measured(c)) continue;
+      // "depth.Z" may be a channel of the first part, and the channel Z of the part "depth".
+      std::string name = prefix + c.name;
+      while (!out.emplace(name, Layer{static_cast<int>(i), c.name, c.is_number}).second)
+        name = fmt::format("{}.{}", i + 1, name);
+    }
   }
   return out;
 }
