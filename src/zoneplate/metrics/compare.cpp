@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/metrics/backdrop.h"
@@ -61,42 +62,55 @@ std::optional<Score> worse_of(const Metric& metric, std::optional<Score> a, std:
   return a;
 }
 
-/// The last images of the reference or of the test, for the metrics of several frames.
+/// The last images of the reference or of the test, for the metrics of several frames. Images with alpha are kept over
+/// both backdrops, and as given only if a metric defines alpha itself.
 class Window {
  public:
-  explicit Window(std::size_t length) : length_(length) {}
+  Window(std::size_t length, bool keeps_plain) : length_(length), keeps_plain_(keeps_plain) {}
 
-  const Picture& newest() const { return plain_.back(); }
-  std::size_t size() const { return plain_.size(); }
-  Frames plain(std::size_t count) const { return Frames(plain_).last(count); }
+  const Picture& newest() const { return images_.back(); }
+  std::size_t size() const { return images_.size(); }
+  /// As given.
+  Frames plain(std::size_t count) const { return Frames(images_).last(count); }
   Frames on(Backdrop backdrop, std::size_t count) const {
-    return laid_.empty() ? plain(count) : Frames(backdrop == Backdrop::Black ? laid_ : white_).last(count);
+    if (!is_laid_) return plain(count);
+    if (backdrop == Backdrop::White) return Frames(white_).last(count);
+    return Frames(keeps_plain_ ? black_ : images_).last(count);
   }
 
   void add(Picture picture) {
-    if (plain_.size() == length_) drop_first();
-    plain_.push_back(std::move(picture));
-    if (!laid_.empty()) lay(plain_.back());
+    if (images_.size() == length_) drop_first();
+    images_.push_back(std::move(picture));
+    if (is_laid_) lay(images_.back());
   }
 
   /// From now on keeps the images over both backdrops; opaque ones need none.
   void lay_all() {
-    if (!laid_.empty()) return;
-    for (const Picture& picture : plain_) lay(picture);
+    if (std::exchange(is_laid_, true)) return;
+    for (Picture& picture : images_) lay(picture);
   }
 
  private:
   void drop_first() {
-    for (std::vector<Picture>* all : {&plain_, &laid_, &white_})
+    for (std::vector<Picture>* all : {&images_, &black_, &white_})
       if (!all->empty()) all->erase(all->begin());
   }
-  void lay(const Picture& picture) {
-    laid_.push_back(laid_on(picture, Backdrop::Black)), white_.push_back(laid_on(picture, Backdrop::White));
+  void lay(Picture& picture) {
+    white_.push_back(laid_on(picture, Backdrop::White));
+    if (keeps_plain_)
+      black_.push_back(laid_on(picture, Backdrop::Black));
+    else
+      picture = laid_on(std::move(picture), Backdrop::Black);
   }
 
   std::size_t length_;
-  std::vector<Picture> plain_, laid_, white_;  ///< as given, over black and over white
+  bool keeps_plain_, is_laid_ = false;
+  std::vector<Picture> images_, black_, white_;  ///< as given, or over black; over black; over white
 };
+
+bool defines_alpha(const Choice& choice) {
+  return choice.metric->defines_alpha && choice.metric->defines_alpha(choice.settings);
+}
 
 void leave_out(Measurement& m, Unfit unfit, const std::string& name, const std::string& why) {
   if (unfit == Unfit::Refuse) {
@@ -110,7 +124,7 @@ constexpr const char* nothing_to_measure = "has nothing that it could measure";
 std::optional<Score> score_of(const Choice& choice, const Window& reference, const Window& test, std::size_t frames,
                               bool has_alpha) {
   const Metric& metric = *choice.metric;
-  if (!has_alpha || (metric.defines_alpha && metric.defines_alpha(choice.settings)))
+  if (!has_alpha || defines_alpha(choice))
     return metric.measure(reference.plain(frames), test.plain(frames), choice.settings);
   const auto on = [&](Backdrop backdrop) {
     return metric.measure(reference.on(backdrop, frames), test.on(backdrop, frames), choice.settings);
@@ -168,7 +182,8 @@ Comparison compare(const Comparands& pictures, std::span<const Choice> choices, 
     measurements.push_back(std::move(m));
   }
 
-  Window reference(window), test(window);
+  const bool keeps_plain = std::ranges::any_of(choices, defines_alpha);
+  Window reference(window, keeps_plain), test(window, keeps_plain);
   bool has_any_alpha = false;
   for (std::size_t i = 0; i < pictures.count; ++i) {
     Picture next_reference = pictures.reference(i), next_test = pictures.test(i);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -42,7 +43,7 @@ class FilterFiles : public ProgramTest {
   void save_exr(const std::string& name, const LinearImage& image) const {
     std::vector<ExrChannel> channels = rgba_channels(image);
     for (ExrChannel& channel : channels) channel.type = ExrType::Float;
-    save(name, encode_exr(side, side, channels));
+    save(name, encode_exr(image.width(), image.height(), channels));
   }
   void save_flat(const std::string& name, float value) const {
     save_exr(name, LinearImage(side, side, {value, value, value, 1}));
@@ -151,6 +152,34 @@ TEST_F(FilterFiles, WhatIsNotFiniteDoesNotEnterTheHistory) {
       }
     }
   }
+}
+
+TEST_F(FilterFiles, StillsFillWhatIsNotFiniteAsSequencesDo) {
+  LinearImage image(side, side, {0.25f, 0.25f, 0.25f, 1});
+  image(5, 5) = {std::nanf(""), 0.25f, 0.25f, 1}, image(10, 10) = {0.25f, infinity, 0.25f, 1};
+  save_exr("c.exr", image), save_flat("flat.exr", 0.25f);
+  const ProgramAnswer answer = run("c.exr -o large.exr --upscale fsr1:scale=2");
+  EXPECT_EQ(answer.code, 0) << answer.out;
+  EXPECT_TRUE(contains(answer.out, "c.exr: 2 pixels are not finite, and take the mean of neighbours")) << answer.out;
+  ASSERT_EQ(run("flat.exr -o expected.exr --upscale fsr1:scale=2").code, 0);
+  const FileBytes file((place / "large.exr").string()), expected((place / "expected.exr").string());
+  EXPECT_TRUE(std::ranges::equal(file.bytes(), expected.bytes()));
+}
+
+TEST_F(FilterFiles, TheLimitOfPixelsHoldsForPasses) {
+  const LinearImage large(2 * side, side, {4, 4, 4, 1});
+  for (int i = 0; i < 2; ++i) {
+    save_flat(fmt::format("c.{}.exr", i), 0.3f);
+    save_flat(fmt::format("v.{}.exr", i), 0);
+    save_exr(fmt::format("z.{}.exr", i), large);
+  }
+  const std::string frames = "c.#.exr --motion v.#.exr --depth z.#.exr --aa taa -o out/";
+  const ProgramAnswer unequal = run(frames), limited = run(fmt::format("{} --max-pixels {}", frames, side * side));
+  EXPECT_EQ(unequal.code, 3);
+  EXPECT_TRUE(contains(unequal.out, "z.0.exr: has 32x16 pixels, expected 16x16")) << unequal.out;
+  EXPECT_EQ(limited.code, 3);
+  EXPECT_TRUE(contains(limited.out, "z.0.exr: EXR: 32 x 16 pixels, at most 256 are allowed")) << limited.out;
+  EXPECT_FALSE(exists("out/c.0.exr"));
 }
 
 TEST(FillNotFinite, GoesFromTheBorderInwards) {

@@ -19,7 +19,6 @@
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/save.h"
 #include "zoneplate/image/transfer.h"
-#include "zoneplate/metrics/backdrop.h"
 #include "zoneplate/metrics/file/picture_file.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/upscale/upscaler.h"
@@ -120,9 +119,7 @@ void filter_linear(const FilterItem& item, const LinearImage& image, const Filte
 
 void filter_image(const FilterItem& item, const Filters& filters, int bit_depth, Delivery& out) {
   metrics::Picture picture = load_still(item.input, out);
-  if (const std::size_t pixels = metrics::count_not_finite(picture); pixels > 0)
-    out.warn(fmt::format("{}: {} pixels are not finite: NaN is taken as 0, infinity as 65504", item.input, pixels));
-  if (picture.is_scene_linear) return filter_linear(item, metrics::finite(std::move(picture)).linear, filters, out);
+  if (picture.is_scene_linear) return filter_linear(item, picture.linear, filters, out);
   if (is_linear_file(item.output))
     throw Error(ErrorKind::Usage, fmt::format("{}: is a display-referred image, and {} is scene-linear: write a .png",
                                               item.input, item.output));

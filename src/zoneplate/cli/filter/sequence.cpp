@@ -110,9 +110,12 @@ std::vector<SamplePosition> samples_of(const std::string& path, std::size_t coun
 }
 
 std::vector<Plane<float>> planes_of(const std::string& path, const Names& channels, const std::string& color, int width,
-                                    int height) {
-  const FileBytes file(path);
-  std::vector<Plane<float>> planes = decode_exr_channels(file.bytes(), path, channels);
+                                    int height, Delivery& out) {
+  std::vector<Plane<float>> planes;
+  out.read(path, [&] {
+    const FileBytes file(path);
+    planes = decode_exr_channels(file.bytes(), path, channels, out.limits().pixels);
+  });
   if (planes[0].width() != width || planes[0].height() != height)
     throw Error(ErrorKind::Input, fmt::format("{}: has {}x{} pixels, expected {}x{} as {}", path, planes[0].width(),
                                               planes[0].height(), width, height, color));
@@ -130,15 +133,16 @@ class ObjectNumbers {
 
 /// The planes of a frame, of every pixel as of a surface: the motion of the background is that of the files.
 Frame frame_of(const FrameFiles& files, LinearImage color, const SequenceFilter& filter, float near,
-               ObjectNumbers& objects) {
+               ObjectNumbers& objects, Delivery& out) {
   const int width = color.width(), height = color.height();
   constexpr float farthest = 9999999;  // finite, beyond all surfaces
   Frame frame;
   frame.color = std::move(color);
-  frame.depth = std::move(planes_of(files.depth, files.depth_channels, files.color, width, height)[0]);
-  const std::vector<Plane<float>> motion = planes_of(files.motion, files.motion_channels, files.color, width, height);
+  frame.depth = std::move(planes_of(files.depth, files.depth_channels, files.color, width, height, out)[0]);
+  const std::vector<Plane<float>> motion =
+      planes_of(files.motion, files.motion_channels, files.color, width, height, out);
   Plane<float> ids;
-  if (files.has_ids) ids = std::move(planes_of(files.color, {id_channel}, files.color, width, height)[0]);
+  if (files.has_ids) ids = std::move(planes_of(files.color, {id_channel}, files.color, width, height, out)[0]);
   frame.reversed_depth = Plane<float>(width, height);
   frame.motion = Plane<float2>(width, height);
   frame.object_id = Plane<std::uint32_t>(width, height);
@@ -160,15 +164,6 @@ Frame frame_of(const FrameFiles& files, LinearImage color, const SequenceFilter&
     frame.last_position.values()[i] = {0, 0, -depth};  // its depth in the last frame is taken to be that of this one
   }
   return frame;
-}
-
-metrics::Picture load_frame(const std::string& path, Delivery& out) {
-  metrics::Picture picture = load_still(path, out);
-  if (!picture.is_scene_linear) return picture;
-  if (const std::size_t pixels = fill_not_finite(picture.linear, path); pixels > 0)
-    out.warn(fmt::format("{}: {} {} not finite, and {} the mean of neighbours", path, pixels,
-                         pixels == 1 ? "pixel is" : "pixels are", pixels == 1 ? "takes" : "take"));
-  return picture;
 }
 
 void save(const std::string& path, LinearImage image, bool is_scene_linear, int bit_depth, Delivery& out) {
@@ -206,7 +201,7 @@ void filter_sequence(const SequenceFilter& filter, Delivery& out) {
   int2 frame_size{0, 0};
   for (std::size_t i = 0; i < files.size(); ++i) {
     out.progress(files[i].color, static_cast<double>(i) / static_cast<double>(files.size()));
-    metrics::Picture picture = load_frame(files[i].color, out);
+    metrics::Picture picture = load_still(files[i].color, out);
     if (picture.is_scene_linear != is_linear_file(files[i].output))
       throw Error(ErrorKind::Usage,
                   fmt::format("{}: is a {} image, and {} is not: write {}", files[i].color,
@@ -231,7 +226,7 @@ void filter_sequence(const SequenceFilter& filter, Delivery& out) {
     if (!samples.empty()) context.given->sample = samples[i];
     method->request(context);
     const bool is_scene_linear = picture.is_scene_linear;
-    Frame frame = frame_of(files[i], std::move(picture.linear), filter, camera.near, objects);
+    Frame frame = frame_of(files[i], std::move(picture.linear), filter, camera.near, objects, out);
     save(files[i].output, method->resolve(frame), is_scene_linear, filter.bit_depth, out);
   }
 }

@@ -92,6 +92,10 @@ metrics::Picture load_still(const std::string& path, Delivery& out) {
   });
   if (frames > 1)
     out.warn(fmt::format("{}: is an animation of {} frames, of which the first is filtered", path, frames));
+  if (!picture.is_scene_linear) return picture;
+  if (const std::size_t pixels = fill_not_finite(picture.linear, path); pixels > 0)
+    out.warn(fmt::format("{}: {} {} not finite, and {} the mean of neighbours", path, pixels,
+                         pixels == 1 ? "pixel is" : "pixels are", pixels == 1 ? "takes" : "take"));
   return picture;
 }
 

@@ -10,9 +10,9 @@
 namespace zoneplate::cli {
 
 /// Loads an image to filter within the limits of a confined process, with a warning if it is the first one of an
-/// animation.
+/// animation. Pixels of scene-linear images that are not finite are filled, with a warning.
 ///
-/// Errors    those of load_picture (metrics/file/picture_file.h).
+/// Errors    those of load_picture (metrics/file/picture_file.h) and of fill_not_finite.
 metrics::Picture load_still(const std::string& path, Delivery& out);
 
 /// Gives each pixel with a channel that is not finite the mean of those of its eight neighbours that are finite; where

@@ -41,20 +41,6 @@ bool has_text_at(std::span<const std::uint8_t> bytes, std::size_t at, std::strin
                     [](char c, std::uint8_t b) { return static_cast<std::uint8_t>(c) == b; });
 }
 
-/// The frames of a WebP: its ANMF chunks.
-std::uint32_t webp_frames(std::span<const std::uint8_t> bytes) {
-  std::uint32_t frames = 0;
-  for (std::size_t at = 12; bytes.size() - at >= 8;) {
-    if (has_text_at(bytes, at, "ANMF")) ++frames;
-    const std::size_t size = bytes[at + 4] | std::size_t{bytes[at + 5]} << 8 | std::size_t{bytes[at + 6]} << 16 |
-                             std::size_t{bytes[at + 7]} << 24;
-    const std::size_t padded = size + size % 2;
-    if (bytes.size() - at - 8 < padded) break;
-    at += 8 + padded;
-  }
-  return frames;
-}
-
 }  // namespace
 
 std::string_view format_of_image(std::span<const std::uint8_t> bytes) {
@@ -75,7 +61,6 @@ Error unread_format(std::span<const std::uint8_t> bytes, const std::string& name
 
 std::uint32_t count_frames(std::span<const std::uint8_t> bytes) {
   std::uint32_t frames = 1;
-  if (is_webp(bytes)) frames = webp_frames(bytes);
   if (is_png(bytes))
     for_png_chunks(bytes, [&](std::string_view name, std::span<const std::uint8_t> data) {
       if (name == "acTL" && data.size() >= 4) frames = get_png_word(data);

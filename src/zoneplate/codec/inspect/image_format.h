@@ -17,7 +17,7 @@ std::string_view format_of_image(std::span<const std::uint8_t> bytes);
 /// expected PNG or JPEG".
 Error unread_format(std::span<const std::uint8_t> bytes, const std::string& name, std::string_view expected);
 
-/// The number of images that a file shows one after the other: those of an animated PNG or WebP; else 1.
+/// The number of images that a file shows one after the other: those of an animated PNG; else 1.
 std::uint32_t count_frames(std::span<const std::uint8_t> bytes);
 
 }  // namespace zoneplate
