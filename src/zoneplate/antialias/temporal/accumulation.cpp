@@ -257,7 +257,7 @@ void TemporalAccumulation::find_changes(const Frame& frame) {
   Current& out = current_;
   for (Bordered* plane : {&out.changes, &out.drift, &out.bend, &next_noise_})
     resize(*plane, width + 2 * border, height + 2 * border);
-  Bordered* const planes[] = {&out.changes, &out.drift, &out.bend, &last_, &fast_, &noise_};
+  Bordered* const planes[] = {&out.changes, &out.drift, &out.bend, &last_, &fast_};
   for_each_row(height, [&](int y) {
     const ChangeRow row{.linear = &frame.color(0, y).r,
                         .is_compressed = options_.parts.is_compressed,
@@ -278,7 +278,7 @@ void TemporalAccumulation::find_changes(const Frame& frame) {
 }
 
 /// How many frames history at rest may count as: TemporalKernels::find_drift; and where the light has changed at once,
-/// and around such pixels, `left_frames`.
+/// and around such pixels, `relit_frames`.
 ///
 /// Pixels that had both lights in their history, and those at the border of a shadow, are found by their neighbours.
 void TemporalAccumulation::find_lasting(const Frame& frame) {
@@ -314,17 +314,17 @@ void TemporalAccumulation::find_lasting(const Frame& frame) {
     }
   });
   for_each_row(height, [&](int y) {
-    float *const lasting = &out.lasting(0, y), *const noise = pixels_of(next_noise_, y),
-                 *const fast = pixels_of(fast_, y);
-    float *const step = &step_(0, y), *const last = pixels_of(last_, y);
+    float *const lasting = &out.lasting(0, y), *const step = &step_(0, y), *const fast = pixels_of(fast_, y);
+    const float* const last = begin_of(last_, y);
     for (int k = std::max(y - radius, 0); k <= std::min(y + radius, height - 1); ++k) {
       if (!is_relit[static_cast<std::size_t>(k)]) continue;
       for (int x = 0; x < width; ++x)
-        // The noise and the mean of another light would let any later change pass.
-        if (out.wide_relit(x, k) > 0)
-          lasting[x] = TemporalParts::left_frames, noise[x] = step[x] = 0, fast[x] = last[x];
+        // The mean of another light would let any later change pass.
+        if (out.wide_relit(x, k) > 0) lasting[x] = TemporalParts::relit_frames, step[x] = 0, fast[x] = last[x];
     }
+    extend_row(next_noise_.row(y + border));
   });
+  extend_rows(next_noise_);
   std::swap(noise_, next_noise_);
 }
 
@@ -420,6 +420,7 @@ LinearImage TemporalAccumulation::blended(Frame& frame) {
                           .last_nearness = or_nearness(current.last_nearness),
                           .restless = tests_light ? &current.restless(0, y) : nullptr,
                           .lasting = tests_light ? &current.lasting(0, y) : nullptr,
+                          .noise = tests_light ? begin_of(noise_, y) : nullptr,
                           .stride = stride,
                           .column = column.data(),
                           .y = y,

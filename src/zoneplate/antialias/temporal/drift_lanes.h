@@ -114,7 +114,7 @@ template <class Full, class One>
       const F variance = sum_around<F>(row.noise, row.stride, i) * (share / (two - share) + one / frames);
       const F allowed = F(errors) * sqrt(variance) + nine * select(is_new, F(0.7f), F(part_of_range)) * range;
       out = select(is_beyond, F(TemporalParts::unlimited), out);
-      out = select(drift > nine * unseen + allowed, F(TemporalParts::left_frames), out);
+      out = select(drift > nine * unseen + allowed, F(TemporalParts::relit_frames), out);
     }
     // A change of light bends nine luminances together, the jitter each by itself.
     const F bend = F::load(row.bend + i), own = bend - sum_around<F>(row.bend, row.stride, i) * F(1 / 9.0f);

@@ -20,16 +20,19 @@ class Neighborhood {
   [[gnu::always_inline]] Neighborhood(const antialias::TemporalRow& row, std::ptrdiff_t i)
       : middle(Rgba<F>::load(row.color, i)), color_(row.color), i_(i) {}
 
-  /// The difference of colour k, by row, from the middle; that of number 4 is 0.
-  [[gnu::always_inline]] Rgba<F> difference(int k) const {
-    return Rgba<F>::load(color_, i_ + k % 3 - 1 + (k / 3 - 1) * color_.stride()) - middle;
+  /// Colour k, by row.
+  [[gnu::always_inline]] Rgba<F> color(int k) const {
+    return Rgba<F>::load(color_, i_ + k % 3 - 1 + (k / 3 - 1) * color_.stride());
   }
+
+  /// The difference of colour k, by row, from the middle; that of number 4 is 0.
+  [[gnu::always_inline]] Rgba<F> difference(int k) const { return color(k) - middle; }
 
   /// True if all lanes' colours have one value each.
   [[gnu::always_inline]] bool is_flat() const {
 #pragma GCC unroll 9
     for (int k = 0; k < 9; ++k)
-      if (k != 4 && !all(Rgba<F>::load(color_, i_ + k % 3 - 1 + (k / 3 - 1) * color_.stride()) == middle)) return false;
+      if (k != 4 && !all(color(k) == middle)) return false;
     return true;
   }
 

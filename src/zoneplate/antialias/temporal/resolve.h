@@ -27,6 +27,7 @@ struct TemporalRow {
   const float*
       restless;  ///< 0 where the 3 × 3 surfaces move as one, as those of the last frame did; 2 where one has left
   const float* lasting;  ///< by TemporalKernels::find_drift: infinite where history at rest is trusted
+  const float* noise;    ///< the variance of luminance by the jitter
   std::ptrdiff_t stride;
   const float* column;  ///< 0, 1, 2, ...
   int y;
@@ -110,8 +111,8 @@ struct TemporalKernels : PerIsa<TemporalKernels> {
   /// and counts as `unlimited` frames or less.
   ///
   /// It is not trusted where it differs from this frame's sample and from mean ± deviation of 3 × 3 samples by more
-  /// than four deviations of the noise. It counts as `left_frames` where the light drifts: where the mean of few frames
-  /// differs from the history's by more than their standard errors, in the sum over 3 × 3 pixels.
+  /// than four deviations of the noise. It counts as `relit_frames` where the light drifts: where the mean of few
+  /// frames differs from the history's by more than their standard errors, in the sum over 3 × 3 pixels.
   ///
   /// `relit` is 1 where at least seven of 3 × 3 changes are 1, or seven are -1, beyond those of the other sign, and 0
   /// elsewhere: the light has changed at once. The samples of a still scene change along edges and in details of a

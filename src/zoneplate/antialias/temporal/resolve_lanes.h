@@ -7,6 +7,7 @@
 #include "zoneplate/antialias/temporal/history_lanes.h"
 #include "zoneplate/antialias/temporal/range_lanes.h"
 #include "zoneplate/antialias/temporal/rectification_lanes.h"
+#include "zoneplate/antialias/temporal/relight_lanes.h"
 #include "zoneplate/antialias/temporal/surfaces_lanes.h"
 #include "zoneplate/antialias/temporal/unrest_lanes.h"
 #include "zoneplate/antialias/temporal/weight_lanes.h"
@@ -52,18 +53,23 @@ template <class Wide, class Full, class One>
     const auto nowhere = one > one;
     auto is_steady = nowhere;
     if (parts.trusts_rest) is_steady = source.is_inside & (F::load(row.restless + i) == zero);
-    // Nine equal colours allow that colour alone, whatever the history is.
-    const bool is_flat =
-        parts.rectification != TemporalParts::Rectification::None && none(is_steady) && around.is_flat();
-    const Rgba<F> past = is_flat ? around.middle : history_of(row.history, row, parts, source, i);
-    const PastPixels<F> nearest_past = nearest_pixels(row, source, i);
-    Rgba<F> history = past;
     auto is_trusted = nowhere;
     F lasting(std::numeric_limits<float>::infinity());
     if (!none(is_steady)) {
       lasting = select(is_steady, F::load(row.lasting + i), lasting);
       is_trusted = is_steady & (lasting > F(TemporalParts::unlimited));
     }
+    // Nine equal colours allow that colour alone, whatever the history is.
+    const bool is_flat =
+        parts.rectification != TemporalParts::Rectification::None && none(is_steady) && around.is_flat();
+    Rgba<F> past = is_flat ? around.middle : history_of(row.history, row, parts, source, i);
+    const PastPixels<F> nearest_past = nearest_pixels(row, source, i);
+    const auto is_relit = is_steady & (F(TemporalParts::unlimited) > lasting);
+    if (!none(is_relit)) {
+      const Relit<F> now = relit(past, lasting, change_of_light(row, around, nearest_past, i));
+      past = select(is_relit, now.history, past), lasting = select(is_relit, now.lasting, lasting);
+    }
+    Rgba<F> history = past;
     auto valid = is_trusted;
     if (!all(is_trusted)) {
       if (!is_flat) history = select(is_trusted, past, rectified(past, around, parts, gamma));

@@ -150,7 +150,7 @@ class BlockReader {
   void add_texture(std::span<const PlyPlace> places) {
     const double number = value(*extras_.texture, places[*extras_.texture], 0);
     const bool is_there = number >= 0 && number < static_cast<double>(extras_.textures);
-    out.texture.insert(out.texture.end(), triangles_.size(), is_there ? static_cast<std::uint16_t>(number) : 0);
+    out.texture.insert(out.texture.end(), triangles_.size(), static_cast<std::uint16_t>(is_there ? number : 0));
   }
 
   const PlyRows& rows_;
