@@ -17,8 +17,8 @@
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/elementary.h"
+#include "zoneplate/upscale/alpha.h"
 #include "zoneplate/upscale/axis.h"
-#include "zoneplate/upscale/premultiplied.h"
 
 namespace zoneplate {
 namespace upscale {
@@ -121,7 +121,7 @@ DisplayImage upscale_opaque(const DisplayImage& image, const UpscaleGrid& grid, 
 class Fsr1 : public SpatialUpscaler {
  public:
   explicit Fsr1(const Fsr1Options& options) : options_(options) {}
-  int reach() const override { return options_.sharpens ? 3 : 2; }
+  int reach() const override { return continued_reach + (options_.sharpens ? 3 : 2); }
   DisplayImage upscale(const DisplayImage& image, const UpscaleGrid& grid) const override {
     return upscale_fsr1(image, grid, options_);
   }
@@ -143,7 +143,9 @@ constexpr Param params[] = {
 }  // namespace
 
 DisplayImage upscale_fsr1(const DisplayImage& image, const UpscaleGrid& grid, const Fsr1Options& options) {
-  return filter_premultiplied(image, [&](const DisplayImage& values) { return upscale_opaque(values, grid, options); });
+  // Alpha has a channel of its own: RCAS keeps it between its neighbours, so that opaque pixels stay opaque.
+  return filter_with_alpha(
+      image, [&](const DisplayImage& values) { return upscale_opaque(values, grid, options); }, &Display::a);
 }
 
 Upscaler fsr1() {

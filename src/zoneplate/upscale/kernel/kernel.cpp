@@ -11,7 +11,6 @@
 
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/signal/filter/resample.h"
-#include "zoneplate/upscale/premultiplied.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::upscale {
@@ -57,20 +56,21 @@ class KernelUpscaler : public SpatialUpscaler {
                                   .shift_y = -static_cast<double>(grid.y),
                                   .first_x = made.x,
                                   .first_y = made.y};
-    return filter_premultiplied(image, [&](const DisplayImage& values) {
-      LinearImage in(values.width(), values.height());
-      std::ranges::transform(values.values(), in.values().begin(), [](const Display& c) {
-        return Linear{c.r, c.g, c.b, c.a};
-      });
-      const LinearImage resampled = resample(in, made.width, made.height, kernel_, options);
-      DisplayImage out(made.width, made.height);
-      const bool is_opaque = std::ranges::all_of(in.values(), [](const Linear& c) { return c.a == 1; });
-      const auto clamped = [](float v) { return std::clamp(v, 0.0f, 1.0f); };
-      std::ranges::transform(resampled.values(), out.values().begin(), [&](const Linear& c) {
-        return Display{clamped(c.r), clamped(c.g), clamped(c.b), is_opaque ? 1.0f : clamped(c.a)};
-      });
-      return out;
+    LinearImage in(image.width(), image.height());
+    std::ranges::transform(image.values(), in.values().begin(), [](const Display& c) {
+      return Linear{c.r * c.a, c.g * c.a, c.b * c.a, c.a};
     });
+    const bool is_opaque = std::ranges::all_of(in.values(), [](const Linear& c) { return c.a == 1; });
+    const LinearImage resampled = resample(in, made.width, made.height, kernel_, options);
+    DisplayImage out(made.width, made.height);
+    const auto clamped = [](float v) { return std::clamp(v, 0.0f, 1.0f); };
+    std::ranges::transform(resampled.values(), out.values().begin(), [&](const Linear& c) -> Display {
+      if (is_opaque) return {clamped(c.r), clamped(c.g), clamped(c.b), 1};
+      // Before alpha is clamped: kernels with negative lobes overshoot in it as in the colours.
+      return c.a > 0 ? Display{clamped(c.r / c.a), clamped(c.g / c.a), clamped(c.b / c.a), clamped(c.a)}
+                     : Display{0, 0, 0, 0};
+    });
+    return out;
   }
 
   Kernel kernel_;

@@ -14,9 +14,9 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/upscale/alpha.h"
 #include "zoneplate/upscale/axis.h"
 #include "zoneplate/upscale/nis/taps.h"
-#include "zoneplate/upscale/premultiplied.h"
 
 namespace zoneplate {
 namespace upscale {
@@ -135,7 +135,7 @@ DisplayImage sharpened(const DisplayImage& image, const UpscaleGrid& grid, const
 class Nis : public SpatialUpscaler {
  public:
   explicit Nis(float sharpness) : sharpness_(sharpness) {}
-  int reach() const override { return 3; }
+  int reach() const override { return 3 + continued_reach; }
   DisplayImage upscale(const DisplayImage& image, const UpscaleGrid& grid) const override {
     return upscale_nis(image, grid, sharpness_);
   }
@@ -152,9 +152,12 @@ DisplayImage upscale_nis(const DisplayImage& image, const UpscaleGrid& grid, flo
     throw Error(ErrorKind::Usage, "nis: the output is more than twice as large as the input, which is its limit");
   const bool is_same_size = grid.to.width == grid.width && grid.to.height == grid.height;
   const NisConstants constants(sharpness);
-  return filter_premultiplied(image, [&](const DisplayImage& values) {
-    return is_same_size ? sharpened(values, grid, constants) : scaled(values, grid, constants);
-  });
+  return filter_with_alpha(
+      image,
+      [&](const DisplayImage& values) {
+        return is_same_size ? sharpened(values, grid, constants) : scaled(values, grid, constants);
+      },
+      &Display::g);
 }
 
 Upscaler nis() {

@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/upscale/alpha.h"
 #include "zoneplate/upscale/axis.h"
-#include "zoneplate/upscale/premultiplied.h"
 #include "zoneplate/upscale/sgsr/edge_row.h"
 #include "zoneplate/upscale/upscaler.h"
 
@@ -46,9 +46,10 @@ DisplayImage upscale_values(const DisplayImage& image, const UpscaleGrid& grid) 
 
 class Sgsr1 : public SpatialUpscaler {
  public:
-  int reach() const override { return 2; }
+  int reach() const override { return 2 + continued_reach; }
   DisplayImage upscale(const DisplayImage& image, const UpscaleGrid& grid) const override {
-    return filter_premultiplied(image, [&](const DisplayImage& values) { return upscale_values(values, grid); });
+    return filter_with_alpha(
+        image, [&](const DisplayImage& values) { return upscale_values(values, grid); }, &Display::g);
   }
 };
 
