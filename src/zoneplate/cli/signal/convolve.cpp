@@ -9,6 +9,7 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/cli/signal/alpha.h"
 #include "zoneplate/cli/signal/convolve.h"
 #include "zoneplate/cli/signal/load.h"
@@ -87,9 +88,9 @@ Results convolved(const ConvolveArgs& args, const LinearImage& image, const Kern
 
 std::string text_of(const std::string& input, const ConvolveArgs& args, const LinearImage& image,
                     const KernelChoice& kernel, const Results& results) {
-  std::string text = fmt::format("{}, {} × {} with {} ({} × {} weights, sum {:.6g}), border {}\n", input, image.width(),
-                                 image.height(), kernel.name, kernel.weights.width(), kernel.weights.height(),
-                                 kernel.sum(), name_of(args.border));
+  std::string text = fmt::format("{}, {} × {} with {} ({} × {} weights, sum {:.6g}), border {}\n", printable(input),
+                                 image.width(), image.height(), kernel.name, kernel.weights.width(),
+                                 kernel.weights.height(), kernel.sum(), name_of(args.border));
   if (!results.apart) return text;
   const double range = range_of(image), relative = range > 0 ? results.apart->greatest / range : 0;
   text += fmt::format(

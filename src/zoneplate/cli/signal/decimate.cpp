@@ -6,6 +6,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/cli/signal/args.h"
 #include "zoneplate/cli/signal/load.h"
 #include "zoneplate/cli/signal/reduce.h"
@@ -60,8 +61,8 @@ std::string text_of(const std::string& input, const Pair& pair, const std::vecto
       "Aliased energy in dB relative to no filter: all of it, and from 1.5 times the new Nyquist frequency on (far);\n"
       "error in the passband relative to the ideal result: the whole passband, and its lower half (coarse).\n"
       "  {:<16}{:>9}{:>9}{:>9}{:>9}   {:>9}{:>9}{:>9}{:>9}\n",
-      input, pair.image.width(), pair.image.height(), pair.naive.width(), pair.naive.height(), "measured (theory)",
-      "all", "far", "error", "coarse", "(all", "far", "error", "coarse)");
+      printable(input), pair.image.width(), pair.image.height(), pair.naive.width(), pair.naive.height(),
+      "measured (theory)", "all", "far", "error", "coarse", "(all", "far", "error", "coarse)");
   for (const Figures& row : rows) {
     const AliasFigures &m = row.measured, &e = row.expected;
     text += fmt::format("  {:<17}{:>9}{:>9}{:>9}{:>9}   {:>9}{:>9}{:>9}{:>9}\n", row.kernel, shown_db(m.all_db),

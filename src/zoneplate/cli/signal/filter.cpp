@@ -7,6 +7,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/cli/signal/args.h"
 #include "zoneplate/cli/signal/load.h"
 #include "zoneplate/cli/signal/show.h"
@@ -177,21 +178,22 @@ void tell_result(const std::string& input, const FilterArgs& args, const LinearI
   const double was = variance(luminance(before)), is = variance(luminance(after));
   const double kept = was > 0 ? is / was : 1;
   const bool has_low = args.filter.pass != Pass::Low, has_high = args.filter.pass != Pass::High;
-  print_result(args,
-               fmt::format("{}, {} × {}: {}, border {}\n  {:.2f} % of the variance of the luminance remains\n", input,
-                           before.width(), before.height(), name_of(args), name_of(args.border), 100 * kept),
-               {{"input", input},
-                {"output", args.output},
-                {"width", before.width()},
-                {"height", before.height()},
-                {"filter", name_of(args)},
-                {"shape", args.shape},
-                {"low", has_low ? Json(args.filter.low) : Json()},
-                {"high", has_high ? Json(args.filter.high) : Json()},
-                {"border", name_of(args.border)},
-                {"variance_before", was},
-                {"variance_after", is}},
-               out);
+  print_result(
+      args,
+      fmt::format("{}, {} × {}: {}, border {}\n  {:.2f} % of the variance of the luminance remains\n", printable(input),
+                  before.width(), before.height(), name_of(args), name_of(args.border), 100 * kept),
+      {{"input", input},
+       {"output", args.output},
+       {"width", before.width()},
+       {"height", before.height()},
+       {"filter", name_of(args)},
+       {"shape", args.shape},
+       {"low", has_low ? Json(args.filter.low) : Json()},
+       {"high", has_high ? Json(args.filter.high) : Json()},
+       {"border", name_of(args.border)},
+       {"variance_before", was},
+       {"variance_after", is}},
+      out);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/cli/signal/args.h"
 #include "zoneplate/cli/signal/load.h"
 #include "zoneplate/cli/signal/reduce.h"
@@ -110,8 +111,8 @@ void run_signal_resample(std::span<const std::string> arguments) {
     };
     save_result(args.output, result, picture, out);
     print_result(args,
-                 fmt::format("{}, {} × {} to {} × {} by {}, border {}\n", input, image.width(), image.height(), size.x,
-                             size.y, args.kernel, name_of(args.border)),
+                 fmt::format("{}, {} × {} to {} × {} by {}, border {}\n", printable(input), image.width(),
+                             image.height(), size.x, size.y, args.kernel, name_of(args.border)),
                  {{"input", input},
                   {"output", args.output},
                   {"width", size.x},

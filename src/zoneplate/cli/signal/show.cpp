@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <numbers>
 
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/metrics/flip/magma.h"
 #include "zoneplate/metrics/picture.h"
@@ -159,7 +160,7 @@ Rgba8Image fitted(const Rgba8Image& picture) {
 
 std::string title_of(const std::string& input) {
   if (is_pattern(input)) return input;
-  return input == "-" ? "stdin" : std::filesystem::path(input).filename().string();
+  return input == "-" ? "stdin" : printable(std::filesystem::path(input).filename().string());
 }
 
 }  // namespace zoneplate::cli

@@ -40,6 +40,7 @@ TEST(SignalShow, TitlesNameFilesNotFolders) {
   EXPECT_EQ(title_of("/some/where/photo.jpg"), "photo.jpg");
   EXPECT_EQ(title_of("sine:frequency=0.2"), "sine:frequency=0.2");
   EXPECT_EQ(title_of("-"), "stdin");
+  EXPECT_EQ(title_of("a\nb.png"), "a?b.png");
 }
 
 TEST(SignalShow, LevelsAreDecibelsBelowThePeak) {

@@ -7,6 +7,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/cli/signal/args.h"
 #include "zoneplate/cli/signal/load.h"
 #include "zoneplate/cli/signal/show.h"
@@ -134,7 +135,7 @@ std::string text_of(const std::string& input, const SpectrumArgs& args, const An
       "{}, {} × {}, {}, window {}{}\n"
       "  mean {:.4g}, standard deviation {:.4g}\n"
       "  variance: {:.1f} % below 1/4 cycle per pixel, {:.1f} % from there to 1/2, {:.1f} % beyond\n",
-      input, a.plane.width(), a.plane.height(), args.uses_codes ? "luma of codes" : "luminance", args.window,
+      printable(input), a.plane.width(), a.plane.height(), args.uses_codes ? "luma of codes" : "luminance", args.window,
       args.is_periodic ? ", periodic part" : "", s.mean, s.deviation, 100 * s.coarse, 100 * s.fine, 100 * s.corner);
   if (s.strongest.amplitude > 0)
     text += fmt::format(

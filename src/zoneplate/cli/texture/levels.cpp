@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/cli/signal/args.h"
 #include "zoneplate/cli/signal/show.h"
 #include "zoneplate/cli/texture/texture.h"
@@ -149,7 +150,7 @@ void print_levels(const LevelsArgs& args, const std::string& input, const Textur
   const TexelCodes codes{view, false};
   const Memory m = memory_of(view, codes.bytes());
   const auto ratio = [&](std::int64_t bytes) { return static_cast<double>(bytes) / static_cast<double>(m.first); };
-  std::string text = fmt::format("{}, {} texels of four channels\n", input, codes.kind());
+  std::string text = fmt::format("{}, {} texels of four channels\n", printable(input), codes.kind());
   Json::Array levels;
   for (int l = 0; l < view.levels; ++l) {
     const std::int64_t bytes = std::int64_t{view.width[l]} * view.height[l] * codes.bytes();

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/cli/signal/args.h"
 #include "zoneplate/cli/signal/load.h"
 #include "zoneplate/cli/signal/show.h"
@@ -78,15 +79,15 @@ void run_texture_normal_from_height(std::span<const std::string> arguments) {
     } else if (!args.output.empty()) {
       out.save(args.output, encode_png(shown(encoded, true), {.has_alpha = false, .is_srgb = false}));
     }
-    print_result(
-        args,
-        fmt::format("{}, {} × {}: least z of a normal {:.3f}\n", input, normals.width(), normals.height(), steepest),
-        {{"input", input},
-         {"output", args.output},
-         {"width", normals.width()},
-         {"height", normals.height()},
-         {"least_z", steepest}},
-        out);
+    print_result(args,
+                 fmt::format("{}, {} × {}: least z of a normal {:.3f}\n", printable(input), normals.width(),
+                             normals.height(), steepest),
+                 {{"input", input},
+                  {"output", args.output},
+                  {"width", normals.width()},
+                  {"height", normals.height()},
+                  {"least_z", steepest}},
+                 out);
   });
 }
 
