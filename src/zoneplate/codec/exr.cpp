@@ -47,9 +47,9 @@ std::optional<Windows> windows_of(const std::optional<ExrPart>& part) {
 std::optional<Windows> find_windows(std::span<const std::uint8_t> bytes) { return windows_of(read_exr_part(bytes)); }
 
 /// The file's chromaticities, or those of Rec.709, which are what a file without them has.
-Chromaticities find_chromaticities(std::span<const std::uint8_t> bytes) {
+ExrChromaticities find_chromaticities(std::span<const std::uint8_t> bytes) {
   const std::optional<ExrPart> part = read_exr_part(bytes);
-  return part && part->chromaticities ? std::bit_cast<Chromaticities>(*part->chromaticities) : Chromaticities();
+  return part && part->chromaticities ? *part->chromaticities : rec709_chromaticities;
 }
 
 /// The functions of libOpenEXRCore that this file calls. The library is loaded at run time; the program is not linked

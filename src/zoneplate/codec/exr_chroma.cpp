@@ -129,10 +129,10 @@ void limit_saturation(const LuminanceChroma& image, float3 weights, Row above) {
 
 }  // namespace
 
-std::optional<float3> luminance_weights(const Chromaticities& c) {
+std::optional<float3> luminance_weights(const ExrChromaticities& c) {
   // The amounts of the primaries, of luminance y each, whose sum is white.
-  const auto xyz = [](const float(&xy)[2]) { return float3{xy[0], xy[1], 1 - xy[0] - xy[1]}; };
-  const float3 r = xyz(c.red), g = xyz(c.green), b = xyz(c.blue), w = xyz(c.white);
+  const auto xyz = [&](std::size_t k) { return float3{c[2 * k], c[2 * k + 1], 1 - c[2 * k] - c[2 * k + 1]}; };
+  const float3 r = xyz(0), g = xyz(1), b = xyz(2), w = xyz(3);
   const float volume = dot(r, cross(g, b));
   const float3 parts{dot(w, cross(g, b)) * r.y, dot(r, cross(w, b)) * g.y, dot(r, cross(g, w)) * b.y};
   const float3 weights = parts * (1 / (volume * w.y));

@@ -3,17 +3,13 @@
 
 #include <optional>
 
+#include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/math/vec.h"
 
 namespace zoneplate {
 
-/// The primaries and the white of a colour space, x and y each, in the order of OpenEXR's attribute; Rec.709.
-struct Chromaticities {
-  float red[2] = {0.64f, 0.33f}, green[2] = {0.3f, 0.6f}, blue[2] = {0.15f, 0.06f}, white[2] = {0.3127f, 0.329f};
-};
-
 /// The parts of white's luminance that red, green and blue have; nothing where the primaries span no colours.
-std::optional<float3> luminance_weights(const Chromaticities& chromaticities);
+std::optional<float3> luminance_weights(const ExrChromaticities& chromaticities);
 
 /// A chroma channel at the image's size. Only columns that are multiples of `sampling.x`, and such rows, are given.
 struct ChromaPlane {

@@ -231,18 +231,18 @@ TEST(ExrChroma, AFileCutOffShowsNoOtherMemory) {
 }
 
 TEST(ExrChroma, WeightsAreThoseOfThePrimaries) {
-  const auto expect_weights = [](const Chromaticities& c, float3 expected) {
+  const auto expect_weights = [](const ExrChromaticities& c, float3 expected) {
     const std::optional<float3> found = luminance_weights(c);
     ASSERT_TRUE(found);
     EXPECT_NEAR(found->x, expected.x, 1e-4f);
     EXPECT_NEAR(found->y, expected.y, 1e-4f);
     EXPECT_NEAR(found->z, expected.z, 1e-4f);
   };
-  expect_weights({}, {0.2126f, 0.7152f, 0.0722f});
-  expect_weights({{0.7347f, 0.2653f}, {0, 1}, {0.0001f, -0.077f}, {0.32168f, 0.33767f}},
+  expect_weights(rec709_chromaticities, {0.2126f, 0.7152f, 0.0722f});
+  expect_weights({0.7347f, 0.2653f, 0, 1, 0.0001f, -0.077f, 0.32168f, 0.33767f},
                  {0.34397f, 0.72817f, -0.07213f});  // ACES, SMPTE ST 2065-1
-  EXPECT_FALSE(luminance_weights({{0.3f, 0.3f}, {0.3f, 0.3f}, {0.3f, 0.3f}}));
-  EXPECT_FALSE(luminance_weights({{0.64f, 0.33f}, {0.3f, 0.6f}, {0.15f, 0.06f}, {0.3f, 0}}));
+  EXPECT_FALSE(luminance_weights({0.3f, 0.3f, 0.3f, 0.3f, 0.3f, 0.3f, 0.3127f, 0.329f}));
+  EXPECT_FALSE(luminance_weights({0.64f, 0.33f, 0.3f, 0.6f, 0.15f, 0.06f, 0.3f, 0}));
 }
 
 }  // namespace
