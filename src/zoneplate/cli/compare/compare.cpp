@@ -97,17 +97,13 @@ SceneTrials compare_scene(const CompareArgs& args, const std::string& name, cons
                           const TrialProgress& progress, const MemoryFiles& memory, Delivery& out) {
   Scene scene;
   out.read(name, [&] { scene = load_scene(name, args.render.load); });
-  View view = args.render.view;
-  view.up = args.render.up.value_or(scene.up);
-  if (is_builtin_scene(name) && !scene.cameras.empty() && !view.index && !view.position) view.index = 0;
-  RenderSettings settings{.options = args.render.options};
-  settings.options.display = args.render.display;
-  settings.options.display.background = args.render.background.value_or(default_background);
-  const float aspect = static_cast<float>(settings.options.width) / static_cast<float>(settings.options.height);
-  const Camera camera = choose_camera(scene, view, aspect);
-  settings.options.display.mapping = set_look(args.render, scene);
-  const PreparedScene prepared(std::move(scene), args.render.mips);
-  if (args.render.meters_exposure) settings.options.display.exposure = metered_exposure(prepared, camera, args.render);
+  RenderArgs render = args.render;
+  render.input = name;
+  const Camera camera = choose_own_camera(render, scene);
+  render.display.mapping = set_look(render, scene);
+  const PreparedScene prepared(std::move(scene), render.mips);
+  if (render.meters_exposure) render.display.exposure = metered_exposure(prepared, camera, render);
+  const RenderSettings settings = settings_of(render, "");
   TrialSetup setup{prepared, camera, settings, memory, args.frames};
   setup.load_reference = [&] {
     metrics::Picture picture;
@@ -119,14 +115,15 @@ SceneTrials compare_scene(const CompareArgs& args, const std::string& name, cons
   if (args.frames > 1) {
     source.emplace(name, args.render.load);
     sequence.emplace(sequence_of(args, *source));
-    sequence->set_view(view, aspect);
+    const float aspect = static_cast<float>(render.options.width) / static_cast<float>(render.options.height);
+    sequence->set_view(render.view, aspect);
     setup.view = [&](int frame) { return sequence->view(frame); };
   }
   SceneTrials trials = run_trials(setup, options, progress);
   trials.scene = name;
   if (const BuiltinScene* listed = find_builtin_scene(name))
     trials.failure = listed->failure, trials.complaint = listed->complaint;
-  if (args.render.verbosity != Verbosity::Quiet)
+  if (render.verbosity != Verbosity::Quiet)
     for (const std::string& warning : prepared.scene().warnings) out.warn(warning);
   return trials;
 }

@@ -79,6 +79,28 @@ TEST_F(CompareVerb, WritesEverythingThatItsJsonNames) {
   EXPECT_LT(table.find("`ssaa:pattern=halton,samples=8`"), table.find("`none`"));
 }
 
+// Points and the background are those of `render`, and its options act: a cloud of three points, and the scene that is
+// defined on black.
+TEST_F(CompareVerb, DrawsThePixelsOfRender) {
+  std::ofstream(place / "cloud.ply") << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                                        "property float z\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
+  const std::pair<const char*, const char*> cases[] = {
+      {"triangles", ""}, {"cloud.ply", ""}, {"cloud.ply", " --point-size 9"}, {"cloud.ply", " --exposure auto"}};
+  std::vector<Rgba8Image> images;
+  for (const auto& [scene, options] : cases) {
+    const std::string name = std::string(scene) + options;
+    ASSERT_EQ(run(std::string("compare ") + scene + " --aa none -o out --force" + small + options).code, 0) << name;
+    ASSERT_EQ(run(std::string("render ") + scene + " --aa none -o own.png --size 64x48" + options).code, 0) << name;
+    const std::string folder = fs::path(scene).stem().string();
+    const auto pixels = [&](const std::string& file) {
+      return decode_png(FileBytes((place / file).string()).bytes(), file).pixels;
+    };
+    images.push_back(pixels("own.png"));
+    EXPECT_EQ(pixels("out/" + folder + "/none.png"), images.back()) << name;
+  }
+  EXPECT_NE(images[1], images[2]);
+}
+
 TEST_F(CompareVerb, ThePageHasTheImagesAndNeedsNoFolder) {
   const ProgramAnswer answer = run(std::string("compare triangles cyclic --aa none,fxaa --html page.html") + small);
   ASSERT_EQ(answer.code, 0) << answer.out;

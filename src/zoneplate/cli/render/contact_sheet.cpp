@@ -68,12 +68,7 @@ std::vector<std::uint8_t> render_cell(RenderArgs render, ItemSender& sender) {
   if (!render.hdri_file.empty()) complete_environments(environments, render, {}, sender);
   within_import_time(render.input, render.load.limits, [&] { scene = load_scene(render.input, render.load); });
   sender.has_read();
-  set_usual_options(render, scene);
-  render.view.up = render.up.value_or(scene.up);
-  const bool has_own_view = is_builtin_scene(render.input) && !scene.cameras.empty();
-  if (has_own_view && !render.view.index && !render.view.position) render.view.index = 0;
-  const float aspect = static_cast<float>(render.options.width) / static_cast<float>(render.options.height);
-  const Camera camera = choose_camera(scene, render.view, aspect);
+  const Camera camera = choose_own_camera(render, scene);
   render.display.mapping = set_look(render, scene);
   Renderer renderer(PreparedScene(std::move(scene)), upscale::make_method(render.method));
   if (render.meters_exposure) render.display.exposure = metered_exposure(renderer.scene(), camera, render);

@@ -66,12 +66,7 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   }
   summary.times.emplace_back("textures", texture_watch.ms());
   const Scene& scene = scene_->scene();
-  set_usual_options(args, scene);
-  args.view.up = args.up.value_or(scene.up);
-  const bool has_own_view = is_builtin_scene(args.input) && !scene.cameras.empty();
-  if (has_own_view && !args.view.index && !args.view.position) args.view.index = 0;
-  const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
-  const Camera camera = choose_camera(scene, args.view, aspect);
+  const Camera camera = choose_own_camera(args, scene);
   summary.warnings = scene.warnings;
   if (std::string late = lateness(args, end_of_animation(args.load.choice, scene)); !late.empty())
     summary.warnings.push_back(std::move(late));

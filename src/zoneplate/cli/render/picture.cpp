@@ -151,6 +151,15 @@ void set_usual_options(RenderArgs& args, const Scene& scene) {
   options.anisotropy = args.anisotropy.value_or(is_builtin_scene(args.input) ? 1 : usual_anisotropy);
 }
 
+Camera choose_own_camera(RenderArgs& args, const Scene& scene) {
+  set_usual_options(args, scene);
+  args.view.up = args.up.value_or(scene.up);
+  const bool has_own_view = is_builtin_scene(args.input) && !scene.cameras.empty();
+  if (has_own_view && !args.view.index && !args.view.position) args.view.index = 0;
+  const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
+  return choose_camera(scene, args.view, aspect);
+}
+
 ToneMapping set_look(const RenderArgs& args, Scene& scene) {
   convert_materials(args, scene);
   Lighting lighting = make_lighting(scene, args.lighting);
