@@ -32,9 +32,7 @@ struct Codec {
 // QuickTime are written to a pipe in fragments.
 const std::vector<Codec>& codecs() {
   static const std::vector<Codec> all = [] {
-    const Words h264 = {
-        "-vf",    std::string(to_bt709) + ",pad=ceil(iw/2)*2:ceil(ih/2)*2", "-c:v", "libx264", "-crf", "16", "-pix_fmt",
-        "yuv420p"};
+    const Words h264 = {"-vf", to_bt709, "-c:v", "libx264", "-crf", "16", "-pix_fmt", "yuv420p"};
     const Words vp9 = {"-vf", to_bt709, "-c:v", "libvpx-vp9", "-b:v", "0", "-crf", "20", "-pix_fmt", "yuva420p"};
     const auto together = [](std::initializer_list<Words> parts) {
       Words out;
@@ -48,7 +46,10 @@ const std::vector<Codec>& codecs() {
         {".mkv", together({h264, bt709_tags, {"-f", "matroska"}})},
         {".webm", together({vp9, bt709_tags, {"-f", "webm"}})},
         {".gif",
-         {"-vf", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=sierra2_4a", "-loop", "0", "-f", "gif"}}};
+         {"-vf",
+          fmt::format("fps=min(source_fps\\,{}),split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=sierra2_4a",
+                      most_gif_rate),
+          "-loop", "0", "-f", "gif"}}};
   }();
   return all;
 }
@@ -58,6 +59,8 @@ const Codec* find_codec(const std::string& output) {
   const auto found = std::ranges::find(codecs(), extension, &Codec::extension);
   return found == codecs().end() ? nullptr : &*found;
 }
+
+int even(int side, bool is_needed) { return is_needed ? side + side % 2 : side; }
 
 constexpr int longest_wait_ms = 3'600'000;  // GIF: all frames are encoded after the last one
 
@@ -69,7 +72,7 @@ Words arguments_for(const std::string& output, int width, int height, const Anim
                  "-pix_fmt",
                  "rgba",
                  "-s",
-                 fmt::format("{}x{}", width, height),
+                 fmt::format("{}x{}", even(width, is_opaque_video(output)), even(height, is_opaque_video(output))),
                  "-r",
                  fmt::format("{}/{}", format.per, format.seconds),
                  "-i",
@@ -102,16 +105,42 @@ AnimationFormat film_format(double rate) {
 
 bool is_encoded_by_ffmpeg(const std::string& output) { return find_codec(output) != nullptr; }
 
+bool is_opaque_video(const std::string& output) {
+  const std::string extension = std::filesystem::path(output).extension().string();
+  return extension == ".mp4" || extension == ".mov" || extension == ".mkv";
+}
+
 std::unique_ptr<AnimationEncoder> make_film_encoder(const std::string& output, const AnimationFormat& format) {
   return std::filesystem::path(output).extension() == ".webp" ? make_webp_encoder(format) : make_apng_encoder(format);
 }
 
 FfmpegFilm::FfmpegFilm(const std::string& output, int width, int height, const AnimationFormat& format,
                        std::function<void()> check_time)
-    : ffmpeg_("ffmpeg", arguments_for(output, width, height, format),
+    : row_bytes_(std::size_t{4} * static_cast<std::size_t>(width)),
+      rows_(static_cast<std::size_t>(height)),
+      repeats_column_(even(width, is_opaque_video(output)) != width),
+      repeats_row_(even(height, is_opaque_video(output)) != height),
+      ffmpeg_("ffmpeg", arguments_for(output, width, height, format),
               {.milliseconds = longest_wait_ms, .check_time = std::move(check_time)}) {}
 
-void FfmpegFilm::add(std::span<const std::uint8_t> pixels) { ffmpeg_.write(pixels); }
+void FfmpegFilm::add(std::span<const std::uint8_t> pixels) {
+  if (!repeats_column_ && !repeats_row_) return ffmpeg_.write(pixels);
+  while (!pixels.empty()) {
+    const std::size_t n = std::min(row_bytes_ - row_.size(), pixels.size());
+    row_.insert(row_.end(), pixels.begin(), pixels.begin() + static_cast<std::ptrdiff_t>(n));
+    pixels = pixels.subspan(n);
+    if (row_.size() == row_bytes_) write_row();
+  }
+}
+
+void FfmpegFilm::write_row() {
+  if (repeats_column_)
+    for (std::size_t k = 0; k < 4; ++k) row_.push_back(row_[row_bytes_ - 4 + k]);
+  ffmpeg_.write(row_);
+  rows_done_ = (rows_done_ + 1) % rows_;
+  if (rows_done_ == 0 && repeats_row_) ffmpeg_.write(row_);
+  row_.clear();
+}
 
 std::vector<std::uint8_t> FfmpegFilm::encode() {
   ProgramResult answer = ffmpeg_.finish();

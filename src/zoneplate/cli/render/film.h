@@ -21,10 +21,19 @@ AnimationFormat film_format(double rate);
 /// True for the name of a video that the program ffmpeg encodes: .mp4, .mov, .mkv, .webm or .gif.
 bool is_encoded_by_ffmpeg(const std::string& output);
 
+/// True if such a video has no alpha: .mp4, .mov and .mkv.
+bool is_opaque_video(const std::string& output);
+
+/// The frames per second that a .gif has at most: browsers show delays below 2 hundredths of a second as 10.
+constexpr int most_gif_rate = 50;
+
 /// The encoder of a film that is not encoded by ffmpeg: WebP by its name, else APNG.
 std::unique_ptr<AnimationEncoder> make_film_encoder(const std::string& output, const AnimationFormat& format);
 
 /// A film that ffmpeg encodes while further frames are drawn.
+///
+/// Edges     odd sides of an opaque video, whose codec requires even ones, repeat the last column and row; a .gif of
+///           more than `most_gif_rate` frames per second lacks frames, evenly.
 class FfmpegFilm {
  public:
   /// `check_time` is called while ffmpeg keeps this process waiting; ffmpeg is killed if it throws.
@@ -43,6 +52,12 @@ class FfmpegFilm {
   std::vector<std::uint8_t> encode();
 
  private:
+  void write_row();
+
+  std::size_t row_bytes_, rows_;
+  bool repeats_column_, repeats_row_;
+  std::vector<std::uint8_t> row_;  ///< what has come of a row
+  std::size_t rows_done_ = 0;      ///< of a frame
   RunningProgram ffmpeg_;
 };
 

@@ -237,6 +237,11 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
     summary.warnings.push_back(
         fmt::format("{}: has no animation, so that {} has one frame; see --turntable", args.input, args.output));
 
+  if (extension_of(args.output) == ".gif" && args.sequence.rate > most_gif_rate)
+    summary.warnings.push_back(
+        fmt::format("{}: has {} of {:g} frames per second, as many as a GIF can have in browsers", args.output,
+                    most_gif_rate, args.sequence.rate));
+
   warm_up(args, sequence, plan.frames().front(), renderer);
   AnimationFormat format = film_format(args.sequence.rate);
   std::unique_ptr<AnimationEncoder> film;
