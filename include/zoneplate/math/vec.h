@@ -24,6 +24,12 @@ struct float4 {
   bool operator==(const float4&) const = default;
 };
 
+/// Three doubles: a position in the coordinates of a file, which may be far from their origin.
+struct double3 {
+  double x = 0, y = 0, z = 0;  ///< components
+  bool operator==(const double3&) const = default;
+};
+
 /// Two integers: a pixel, or the width and height of an image.
 struct int2 {
   int x = 0, y = 0;  ///< components
@@ -45,6 +51,9 @@ constexpr float3 operator*(float3 a, float3 b) { return {a.x * b.x, a.y * b.y, a
 constexpr float3 operator*(float3 a, float s) { return {a.x * s, a.y * s, a.z * s}; }
 constexpr float3 operator*(float s, float3 a) { return a * s; }
 constexpr float3& operator+=(float3& a, float3 b) { return a = a + b; }
+
+constexpr double3 operator+(double3 a, double3 b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+constexpr double3 operator-(double3 a, double3 b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 
 constexpr float4 operator+(float4 a, float4 b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w}; }
 constexpr float4 operator-(float4 a, float4 b) { return {a.x - b.x, a.y - b.y, a.z - b.z, a.w - b.w}; }
@@ -83,6 +92,13 @@ inline float3 normalize(float3 a, float3 otherwise = {0, 0, 0}) {
   }
   const float n = length(a);
   return {a.x / n, a.y / n, a.z / n};
+}
+
+/// The same vector in doubles.
+constexpr double3 widened(float3 a) { return {a.x, a.y, a.z}; }
+/// The nearest vector of floats.
+constexpr float3 narrowed(double3 a) {
+  return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }
 
 /// The first three components, without a division by w.

@@ -35,6 +35,10 @@ struct AnimationSpan {
 
 /// All data of a scene, without hierarchy.
 ///
+/// Space     world space is that of the file, moved by -origin. The origin is 0 unless the scene lies farther from the
+///           file's origin than 64 times its own size, as maps and surveys do: there, floats would round the places of
+///           its points. A place p of the world has the coordinates origin + p in the file. Functions with files,
+///           options and other programs use the coordinates of the file; all of the library uses world space.
 /// Requires  every index is in range; `materials` is not empty when there are meshes.
 struct Scene {
   std::vector<Mesh> meshes;          ///< drawn where instances place them
@@ -45,12 +49,18 @@ struct Scene {
   std::vector<Light> lights;         ///< none: see light_unlit
   std::vector<Camera> cameras;       ///< of the file; View::index chooses one
   Environment environment;           ///< light from infinitely far away
+  double3 origin;                    ///< of world space, in the coordinates of the file; 0 for a scene near theirs
   float3 up{0, 1, 0};                ///< the up axis of the file's format, for the camera
   float3 ambient_light{0, 0, 0};     ///< of (Blinn-)Phong's ambient term, times Material::ambient; with an environment
                                      ///< of one colour, zero stands for that colour
   std::vector<AnimationSpan> animations;  ///< of the file
   std::vector<std::string> variants;      ///< material variants of the file
   std::vector<std::string> warnings;      ///< what the loader ignored, one line each
+
+  /// The coordinates in the file of a place of the world.
+  double3 in_file(float3 place) const { return origin + widened(place); }
+  /// The place in the world of coordinates in the file.
+  float3 in_world(double3 coordinates) const { return narrowed(coordinates - origin); }
 
   /// The world-space bounds of all instances (only of vertices that a primitive uses).
   Box bounds() const;

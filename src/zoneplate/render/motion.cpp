@@ -19,10 +19,6 @@
 namespace zoneplate {
 namespace {
 
-struct Double3 {
-  double x = 0, y = 0, z = 0;
-};
-
 /// A position on the screen, in pixels from the image's top-left corner.
 using Place = std::array<double, 2>;
 
@@ -62,9 +58,7 @@ class Seen {
   std::vector<std::uint32_t> counterpart_;
 };
 
-float3 narrowed(Double3 p) { return {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)}; }
-
-Double3 transformed(const float4x4& m, Double3 p) {
+double3 transformed(const float4x4& m, double3 p) {
   const auto& c = m.column;
   return {((c[0].x * p.x + c[1].x * p.y) + c[2].x * p.z) + c[3].x,
           ((c[0].y * p.x + c[1].y * p.y) + c[2].y * p.z) + c[3].y,
@@ -72,7 +66,7 @@ Double3 transformed(const float4x4& m, Double3 p) {
 }
 
 /// The position on the screen in pixels; nothing for a point behind the eye.
-std::optional<Place> on_screen(const float4x4& clip_from_world, Double3 p, Viewport viewport) {
+std::optional<Place> on_screen(const float4x4& clip_from_world, double3 p, Viewport viewport) {
   const auto& c = clip_from_world.column;
   const auto row = [&](float a, float b, float e, float d) { return ((a * p.x + b * p.y) + e * p.z) + d; };
   const double w = row(c[0].w, c[1].w, c[2].w, c[3].w);
@@ -170,11 +164,11 @@ class PointFinder {
 };
 
 /// The world position of a weighted point of an instance at a moment; nothing if the moment lacks it.
-std::optional<Double3> place_of(const Mixture& point, std::uint32_t instance, const Seen& seen) {
+std::optional<double3> place_of(const Mixture& point, std::uint32_t instance, const Seen& seen) {
   const Instance* const placed = seen.find(instance);
   if (placed == nullptr) return std::nullopt;
   const Mesh& mesh = mesh_of(*seen.scene, *placed);
-  Double3 sum;
+  double3 sum;
   for (std::size_t k = 0; k < 3; ++k) {
     const float3 p = mesh.position[point.vertex[k]];
     const double weight = point.weight[k];
@@ -251,7 +245,7 @@ struct PointAt {
 /// The motion on the screen from a point at one moment to a point at another.
 float2 step_between(const PointAt& from, const PointAt& to, std::uint32_t instance, Viewport viewport) {
   const auto at = [&](const PointAt& p) -> std::optional<Place> {
-    const std::optional<Double3> place = place_of(p.point, instance, p.seen);
+    const std::optional<double3> place = place_of(p.point, instance, p.seen);
     return place ? on_screen(p.seen.clip_from_world, *place, viewport) : std::nullopt;
   };
   const auto start = at(from), end = at(to);
@@ -291,7 +285,7 @@ void add_surface_points(const Moment& now, const Planes& planes, const RenderOpt
       };
       const Mixture last_point = stepped(last_steps);
       if (!frame.last_position.empty()) {
-        const std::optional<Double3> before = place_of(last_point, instance, last);
+        const std::optional<double3> before = place_of(last_point, instance, last);
         frame.last_position(x, y) = narrowed(before ? *before : *place_of(point, instance, seen));
       }
       if (planes.motion) frame.motion(x, y) = step_between({last, last_point}, {seen, point}, instance, viewport);

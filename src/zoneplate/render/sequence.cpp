@@ -49,7 +49,7 @@ class Poses {
   explicit Poses(bool has_sides) : cost_of_instance_(has_sides ? 16 * sides : 16) {}
 
   void add(Scene scene) {
-    if (count_++ == 0) all_.cameras = scene.cameras;
+    if (count_++ == 0) all_.cameras = scene.cameras, all_.origin = scene.origin;
     std::vector<int> meshes(scene.meshes.size(), -1);  // of this pose, in all_
     for (Instance instance : scene.instances) {
       int& mesh = meshes[static_cast<std::size_t>(instance.mesh)];

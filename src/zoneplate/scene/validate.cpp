@@ -210,6 +210,7 @@ std::optional<std::string> find_invalid(const Scene& s) {
   if (auto flaw = flaw_among(s.cameras, "camera", s)) return flaw;
   if (auto flaw = flaw_among(s.animations, "animation", s)) return flaw;
   if (const char* flaw = flaw_of(s.environment, s)) return std::string("environment: ") + flaw;
+  if (!is_finite(narrowed(s.origin))) return "its origin is not finite";
   if (!is_finite(s.up) || !has_unit_length(s.up)) return "its upward axis has no unit length";
   if (!are_amounts(s.ambient_light)) return "its ambient light is out of range";
   if (!std::all_of(s.warnings.begin(), s.warnings.end(), is_one_line)) return "a warning of several lines";

@@ -14,6 +14,7 @@
 #include "zoneplate/formats/import/scene_bytes.h"
 #include "zoneplate/os/library.h"
 #include "zoneplate/os/limited_child.h"
+#include "zoneplate/scene/geometry/origin.h"
 #include "zoneplate/scene/validate.h"
 
 #if __has_include(<assimp/cimport.h>)
@@ -84,6 +85,7 @@ Scene import(const AssimpLibrary& library, const std::string& path, std::string_
   convert_assimp_scene(*read, extension, textures);
   if (scene.instances.empty()) throw Error(ErrorKind::Input, budget.file() + ": holds nothing to draw");
   if (const auto flaw = find_invalid(scene)) throw Error(ErrorKind::Input, budget.file() + ": " + *flaw);
+  center_far_scene(scene);
   return scene;
 }
 

@@ -337,5 +337,18 @@ TEST(Assimp, DamagedFilesAreSoundOrRefusedInOneLine) {
   }
 }
 
+TEST(Assimp, FloatsFarFromTheOriginLoseNothingMore) {
+  if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
+  const auto read = [](const char* corners) {
+    return load(bytes_of(std::string("OFF\n3 1 0\n") + corners + "3 0 1 2\n"), "off");
+  };
+  const Scene far = read("1000000.5 0 0\n1000001.5 0 0\n1000000.5 1 0\n");
+  EXPECT_NE(far.origin, double3{});
+  EXPECT_EQ(far.in_file(far.bounds().low), (double3{1000000.5, 0, 0}));
+  EXPECT_EQ(far.in_file(far.bounds().high), (double3{1000001.5, 1, 0}));
+  EXPECT_LT(std::abs(far.meshes[0].position[0].x), 2);
+  EXPECT_EQ(read("10.5 0 0\n11.5 0 0\n10.5 1 0\n").origin, double3{});
+}
+
 }  // namespace
 }  // namespace zoneplate

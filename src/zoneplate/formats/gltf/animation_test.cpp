@@ -387,5 +387,35 @@ TEST(GltfNodes, InstancesOfANodeHaveTheNumbersOfTheirPrimitives) {
   EXPECT_EQ(s.instances[1].part, 2);
 }
 
+/// A node far away whose children move near it, and one that an animation carries far away itself.
+TEST(GltfAnimation, AFarSceneHasOneOriginAtAllTimes) {
+  GltfMaker m;
+  m.mesh(R"("POSITION":)" + m.values<float>("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, R"(,"min":[0,0,0],"max":[1,1,0])"));
+  const std::string input = m.floats("SCALAR", {1, 3}), near = m.floats("VEC3", {0, 0, 0, 400, 8, -2});
+  const std::string far = m.floats("VEC3", {500000, 5200000, 300, 500500, 5200000, 300});
+  const auto move = [&](const std::string& output) {
+    m.rest =
+        R"(,"animations":[{"channels":[{"sampler":0,"target":{"node":0,"path":"translation"}}],"samplers":[{"input":)" +
+        input + R"(,"output":)" + output + "}]}]";
+  };
+  m.nodes = R"({"mesh":0},{"translation":[500000.1,5200000.2,300.3],"children":[0]})";
+  m.scene_nodes = "1";
+  move(near);
+  const auto place = [](const Scene& s) { return s.in_file(xyz(s.instances.at(0).world_from_object.column[3])); };
+  const Scene first = at(m, 0), last = at(m, 3);
+  EXPECT_NE(first.origin, double3{});
+  EXPECT_EQ(last.origin, first.origin);
+  EXPECT_NEAR(place(first).x, 500000.1, 1e-6);
+  EXPECT_NEAR(place(last).x, 500400.1, 1e-4);
+  EXPECT_NEAR(place(last).y, 5200008.2, 1e-4);
+
+  m.nodes = R"({"mesh":0})", m.scene_nodes = "0";
+  move(far);
+  EXPECT_NE(at(m, 0).origin, double3{});
+  EXPECT_EQ(at(m, 2).origin, at(m, 0).origin);
+  EXPECT_NEAR(place(at(m, 2)).x, 500250, 1e-4);
+  EXPECT_EQ(place(at(m, 2)).y, 5200000);
+}
+
 }  // namespace
 }  // namespace zoneplate

@@ -17,6 +17,7 @@
 #include "zoneplate/formats/gltf/material.h"
 #include "zoneplate/formats/gltf/mesh.h"
 #include "zoneplate/formats/gltf/nodes.h"
+#include "zoneplate/scene/geometry/origin.h"
 
 namespace zoneplate {
 namespace {
@@ -159,8 +160,12 @@ std::optional<std::size_t> find_variant(GltfFile& file, const std::string& name)
 
 class SceneReader {
  public:
-  SceneReader(GltfFile& file, const SceneChoice& choice)
-      : file_(file), nodes_(file, choice), variant_(find_variant(file, choice.variant)) {}
+  /// `origin` is Scene::origin; nothing: it follows from this choice.
+  SceneReader(GltfFile& file, const SceneChoice& choice, const std::optional<double3>& origin)
+      : file_(file), nodes_(file, choice), variant_(find_variant(file, choice.variant)) {
+    scene_.origin = origin ? *origin : find_origin(file, nodes_);
+    if (scene_.origin != double3{}) nodes_.set_origin(scene_.origin);
+  }
   Scene read(const GltfMaterials& look, GltfModel::Images images);
 
  private:
@@ -178,10 +183,11 @@ class SceneReader {
   std::optional<std::size_t> variant_;
   Scene scene_;
 
-  /// A mesh in the scene: the number of its primitive, and the bounds of all of its vertices, and of those that are
-  /// used, if that was needed.
+  /// A mesh in the scene: the number of its primitive, what was subtracted from its positions, and the bounds of all of
+  /// its vertices, and of those that are used, if that was needed.
   struct Part {
     int number = 0;
+    double3 centre;
     Box all;
     std::optional<Box> used = std::nullopt;
   };
@@ -259,7 +265,9 @@ std::pair<std::size_t, std::size_t> SceneReader::find_meshes(const GltfNode& nod
   if (key.second) pose.joints = nodes_.joints(node);
   const std::size_t first = scene_.meshes.size();
   for (GltfPrimitive& primitive : load_gltf_mesh(file_, mesh, pose, scene_.materials)) {
-    parts_.push_back({primitive.number, bounds_of(primitive.mesh.position)});
+    // A skinned mesh is in world space, which is near enough to the scene's origin.
+    const double3 centre = nodes_.is_far() && !key.second ? center_far_mesh(primitive.mesh) : double3{};
+    parts_.push_back({primitive.number, centre, bounds_of(primitive.mesh.position)});
     scene_.meshes.push_back(std::move(primitive.mesh));
   }
   const std::pair range(first, scene_.meshes.size());
@@ -332,7 +340,10 @@ void SceneReader::add_mesh(const GltfNode& node, std::size_t mesh) {
       scene_.objects.share(first_object);
     // A skinned mesh is in world space already: the transform of its node is ignored.
     const float4x4 world_from_object = is_skinned ? float4x4{} : node.world_from_node * placements[i];
-    for (std::size_t m = range.first; m < range.second; ++m) add_instance(node, m, object, world_from_object);
+    for (std::size_t m = range.first; m < range.second; ++m) {
+      const bool is_far = nodes_.is_far() && !is_skinned;
+      add_instance(node, m, object, is_far ? nodes_.place(node, placements[i], parts_[m].centre) : world_from_object);
+    }
   }
 }
 
@@ -393,26 +404,46 @@ Scene SceneReader::read(const GltfMaterials& look, GltfModel::Images images) {
 
 }  // namespace
 
-/// The open file, and the budget that remained after opening it.
+/// The open file, the budget that remained after opening it, and what its scenes need at all times.
 struct GltfModel::Open {
   Open(const std::string& path, const LoadLimits& limits) : file(path, limits) {
     check_extensions(file);
     look = load_materials(file);
     left = file.budget().memory_left();
   }
+
+  /// Makes the file as it was after opening it, with the whole budget for a scene.
+  void restart() {
+    file.budget().restart(left);
+    file.edits().undo();
+    file.forget_zeros();
+  }
+
+  /// The origin of an animated scene, which is that of its first keys at all times; nothing without an animation.
+  std::optional<double3> find_origin(const SceneChoice& choice) {
+    std::pair key(choice.scene, chosen_animations(file, choice));
+    if (key.second.empty()) return std::nullopt;
+    if (const auto found = origins.find(key); found != origins.end()) return found->second;
+    restart();
+    SceneChoice first = choice;
+    first.time = -std::numeric_limits<double>::infinity();
+    const double3 origin = zoneplate::find_origin(file, GltfNodes(file, first));
+    return origins.emplace(std::move(key), origin).first->second;
+  }
+
   GltfFile file;
   GltfMaterials look;
   std::uint64_t left = 0;
+  std::map<std::pair<std::optional<int>, std::vector<std::size_t>>, double3> origins;  ///< by scene and animations
 };
 
 GltfModel::GltfModel(const std::string& path, const LoadLimits& limits) : open_(std::make_unique<Open>(path, limits)) {}
 GltfModel::~GltfModel() = default;
 
 Scene GltfModel::scene(const SceneChoice& choice, Images images) {
-  open_->file.budget().restart(open_->left);
-  open_->file.edits().undo();
-  open_->file.forget_zeros();
-  return SceneReader(open_->file, choice).read(open_->look, images);
+  const std::optional<double3> origin = open_->find_origin(choice);
+  open_->restart();
+  return SceneReader(open_->file, choice, origin).read(open_->look, images);
 }
 
 std::vector<double> GltfModel::key_times(const SceneChoice& choice) {

@@ -301,5 +301,92 @@ TEST(Gltf, NodesOfOneSkinShareTheirMesh) {
   EXPECT_EQ(s.meshes[static_cast<std::size_t>(s.instances[2].mesh)].position[1], (float3{1, 0, 0}));
 }
 
+/// The triangle with the bounds that the specification requires, at a place that floats round to 0.5.
+GltfMaker far_maker() {
+  GltfMaker m;
+  m.mesh(R"("POSITION":)" + m.values<float>("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}, R"(,"min":[0,0,0],"max":[1,1,0])"));
+  m.nodes = R"({"mesh":0,"translation":[500000.1,5200000.2,300.3]})";
+  return m;
+}
+
+double3 place_of(const Scene& s, float3 p, std::size_t instance = 0) {
+  const Instance& i = s.instances.at(instance);
+  const Mesh& mesh = s.meshes[static_cast<std::size_t>(i.mesh)];
+  const auto vertex = static_cast<std::size_t>(p == float3{} ? 0 : p.x > 0 ? 1 : 2);
+  return s.in_file(transform_point(i.world_from_object, mesh.position[vertex]));
+}
+
+void expect_place(double3 found, double3 wanted) {
+  EXPECT_NEAR(found.x, wanted.x, 1e-6);
+  EXPECT_NEAR(found.y, wanted.y, 1e-6);
+  EXPECT_NEAR(found.z, wanted.z, 1e-6);
+}
+
+TEST(Gltf, NodesFarFromTheOriginKeepTheirPlaces) {
+  const Scene s = load(far_maker());
+  EXPECT_LE(length(narrowed(s.origin - double3{500000.6, 5200000.7, 300.3})), 0.5f);
+  expect_place(place_of(s, {1, 0, 0}), {500001.1, 5200000.2, 300.3});
+  EXPECT_LT(s.bounds().high.y, 2);
+}
+
+TEST(Gltf, AFarAxisTurnIsAppliedToDoubles) {
+  // x, y up and z of the scene are x, z and -y of the survey.
+  GltfMaker m = far_maker();
+  m.nodes = R"({"rotation":[-0.7071067811865475,0,0,0.7071067811865476],"children":[1,2]},
+               {"mesh":0,"translation":[500000.1,5200000.2,300.3]},
+               {"mesh":0,"matrix":[0,1,0,0, -1,0,0,0, 0,0,1,0, 500002.3,5200000.4,300.5,1]})";
+  const Scene s = load(m);
+  expect_place(place_of(s, {0, 1, 0}), {500000.1, 300.3, -5200001.2});
+  expect_place(place_of(s, {1, 0, 0}, 1), {500002.3, 300.5, -5200001.4});
+}
+
+TEST(Gltf, FarMeshesInstancesCamerasAndLightsShareOneWorld) {
+  GltfMaker m = far_maker();
+  m.mesh(R"("POSITION":)" + m.values<float>("VEC3", {500001, 5200000, 300, 500002, 5200000, 300, 500001, 5200001, 300},
+                                            R"(,"min":[500001,5200000,300],"max":[500002,5200001,300])"));
+  const std::string copies = m.floats("VEC3", {0, 0, 0, 2, 3, 4});
+  m.nodes += R"(,{"mesh":1},{"mesh":0,"translation":[500000.1,5200000.2,300.3],
+                 "extensions":{"EXT_mesh_gpu_instancing":{"attributes":{"TRANSLATION":)" +
+             copies + R"(}}}},{"camera":0,"translation":[500000.3,5200000.1,309.7],
+                 "extensions":{"KHR_lights_punctual":{"light":0}}})";
+  m.scene_nodes = "0,1,2,3";
+  m.rest = R"(,"cameras":[{"type":"perspective","perspective":{"yfov":1,"znear":0.1}}],
+              "extensions":{"KHR_lights_punctual":{"lights":[{"type":"point"}]}})";
+  const Scene s = load(m);
+  ASSERT_EQ(s.instances.size(), 4u);
+  expect_place(place_of(s, {1, 0, 0}, 1), {500002, 5200000, 300});
+  expect_place(place_of(s, {1, 0, 0}, 2), {500001.1, 5200000.2, 300.3});
+  expect_place(place_of(s, {1, 0, 0}, 3), {500003.1, 5200003.2, 304.3});
+  expect_place(s.in_file(xyz(s.cameras.at(0).world_from_camera.column[3])), {500000.3, 5200000.1, 309.7});
+  expect_place(s.in_file(s.lights.at(0).position), {500000.3, 5200000.1, 309.7});
+}
+
+TEST(Gltf, NodesNearTheOriginKeepTheirBits) {
+  GltfMaker m = far_maker();
+  m.nodes = R"({"translation":[12.3,-40.7,0.1],"rotation":[0.1,0.2,0.3,0.9],"children":[1]},
+               {"mesh":0,"translation":[3.3,0.7,0.1]})";
+  const Scene s = load(m);
+  EXPECT_EQ(s.origin, double3{});
+  EXPECT_EQ(s.instances[0].world_from_object, translation({12.3f, -40.7f, 0.1f}) *
+                                                  rotation(Quaternion{0.1f, 0.2f, 0.3f, 0.9f}) *
+                                                  translation({3.3f, 0.7f, 0.1f}));
+}
+
+TEST(Gltf, SkinsFarFromTheOriginKeepTheirPlaces) {
+  GltfMaker m = far_maker();
+  const std::string joints = m.values<std::uint8_t>("VEC4", {0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0});
+  const std::string weights = m.floats("VEC4", {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0});
+  m.meshes =
+      R"({"primitives":[{"attributes":{"POSITION":0,"JOINTS_0":)" + joints + R"(,"WEIGHTS_0":)" + weights + "}}]}";
+  m.nodes = R"({"mesh":0,"skin":0},{"translation":[500000.1,5200000.2,300.3],"children":[2]},
+               {"translation":[0.4,0.5,0.6]})";
+  m.scene_nodes = "0,1";
+  m.rest = R"(,"skins":[{"joints":[1,2]}])";
+  const Scene s = load(m);
+  EXPECT_NE(s.origin, double3{});
+  expect_place(place_of(s, {1, 0, 0}), {500001.1, 5200000.2, 300.3});
+  expect_place(place_of(s, {0, 1, 0}), {500000.5, 5200001.7, 300.9});
+}
+
 }  // namespace
 }  // namespace zoneplate

@@ -35,7 +35,7 @@ Scene full_scene() {
   s.ambient_light = {1, 2, 3};
   s.environment = {.color = {3, 2, 1}, .image = 0, .rotation = 0.5f, .strength = 2};
   s.lights[0].is_in_camera_space = true;
-  s.up = {0, 0, 1};
+  s.origin = {500000.1, 2, 3}, s.up = {0, 0, 1};
   s.variants = {"red", "blue"};
   s.warnings = {"one", ""};
   s.cameras.push_back({.name = "eye", .is_orthographic = true, .half_height = 3, .aspect = 2});

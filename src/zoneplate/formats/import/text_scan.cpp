@@ -182,4 +182,13 @@ std::optional<float> find_number(std::string_view word) {
   return find_any_number(word);
 }
 
+std::optional<double> find_double(std::string_view word) {
+  const std::optional<float> rounded = find_number(word);
+  if (!rounded || !std::isfinite(*rounded)) return rounded;
+  if (word.starts_with('+')) word.remove_prefix(1);
+  double value = 0;
+  const bool is_in_range = std::from_chars(word.data(), word.data() + word.size(), value).ec == std::errc{};
+  return is_in_range ? value : static_cast<double>(*rounded);
+}
+
 }  // namespace zoneplate

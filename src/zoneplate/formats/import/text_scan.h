@@ -53,6 +53,9 @@ class LineWords {
 /// Exact     the float nearest to the decimal number, ties to even.
 std::optional<float> find_number(std::string_view word);
 
+/// The same number as the nearest double. Numbers outside the range of floats are those of find_number.
+std::optional<double> find_double(std::string_view word);
+
 /// Parses a number at the front of a text on a fast path: sign, digits, point, exponent.
 ///
 /// Returns the end of the number, which is a space or `end`; null if find_number has to parse it.

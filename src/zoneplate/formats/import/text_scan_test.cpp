@@ -112,5 +112,15 @@ TEST(LineWords, KeepSpacesInTheRest) {
   EXPECT_EQ(LineWords(" a\\\nb\tc ").rest(), "a  b c");
 }
 
+TEST(FindDouble, IsTheNearestDouble) {
+  EXPECT_EQ(find_double("5200000.123"), 5200000.123);
+  EXPECT_EQ(find_double("+5.2e6"), 5.2e6);
+  EXPECT_EQ(find_double("-0.1"), -0.1);
+  EXPECT_TRUE(std::isnan(*find_double("1.#IND")));
+  EXPECT_TRUE(std::isinf(*find_double("1e400")));
+  EXPECT_EQ(find_double("1e-400"), 0.0);
+  for (const char* word : {"", "+", "x", "1x", "--1", "+-1"}) EXPECT_FALSE(find_double(word)) << word;
+}
+
 }  // namespace
 }  // namespace zoneplate

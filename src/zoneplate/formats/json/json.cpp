@@ -242,18 +242,26 @@ std::size_t JsonView::index(const char* key, std::size_t count) const {
   return *find_index(key, count);
 }
 
-std::vector<float> JsonView::numbers(const char* key, std::size_t count) const {
+template <class T>
+std::vector<T> JsonView::number_list(const char* key, std::size_t count) const {
   if (!has(key)) return {};
-  std::vector<float> out;
+  std::vector<T> out;
   for (const JsonValue& v : list(key)) {
     if (v.kind != JsonValue::Kind::Number) fail(std::string(key) + " holds " + name_of(v.kind) + ", expected numbers");
     if (!(std::abs(v.number) <= static_cast<double>(std::numeric_limits<float>::max())))
       fail(std::string(key) + " holds " + text_of(v.number) + ", expected numbers within a float's range");
-    out.push_back(static_cast<float>(v.number));
+    out.push_back(static_cast<T>(v.number));
   }
   if (count != 0 && out.size() != count)
     fail(std::string(key) + " holds " + std::to_string(out.size()) + " numbers, expected " + std::to_string(count));
   return out;
+}
+
+std::vector<float> JsonView::numbers(const char* key, std::size_t count) const {
+  return number_list<float>(key, count);
+}
+std::vector<double> JsonView::doubles(const char* key, std::size_t count) const {
+  return number_list<double>(key, count);
 }
 
 std::vector<std::size_t> JsonView::indices(const char* key, std::size_t count) const {

@@ -77,6 +77,8 @@ class JsonView {
   std::size_t index(const char* key, std::size_t count) const;
   /// A list of finite floats; empty if it is missing, otherwise of `count` elements (0: any number).
   std::vector<float> numbers(const char* key, std::size_t count) const;
+  /// The same numbers as doubles.
+  std::vector<double> doubles(const char* key, std::size_t count) const;
   /// A list of indices into a list of `count` elements; empty if it is missing.
   std::vector<std::size_t> indices(const char* key, std::size_t count) const;
   std::vector<std::string> texts(const char* key) const;
@@ -85,6 +87,8 @@ class JsonView {
   const JsonValue* find(const char* key) const;
   const JsonValue* find(const char* key, JsonValue::Kind kind) const;
   std::span<const JsonValue> list(const char* key) const;
+  template <class T>
+  std::vector<T> number_list(const char* key, std::size_t count) const;
 
   const JsonValue* value_;
   std::string place_;

@@ -380,4 +380,14 @@ void read_obj_part(std::string_view text, char separator, const ObjCounts& befor
   part.counts = reader.counts();
 }
 
+void read_obj_positions(std::string_view text, char separator, double3 origin, std::span<float3> out) {
+  TextLines lines(text, 0, separator);
+  for (std::size_t i = 0; i < out.size() && lines.next();) {
+    LineWords words(lines.line());
+    if (words.next() != "v") continue;
+    const auto number = [&] { return find_double(words.next()).value_or(std::numeric_limits<double>::quiet_NaN()); };
+    out[i++] = narrowed(double3{number(), number(), number()} - origin);
+  }
+}
+
 }  // namespace zoneplate

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -91,5 +92,11 @@ bool read_obj_part(std::string_view text, char separator, ObjPart& part);
 /// Errors    ObjLineError: a word that is not a number, too few numbers. An element with a corner that is no index, or
 ///           that of a missing vertex, is dropped with ObjNote::BadCorner.
 void read_obj_part(std::string_view text, char separator, const ObjCounts& before, const ObjCounts& all, ObjPart& part);
+
+/// Reads the positions of a part once more, relative to `origin`, which is subtracted in double before they are rounded
+/// to floats.
+///
+/// Requires  the part was read without an error; `out` has an element for each of its positions.
+void read_obj_positions(std::string_view text, char separator, double3 origin, std::span<float3> out);
 
 }  // namespace zoneplate

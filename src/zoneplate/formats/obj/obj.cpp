@@ -224,6 +224,7 @@ Scene load_obj(const std::string& path, const LoadLimits& limits) {
   Scene scene;
   ObjFile file =
       parse_obj(text_of(bytes), budget, [&](std::string_view part) { bytes.forget(part.data(), part.size()); });
+  scene.origin = file.origin;
   report_notes(file, budget, scene.warnings);
   if (!has_elements(file) && scene.warnings.empty()) make_points(file, budget);
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/formats/obj/obj.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -486,6 +487,37 @@ TEST_P(SharedInvalidObj, IsRefusedOrDrawnWithAWarning) {
 }
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedInvalidObj);
 INSTANTIATE_TEST_SUITE_P(Obj, SharedInvalidObj, testing::ValuesIn(shared_files_ending("data/invalid/obj", {".obj"})));
+
+TEST_F(ObjModel, PositionsFarFromTheOriginKeepTheirPlaces) {
+  // Several parts of the text, which are read in parallel; an unused vertex at 0, continued lines and colours.
+  constexpr int count = 60000;
+  std::string text = "v 0 0 0\n";
+  for (int i = 0; i < count; ++i) {
+    const double x = 500000.1 + 0.001 * i, y = 5200000.7 - 0.002 * i;
+    text += i % 3 == 0   ? fmt::format("v {:.3f} {:.3f} 100.125\n", x, y)
+            : i % 3 == 1 ? fmt::format("  v  {:.3f} \\\n {:.3f}  +1.00125e2 1 0 0\n", x, y)
+                         : fmt::format("v\t{:.3f}\t{:.3f}\t100.125\r\n", x, y);
+  }
+  for (int i = 0; i + 2 < count; i += 3) text += fmt::format("f {} {} {}\n", i + 2, i + 3, i + 4);
+  const Scene s = load(text);
+  EXPECT_NE(s.origin, double3{});
+  ASSERT_EQ(s.meshes.size(), 1u);
+  ASSERT_EQ(s.meshes[0].position.size(), static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    const double3 p = s.in_file(s.meshes[0].position[static_cast<std::size_t>(i)]);
+    ASSERT_NEAR(p.x, 500000.1 + 0.001 * i, 1e-5) << i;
+    ASSERT_NEAR(p.y, 5200000.7 - 0.002 * i, 1e-5) << i;
+    ASSERT_NEAR(p.z, 100.125, 1e-5) << i;
+  }
+}
+
+TEST_F(ObjModel, PointsFarFromTheOriginKeepTheirPlaces) {
+  const Scene s = load("v 4200000.01 120000.02 4780000.03\nv 4200000.02 120000.02 4780000.03\n");
+  ASSERT_EQ(s.meshes[0].topology, Topology::Points);
+  const float3 way = s.meshes[0].position[1] - s.meshes[0].position[0];
+  EXPECT_NEAR(way.x, 0.01, 1e-7);
+  EXPECT_EQ(load("v 40.01 12.02 47.03\nv 40.02 13.02 47.03\n").origin, double3{});
+}
 
 }  // namespace
 }  // namespace zoneplate

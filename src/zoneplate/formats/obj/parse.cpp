@@ -11,6 +11,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/large_array.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/scene/geometry/origin.h"
 
 namespace zoneplate {
 namespace {
@@ -114,6 +115,35 @@ std::vector<ObjCounts> read_parts(const std::vector<std::string_view>& texts, ch
   return before;
 }
 
+/// The origin of the vertices that an element uses; of all, in a file without elements.
+double3 choose_origin(const ObjFile& file) {
+  OriginChoice choice;
+  constexpr std::size_t corners_per_check = 64;
+  bool has_corners = false;
+  for (const ObjChunk& chunk : file.chunks)
+    for (std::size_t i = 0; i < chunk.corners.size() && (i % corners_per_check != 0 || !choice.is_near()); ++i)
+      choice.add(file.positions[chunk.corners.position(i)]), has_corners = true;
+  if (!has_corners) choice.add(file.positions);
+  return choice.origin();
+}
+
+/// Reads the positions again where floats lose too much of them: in files far from the origin.
+void center_far_positions(const std::vector<std::string_view>& texts, char separator,
+                          const std::vector<ObjCounts>& before, ImportBudget& budget,
+                          const std::function<void(std::string_view)>& done, ObjFile& file) {
+  file.origin = choose_origin(file);
+  if (file.origin == double3{}) return;
+  const std::span<float3> positions = file.positions;
+  parallel_for(texts.size(), [&](std::size_t i) {
+    if (!budget.has_time()) return;
+    const auto begin = static_cast<std::size_t>(before[i].positions);
+    const std::size_t count = static_cast<std::size_t>(before[i + 1].positions) - begin;
+    read_obj_positions(texts[i], separator, file.origin, positions.subspan(begin, count));
+    done(texts[i]);
+  });
+  budget.check_time();
+}
+
 }  // namespace
 
 ObjFile parse_obj(std::string_view text, ImportBudget& budget, const std::function<void(std::string_view)>& done) {
@@ -143,6 +173,7 @@ ObjFile parse_obj(std::string_view text, ImportBudget& budget, const std::functi
     for (std::size_t i = 0; i < 3; ++i) join_kind(i);
   join_colors(parts, before, budget, file);
   for (ObjPart& part : parts) file.chunks.push_back(std::move(part.chunk));
+  center_far_positions(texts, separator, before, budget, done, file);
   return file;
 }
 

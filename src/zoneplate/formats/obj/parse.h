@@ -12,7 +12,8 @@ namespace zoneplate {
 
 /// The contents of an OBJ file. Indices are zero-based and validated; -1 means none.
 struct ObjFile {
-  std::vector<float3> positions;  ///< as in the file, and therefore not always finite
+  std::vector<float3> positions;  ///< as in the file, relative to `origin`, and therefore not always finite
+  double3 origin;                 ///< Scene::origin
   /// As many as positions, or empty; sRGB codes as in the file, white for positions without colour.
   std::vector<float4> colors;
   std::vector<float2> uvs;        ///< finite; origin at the bottom left

@@ -6,12 +6,18 @@
 
 namespace zoneplate {
 
-/// Reads the vertices of a PLY file as a mesh without indices: positions and the other attributes that are present.
+/// A mesh without indices, and the Scene::origin that its positions are relative to.
+struct PlyVertices {
+  Mesh mesh;
+  double3 origin;
+};
+
+/// Reads the vertices of a PLY file: positions and the other attributes that are present.
 ///
 /// Colours are sRGB codes: integers over their whole range, floats in [0, 1], or either in [0, 255] (one_of). The
 /// origin of texture coordinates in the file is at the bottom left.
 /// Errors    ErrorKind::Input: no x, y or z, or more vertices than 32-bit indices can address.
-Mesh read_ply_vertices(const PlyRows& rows, ImportBudget& budget);
+PlyVertices read_ply_vertices(const PlyRows& rows, ImportBudget& budget);
 
 /// Faces, strips or edges with the index of a vertex that does not exist: they are dropped.
 struct PlyStrays {

@@ -90,12 +90,12 @@ void complete_normals(Mesh& mesh, ImportBudget& budget) {
 }
 
 /// Reads the vertices and, if the triangles are plain, in parallel the indices: page faults dominate the time of both.
-void read_arrays(const Found& found, Mesh& mesh, PlyFaces& faces, ImportBudget& budget) {
+void read_arrays(const Found& found, PlyVertices& vertices, PlyFaces& faces, ImportBudget& budget) {
   const bool are_plain = found.faces && are_plain_triangles(*found.faces);
   const std::uint64_t bytes = are_plain ? found.faces->count() * 3 * sizeof(std::uint32_t) : 0;
   budget.take(bytes);
   parallel_for(2, [&](std::size_t i) {
-    if (i == 0) mesh = read_ply_vertices(*found.vertices, budget);
+    if (i == 0) vertices = read_ply_vertices(*found.vertices, budget);
     if (i == 1 && are_plain) faces.index = read_plain_triangles(*found.faces, found.vertices->count());
   });
   if (faces.index.empty()) budget.give_back(bytes);
@@ -208,9 +208,11 @@ Scene load_ply(const std::string& path, const LoadLimits& limits) {
   Scene scene;
   for (const std::string& warning : header.warnings) budget.warn_of_flaw(scene.warnings, warning);
   const Found found = find_elements(header, body, budget);
-  Mesh mesh;
+  PlyVertices read;
   PlyFaces faces;
-  read_arrays(found, mesh, faces, budget);
+  read_arrays(found, read, faces, budget);
+  scene.origin = read.origin;
+  Mesh mesh = std::move(read.mesh);
   const std::size_t vertices = mesh.position.size();
   choose_primitives(found, header.textures.size(), mesh, faces, budget);
   warn_of_strays(scene, budget, faces.strays, vertices);

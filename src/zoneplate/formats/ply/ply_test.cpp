@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/formats/ply/ply.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <filesystem>
 
@@ -392,6 +394,55 @@ TEST(SmoothNormals, AreThoseOfTheSphereWhoseVerticesTheyAre) {
   for (std::uint32_t i = 0; i < 5; ++i) m.index.insert(m.index.end(), {0, 1 + i, 1 + (i + 1) % 5});
   make_smooth_normals(m);
   EXPECT_NEAR(m.normal[0].y, 1, 1e-6f);
+}
+
+/// A point cloud of doubles, 1 cm apart in a far place, as text or binary; with a list of another length in each row
+/// or without.
+Bytes far_cloud(bool is_binary, bool has_lists) {
+  const std::string order = is_binary ? "binary_little_endian" : "ascii";
+  const std::string head = "ply\nformat " + order +
+                           " 1.0\nelement vertex 3600\nproperty double x\nproperty double y\nproperty double z\n" +
+                           (has_lists ? "property list uchar uchar more\n" : "") + "end_header\n";
+  Bytes out(head.begin(), head.end());
+  for (int i = 0; i < 3600; ++i) {
+    const std::array<double, 3> p = {500000 + 0.01 * (i % 60), 5200000 + 0.01 * (i / 60), 100.5};
+    const int items = has_lists ? i % 3 : -1;
+    std::string text = fmt::format("{:.2f} {:.2f} {}", p[0], p[1], p[2]);
+    if (has_lists) text += fmt::format(" {}", items);
+    for (int k = 0; k < items; ++k) text += " 7";
+    if (!is_binary) {
+      out.insert(out.end(), text.begin(), text.end()), out.push_back('\n');
+      continue;
+    }
+    const auto* const bytes = reinterpret_cast<const std::uint8_t*>(p.data());
+    out.insert(out.end(), bytes, bytes + sizeof p);
+    if (has_lists) out.push_back(static_cast<std::uint8_t>(items));
+    for (int k = 0; k < items; ++k) out.push_back(7);
+  }
+  return out;
+}
+
+TEST(Ply, DoublesFarFromTheOriginKeepTheirPlaces) {
+  for (const bool is_binary : {false, true})
+    for (const bool has_lists : {false, true}) {
+      const Scene s = load(far_cloud(is_binary, has_lists));
+      EXPECT_EQ(s.origin, (double3{500000.3125, 5200000.3125, 100.5}));
+      for (int i = 0; i < 3600; ++i) {
+        const double3 p = s.in_file(s.meshes[0].position[static_cast<std::size_t>(i)]);
+        EXPECT_NEAR(p.x, 500000 + 0.01 * (i % 60), 2e-8) << i;
+        EXPECT_NEAR(p.y, 5200000 + 0.01 * (i / 60), 2e-8) << i;
+        EXPECT_EQ(p.z, 100.5);
+      }
+    }
+}
+
+TEST(Ply, FloatsFarFromTheOriginKeepTheirBits) {
+  const std::string head = "ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "end_header\n";
+  const Scene far = load(head + "4200000.5 7 0\n4200001 7 0\n"), near = load(head + "60.1 7 0\n61.3 7.7 0.3\n");
+  EXPECT_EQ(far.in_file(far.meshes[0].position[0]), (double3{4200000.5, 7, 0}));
+  EXPECT_NE(far.origin, double3{});
+  EXPECT_EQ(near.origin, double3{});
+  EXPECT_EQ(near.meshes[0].position, (std::vector<float3>{{60.1f, 7, 0}, {61.3f, 7.7f, 0.3f}}));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/formats/ply/mesh.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/scene/geometry/origin.h"
 
 namespace zoneplate {
 namespace {
@@ -52,6 +53,44 @@ void read_columns(const PlyRows& rows, const std::array<std::size_t, n>& propert
   parallel_ranges(rows.count(), PlyRows::block, [&](std::size_t begin, std::size_t end) {
     for (std::size_t c = 0; c < n; ++c)
       read_ply_column(rows, begin, end, properties[c], reinterpret_cast<float*>(&out[begin]) + c, n);
+  });
+}
+
+using Columns = std::array<std::size_t, 3>;
+
+/// The position of a row in the coordinates of the file.
+double3 place_of(const PlyRows& rows, const Columns& position, std::span<const PlyPlace> places) {
+  const auto value = [&](std::size_t property) {
+    return read_ply_value(places[property].at, rows.element->properties[property].type, rows.order);
+  };
+  return {value(position[0]), value(position[1]), value(position[2])};
+}
+
+double3 choose_origin(const PlyRows& rows, const Columns& position) {
+  OriginChoice choice;
+  if (rows.stride == 0) {
+    for (std::size_t begin = 0; begin < rows.count() && !choice.is_near(); begin += PlyRows::block)
+      for_ply_rows(
+          rows, begin, std::min(begin + PlyRows::block, rows.count()),
+          [&](std::size_t, std::span<const PlyPlace> places) { choice.add(place_of(rows, position, places)); });
+    return choice.origin();
+  }
+  std::vector<PlyPlace> places = rows.count() > 0 ? first_ply_row(rows) : std::vector<PlyPlace>();
+  constexpr std::size_t rows_per_check = 64;
+  for (std::size_t i = 0; i < rows.count() && (i % rows_per_check != 0 || !choice.is_near()); ++i) {
+    choice.add(place_of(rows, position, places));
+    for (const std::size_t property : position) places[property].at += rows.stride;
+  }
+  return choice.origin();
+}
+
+/// Reads positions relative to `origin`, which is subtracted before they are rounded to floats.
+void read_places(const PlyRows& rows, const Columns& position, double3 origin, std::vector<float3>& out) {
+  if (origin == double3{}) return read_columns(rows, position, out);
+  parallel_ranges(rows.count(), PlyRows::block, [&](std::size_t begin, std::size_t end) {
+    for_ply_rows(rows, begin, end, [&](std::size_t i, std::span<const PlyPlace> places) {
+      out[i] = narrowed(place_of(rows, position, places) - origin);
+    });
   });
 }
 
@@ -112,7 +151,7 @@ void normalize_all(std::vector<float3>& normals) {
 
 }  // namespace
 
-Mesh read_ply_vertices(const PlyRows& rows, ImportBudget& budget) {
+PlyVertices read_ply_vertices(const PlyRows& rows, ImportBudget& budget) {
   const PlyElement& e = *rows.element;
   const auto position = find_all<3>(e, {Names{"x"}, {"y"}, {"z"}});
   if (!position) throw Error(ErrorKind::Input, budget.file() + ": element vertex: has no x, y and z");
@@ -135,7 +174,8 @@ Mesh read_ply_vertices(const PlyRows& rows, ImportBudget& budget) {
     if (i == 2 && color) make(mesh.color);
     if (i == 3 && uv) make(mesh.uv0);
   });
-  read_columns(rows, *position, mesh.position);
+  const double3 origin = choose_origin(rows, *position);
+  read_places(rows, *position, origin, mesh.position);
   if (normal) read_columns(rows, *normal, mesh.normal), normalize_all(mesh.normal);
   if (uv) read_columns(rows, *uv, mesh.uv0);
   for (float2& t : mesh.uv0) t.y = 1 - t.y;
@@ -144,7 +184,7 @@ Mesh read_ply_vertices(const PlyRows& rows, ImportBudget& budget) {
     read_columns(rows, all, mesh.color);
     decode_colors(e, all, alpha.has_value(), mesh.color);
   }
-  return mesh;
+  return {std::move(mesh), origin};
 }
 
 }  // namespace zoneplate

@@ -21,6 +21,7 @@
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/scene/geometry/flat_normals.h"
+#include "zoneplate/scene/geometry/origin.h"
 #include "zoneplate/scene/geometry/triangulate.h"
 #include "zoneplate/scene/sanitize.h"
 
@@ -151,6 +152,7 @@ void read_binary(Bytes bytes, const std::string& name, Scene& scene, ImportBudge
                                          bytes.size() - header_bytes - said * facet_bytes));
   if (count > 0xffffffffu / 3) throw Error(ErrorKind::Input, budget.file() + ": more than 2^32 corners");
   add_mesh(scene, read_facets(bytes, count, budget), name, budget);
+  center_far_scene(scene);
 }
 
 /// Converts the loops [begin, end) to triangles.
@@ -181,8 +183,21 @@ Mesh make_mesh(const StlText& text, std::uint64_t begin, std::uint64_t end, cons
   return mesh;
 }
 
+/// Parses the text, and again where its vertices are far from the origin, so that they lose nothing as floats.
+StlText parse(std::string_view text, Scene& scene, ImportBudget& budget) {
+  const std::uint64_t before = budget.memory_left();
+  StlText out = parse_stl_text(text, budget);
+  OriginChoice choice;
+  choice.add(out.vertices);
+  scene.origin = choice.origin();
+  if (scene.origin == double3{}) return out;
+  out = {};
+  budget.give_back(before - budget.memory_left());
+  return parse_stl_text(text, budget, scene.origin);
+}
+
 void read_text(Bytes bytes, const std::string& name, Scene& scene, ImportBudget& budget) {
-  StlText text = parse_stl_text({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, budget);
+  StlText text = parse({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, scene, budget);
   if (text.vertices.size() > 0xffffffffu / 3) throw Error(ErrorKind::Input, budget.file() + ": more than 2^32 corners");
   budget.take(3 * text.vertices.size() * (2 * sizeof(float3) + sizeof(std::uint32_t)));
   if (text.solids.empty() || text.solids[0].before > 0) text.solids.insert(text.solids.begin(), {0, ""});

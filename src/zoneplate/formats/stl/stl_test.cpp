@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 #include "zoneplate/base/parallel.h"
@@ -165,6 +166,32 @@ TEST(Stl, SolidsCountAsMemory) {
   for (int i = 0; i < 40000; ++i) text += "solid facet outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0\n";
   for (std::size_t at = 0; (at = text.find("solid facet", at)) != text.npos;) text[at + 5] = '\n';
   EXPECT_EQ(refusal(text), "needs more than the limit of 16 MB (--max-memory)");
+}
+
+TEST(Stl, TextFarFromTheOriginKeepsItsPlaces) {
+  const std::string facet =
+      "facet normal 0 0 1 outer loop vertex 500000.01 5200000.02 100.03 vertex 500000.04 5200000.02 "
+      "100.03 vertex 500000.01 5200000.05 100.03 endloop endfacet ";
+  const Scene s = load("solid a\n" + facet + "endsolid a\nsolid b\n" + facet + "endsolid b\n");
+  ASSERT_EQ(s.meshes.size(), 2u);
+  EXPECT_NE(s.origin, double3{});
+  for (const Mesh& mesh : s.meshes) {
+    const double3 p = s.in_file(mesh.position[1]);
+    EXPECT_NEAR(p.x, 500000.04, 1e-6);
+    EXPECT_NEAR(p.y, 5200000.02, 1e-6);
+    EXPECT_NEAR(p.z, 100.03, 1e-6);
+    EXPECT_EQ(mesh.normal[0], (float3{0, 0, 1}));
+  }
+}
+
+TEST(Stl, BinaryFarFromTheOriginKeepsItsFloats) {
+  constexpr float x = 1000000.5f;
+  const Scene s = load(binary({{{x, 0, 0, x + 1, 0, 0, x, 1, 0}}}));
+  EXPECT_NE(s.origin, double3{});
+  EXPECT_EQ(s.in_file(transform_point(s.instances[0].world_from_object, s.meshes[0].position[1])),
+            (double3{1000001.5, 0, 0}));
+  EXPECT_LT(std::abs(s.meshes[0].position[1].x), 2);
+  EXPECT_EQ(load(binary({{{9.1f, 0, 0, 8, 0, 0, 9, 1, 0}}})).meshes[0].position[0], (float3{9.1f, 0, 0}));
 }
 
 }  // namespace

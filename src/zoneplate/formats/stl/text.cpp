@@ -69,7 +69,8 @@ void add_solid(StlText& text, StlText::Solid solid) {
 /// Parses one part of the text independently of the others.
 class PartReader {
  public:
-  explicit PartReader(std::string_view part) : at_(part.data()), end_(part.data() + part.size()) {}
+  PartReader(std::string_view part, double3 origin)
+      : at_(part.data()), end_(part.data() + part.size()), origin_(origin), is_far_(origin != double3{}) {}
 
   StlText read() {
     constexpr std::uint64_t statements_per_check = 4096;
@@ -116,16 +117,23 @@ class PartReader {
     return line;
   }
 
-  float number() {
+  template <class T>
+  T number(std::optional<T> (*find)(std::string_view)) {
     const std::string_view word = next();
-    const std::optional<float> value = find_number(word);
+    const std::optional<T> value = find(word);
     if (!value) throw TextError{word.data(), fmt::format("'{}' is not a number", word.substr(0, 40))};
     return *value;
   }
 
   float3 triple() {
-    const float x = number(), y = number();
-    return {x, y, number()};
+    const float x = number(find_number), y = number(find_number);
+    return {x, y, number(find_number)};
+  }
+
+  float3 place() {
+    if (!is_far_) return triple();
+    const double x = number(find_double), y = number(find_double);
+    return narrowed(double3{x, y, number(find_double)} - origin_);
   }
 
   void end_loop() {
@@ -137,7 +145,7 @@ class PartReader {
     const std::string_view word = next();
     if (word.empty()) return false;
     if (is_word(word, "vertex")) {
-      out_.vertices.push_back(triple());
+      out_.vertices.push_back(place());
     } else if (is_word(word, "normal")) {
       triple();
     } else if (is_word(word, "solid")) {
@@ -157,6 +165,8 @@ class PartReader {
 
   const char* at_;
   const char* end_;
+  double3 origin_;
+  bool is_far_;
   std::uint64_t begin_ = 0;  ///< the first vertex of the open loop
   StlText out_;
 };
@@ -190,7 +200,7 @@ std::size_t find_stl_solid(std::string_view text) {
   return is_word(text.substr(at, 5), "solid") ? at : std::string_view::npos;
 }
 
-StlText parse_stl_text(std::string_view text, ImportBudget& budget) {
+StlText parse_stl_text(std::string_view text, ImportBudget& budget, double3 origin) {
   const char* const begin = text.data();
   if (const std::size_t solid = find_stl_solid(text); solid != text.npos) text.remove_prefix(solid);
   const std::vector<std::string_view> cuts = cut(text);
@@ -206,7 +216,7 @@ StlText parse_stl_text(std::string_view text, ImportBudget& budget) {
   parallel_for(cuts.size(), [&](std::size_t i) {
     if (!budget.has_time() || solids * solid_bytes > budget.memory_left()) return;
     try {
-      parts[i] = PartReader(cuts[i]).read();
+      parts[i] = PartReader(cuts[i], origin).read();
     } catch (TextError& error) {
       errors[i] = std::move(error);
     }

@@ -29,7 +29,9 @@ std::size_t find_stl_solid(std::string_view text);
 /// Parses an ASCII STL file, in parallel. Words are separated by any white space and are case-insensitive; comments are
 /// as for find_stl_solid. The name of a solid ends with its line, or before "facet normal".
 ///
+/// Vertices are relative to `origin`, which is subtracted in double before they are rounded to floats.
+///
 /// Errors    ErrorKind::Input naming file, line and cause: an unknown word, a word that is not a number.
-StlText parse_stl_text(std::string_view text, ImportBudget& budget);
+StlText parse_stl_text(std::string_view text, ImportBudget& budget, double3 origin = {});
 
 }  // namespace zoneplate
