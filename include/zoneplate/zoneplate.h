@@ -163,6 +163,9 @@ zoneplate_status zoneplate_scene_add_mesh(zoneplate_scene* scene, const zoneplat
 /// Adds an instance of a mesh as an object of its own. `world_from_object`: 16 numbers row by row, affine, acting on
 /// column vectors; null: the identity. `name` may be null. `index` gets the object's index, which is its value in the
 /// array "object-id".
+///
+/// If the first instance lies farther from the origin than 64 times its size, as in the coordinates of surveys, the
+/// scene is rendered around it: positions and transforms of doubles, and cameras, lose nothing to floats.
 zoneplate_status zoneplate_scene_add_instance(zoneplate_scene* scene, int32_t mesh, const double* world_from_object,
                                               const char* name, int32_t* index);
 
@@ -179,7 +182,7 @@ typedef struct zoneplate_light {
   zoneplate_light_kind kind;   ///< ZONEPLATE_DIRECTIONAL by default
   const float* color;          ///< linear red, green, blue; null: white
   const float* intensity;      ///< lux (directional) or candela; null: 1
-  const float* position;       ///< of point and spot lights
+  const double* position;      ///< of point and spot lights
   const float* direction;      ///< from the light; null: (0, 0, -1)
   const float* range;          ///< where the light ends; null: nowhere
   float inner_cone;            ///< of spot lights, radians: full intensity up to this angle
@@ -232,8 +235,8 @@ typedef struct zoneplate_camera {
 typedef struct zoneplate_view {
   size_t size;                ///< sizeof(zoneplate_view)
   const int32_t* index;       ///< a camera of the file; null: a view of the whole scene
-  const float* position;      ///< of the eye, three numbers in world space
-  const float* focal_point;   ///< where the camera looks, three numbers
+  const double* position;     ///< of the eye, three numbers in world space
+  const double* focal_point;  ///< where the camera looks, three numbers
   const float* view_up;       ///< upwards in the image, three numbers
   const float* vertical_fov;  ///< field of view
   const float* azimuth;       ///< of the view of the whole scene from the front to the right, or a turn; null: 30°
@@ -291,10 +294,10 @@ typedef struct zoneplate_render_options {
 /// Renders an image with the arrays "color" and those of the data passes. `camera` null: the default view, as of
 /// the command. `options` may be null.
 ///
-/// Arrays of data passes: "depth" (distance along the view axis, infinite in empty pixels), "normal", "position",
-/// "albedo", "uv", "coverage", "mip-level", "anisotropy" and "error" are float32; "object-id", "material-id" and
-/// "primitive-id" are uint32, 0xffffffff in empty pixels; "crypto-object" and "crypto-material" are the arrays
-/// "CryptoObject00", "CryptoObject01", ... of their ranks.
+/// Arrays of data passes: "depth" (distance along the view axis, infinite in empty pixels), "normal", "position" (in
+/// floats, which are multiples of 0.5 at 5,000,000), "albedo", "uv", "coverage", "mip-level", "anisotropy" and "error"
+/// are float32; "object-id", "material-id" and "primitive-id" are uint32, 0xffffffff in empty pixels; "crypto-object"
+/// and "crypto-material" are the arrays "CryptoObject00", "CryptoObject01", ... of their ranks.
 zoneplate_status zoneplate_render(zoneplate_scene* scene, const zoneplate_camera* camera,
                                   const zoneplate_render_options* options, zoneplate_image** image);
 

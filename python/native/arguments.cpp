@@ -172,6 +172,11 @@ bool Storage::set(const Field& field, PyObject* value, void* member) {
       store(member, kept);
       return true;
     }
+    case Kind::Place: {
+      double* const kept = places_.emplace_back().data();
+      store(member, kept);
+      return read_numbers(value, field.name, 3, kept);
+    }
     case Kind::Ints: {
       if (!read_numbers(value, field.name, field.count, numbers)) return false;
       for (int i = 0; i < field.count; ++i) {

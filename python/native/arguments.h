@@ -41,6 +41,7 @@ enum class Kind {
   OptionalInt,    ///< const int32_t*
   OptionalFloat,  ///< const float*
   Floats,         ///< const float*, to `count` numbers
+  Place,          ///< const double*, to three numbers
   Ints,           ///< int32_t[count]
   Doubles,        ///< double[count]
   Array,          ///< zoneplate_array
@@ -65,6 +66,7 @@ class Storage {
   bool set(const Field& field, PyObject* value, void* member);
 
   std::deque<std::array<float, 16>> floats_;
+  std::deque<std::array<double, 3>> places_;
   std::deque<std::int32_t> ints_;
   std::deque<InputArray> arrays_;
 };

@@ -52,7 +52,7 @@ constexpr Field mesh_fields[] = {FIELD(zoneplate_mesh, name, Text),
 constexpr Field light_fields[] = {FIELD(zoneplate_light, kind, Int),
                                   FIELD(zoneplate_light, color, Floats, 3),
                                   FIELD(zoneplate_light, intensity, OptionalFloat),
-                                  FIELD(zoneplate_light, position, Floats, 3),
+                                  FIELD(zoneplate_light, position, Place),
                                   FIELD(zoneplate_light, direction, Floats, 3),
                                   FIELD(zoneplate_light, range, OptionalFloat),
                                   FIELD(zoneplate_light, inner_cone, Float),
@@ -66,8 +66,8 @@ constexpr Field camera_fields[] = {FIELD(zoneplate_camera, world_from_camera, Do
                                    FIELD(zoneplate_camera, near, Double),
                                    FIELD(zoneplate_camera, far, Double)};
 constexpr Field view_fields[] = {
-    FIELD(zoneplate_view, index, OptionalInt),          FIELD(zoneplate_view, position, Floats, 3),
-    FIELD(zoneplate_view, focal_point, Floats, 3),      FIELD(zoneplate_view, view_up, Floats, 3),
+    FIELD(zoneplate_view, index, OptionalInt),          FIELD(zoneplate_view, position, Place),
+    FIELD(zoneplate_view, focal_point, Place),          FIELD(zoneplate_view, view_up, Floats, 3),
     FIELD(zoneplate_view, vertical_fov, OptionalFloat), FIELD(zoneplate_view, azimuth, OptionalFloat),
     FIELD(zoneplate_view, elevation, OptionalFloat),    FIELD(zoneplate_view, is_orthographic, Flag)};
 constexpr Field render_fields[] = {FIELD(zoneplate_render_options, width, Int),

@@ -70,6 +70,19 @@ class Arrays(unittest.TestCase):
             array.__dlpack__(copy=True)
         self.assertEqual(image.array().__dlpack_device__(), (1, 0))
 
+    def test_doubles_far_from_the_origin_keep_their_places(self):
+        corners, place = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.5]]), np.array([500000.125, 5200000.25, 300.5])
+        eye, focus = np.array([1.0, 1.5, 3.0]), np.array([0.3, 0.3, 0.2])
+
+        def rendered(origin):
+            scene = zoneplate.Scene.from_arrays(corners + origin, [[0, 1, 2]], flat=True)
+            camera = scene.camera(zoneplate.View(position=tuple(eye + origin), focal_point=tuple(focus + origin)))
+            np.testing.assert_allclose([row[3] for row in camera.matrix[:3]], eye + origin, rtol=0, atol=1e-5)
+            self.assertEqual(scene.bounds[0], tuple(origin))
+            return np.asarray(scene.render(camera, size=(40, 30)).color).astype(int)
+
+        self.assertLessEqual(abs(rendered(place) - rendered(0 * place)).max(), 2)
+
     def test_no_object_is_leaked(self):
         import sys
 

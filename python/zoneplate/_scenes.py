@@ -67,7 +67,7 @@ class View:
 
     Without arguments it shows the whole scene, three-quarter from above. `azimuth` (from the front to the right) and
     `elevation` (above the horizon) turn it; `position`, `focal_point`, `view_up` and `vertical_fov` replace its own;
-    `index` is a camera of the file. Angles in degrees.
+    `index` is a camera of the file. Angles in degrees; places in the coordinates of the file or the arrays, in doubles.
     """
 
     __slots__ = ("index", "position", "focal_point", "view_up", "vertical_fov", "azimuth", "elevation", "orthographic")

@@ -37,7 +37,8 @@ struct DataChannel {
 struct DataChannels {
   std::vector<DataChannel> list;                                ///< in the order in which the passes were added
   std::vector<std::pair<std::string, std::string>> attributes;  ///< metadata for readers of the channels
-  std::deque<Plane<float4>> made;  ///< the values of channels that no plane of the frame holds (Cryptomatte)
+  std::deque<Plane<float4>> made;    ///< the values of channels that no plane of the frame holds (Cryptomatte)
+  std::deque<Plane<float3>> places;  ///< positions in the coordinates of a file whose scene has an origin
 };
 
 /// A data pass (arbitrary output variable).

@@ -11,8 +11,8 @@ namespace zoneplate {
 /// The choice of a camera; angles in radians.
 struct View {
   std::optional<int> index;                 ///< a camera of the scene
-  std::optional<float3> position;           ///< of the eye, in world space
-  std::optional<float3> focal_point;        ///< the point that the camera looks at
+  std::optional<double3> position;          ///< of the eye, in the coordinates of the file (Scene::origin)
+  std::optional<double3> focal_point;       ///< the point that the camera looks at, in the same coordinates
   std::optional<float3> view_up;            ///< the direction that is upwards in the image
   std::optional<float> view_angle;          ///< vertical field of view
   std::optional<float> azimuth, elevation;  ///< of the whole-scene view, or a turn about the focal point

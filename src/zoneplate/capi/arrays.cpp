@@ -115,6 +115,20 @@ DisplayImage display_of(const Plane<Pixel>& codes, float greatest) {
   refuse(name, "has elements of another type than uint8, uint16 or float32");
 }
 
+/// The elements of an array of n × columns, row by row.
+template <class T>
+std::vector<T> numbers_of(const zoneplate_array& array, const char* name, std::int64_t columns) {
+  const zoneplate_array a = spread(array, name);
+  if (array.dimensions != 2 || (columns > 0 && a.shape[1] != columns))
+    refuse(name, fmt::format("has the shape {}, expected n x {}", shape_text(array), columns));
+  std::vector<T> out;
+  out.reserve(static_cast<std::size_t>(a.shape[0] * a.shape[1]));
+  visit_type(a, name, [&](auto zero) {
+    for_elements<decltype(zero)>(a, [&](auto value) { out.push_back(static_cast<T>(value)); });
+  });
+  return out;
+}
+
 }  // namespace
 
 zoneplate_array array_of(const void* memory, zoneplate_type type, std::initializer_list<std::int64_t> shape) {
@@ -130,15 +144,10 @@ zoneplate_array array_of(const void* memory, zoneplate_type type, std::initializ
 }
 
 std::vector<float> floats_of(const zoneplate_array& array, const char* name, std::int64_t columns) {
-  const zoneplate_array a = spread(array, name);
-  if (array.dimensions != 2 || (columns > 0 && a.shape[1] != columns))
-    refuse(name, fmt::format("has the shape {}, expected n x {}", shape_text(array), columns));
-  std::vector<float> out;
-  out.reserve(static_cast<std::size_t>(a.shape[0] * a.shape[1]));
-  visit_type(a, name, [&](auto zero) {
-    for_elements<decltype(zero)>(a, [&](auto value) { out.push_back(static_cast<float>(value)); });
-  });
-  return out;
+  return numbers_of<float>(array, name, columns);
+}
+std::vector<double> doubles_of(const zoneplate_array& array, const char* name, std::int64_t columns) {
+  return numbers_of<double>(array, name, columns);
 }
 
 std::vector<std::uint32_t> indices_of(const zoneplate_array& array, const char* name, std::size_t count) {

@@ -22,6 +22,7 @@ inline bool is_given(const zoneplate_array& array) { return array.data != nullpt
 ///
 /// Errors    ErrorKind::Usage naming the array, for other shapes; columns = 0 allows any.
 std::vector<float> floats_of(const zoneplate_array& array, const char* name, std::int64_t columns);
+std::vector<double> doubles_of(const zoneplate_array& array, const char* name, std::int64_t columns);
 /// The elements of an array of any shape, row by row, as indices below `count`.
 ///
 /// Errors    ErrorKind::Usage naming the array, for floating-point elements or an index out of range.

@@ -326,5 +326,76 @@ TEST(Capi, ListsItsCatalogues) {
   }
 }
 
+/// A pyramid of float64 positions around a place, as an instance of a mesh in those coordinates or one that moves
+/// there, with a light, from a camera beside it.
+struct FarPyramid {
+  SceneHandle scene;
+  ImageHandle image;
+  zoneplate_camera camera{};
+};
+FarPyramid far_pyramid(double3 at, bool is_moved) {
+  zoneplate_scene* made = nullptr;
+  EXPECT_EQ(zoneplate_scene_new(&made), ZONEPLATE_OK);
+  FarPyramid out{.scene = SceneHandle(made), .image = nullptr};
+  const double light[] = {at.x + 1, at.y + 2, at.z + 3};
+  const zoneplate_light lamp = {.size = sizeof lamp, .kind = ZONEPLATE_POINT, .position = light};
+  EXPECT_EQ(zoneplate_scene_add_light(made, &lamp), ZONEPLATE_OK);
+  std::vector<double> positions;
+  for (const double3 p : {double3{0, 0, 0}, {1, 0, 0}, {1, 0, -1}, {0, 0, -1}, {0.5, 0.7, -0.5}}) {
+    const double3 q = is_moved ? p : p + at;
+    positions.insert(positions.end(), {q.x, q.y, q.z});
+  }
+  constexpr std::array<std::int32_t, 12> indices = {0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4};
+  zoneplate_mesh mesh = {.size = sizeof mesh};
+  mesh.positions = capi::array_of(positions.data(), ZONEPLATE_FLOAT64, {5, 3});
+  mesh.indices = capi::array_of(indices.data(), ZONEPLATE_INT32, {4, 3});
+  mesh.has_flat_normals = 1;
+  EXPECT_EQ(zoneplate_scene_add_mesh(made, &mesh, nullptr), ZONEPLATE_OK) << zoneplate_error_text();
+  const double matrix[] = {1, 0, 0, at.x, 0, 1, 0, at.y, 0, 0, 1, at.z, 0, 0, 0, 1};
+  for (int i = 0; i < 2; ++i)
+    EXPECT_EQ(zoneplate_scene_add_instance(made, 0, is_moved ? matrix : nullptr, nullptr, nullptr), ZONEPLATE_OK);
+  const double eye[] = {at.x + 2, at.y + 1, at.z + 2}, focus[] = {at.x + 0.5, at.y + 0.3, at.z - 0.5};
+  const zoneplate_view view = {.size = sizeof view, .position = eye, .focal_point = focus};
+  EXPECT_EQ(zoneplate_scene_camera(made, &view, 1.5, &out.camera), ZONEPLATE_OK);
+  zoneplate_render_options options = small;
+  options.passes = "position,depth";
+  zoneplate_image* image = nullptr;
+  EXPECT_EQ(zoneplate_render(made, &out.camera, &options, &image), ZONEPLATE_OK) << zoneplate_error_text();
+  out.image.reset(image);
+  return out;
+}
+
+TEST(Capi, ScenesFarFromTheOriginLookAsNearIt) {
+  constexpr double3 at{500000.125, 5200000.25, 300.5};
+  const FarPyramid near = far_pyramid({}, false);
+  const auto values = [](const FarPyramid& p, const char* name, auto zero) {
+    const zoneplate_array a = array(p.image, name);
+    const auto* const first = static_cast<const decltype(zero)*>(a.data);
+    return std::vector(first, first + a.shape[0] * a.strides[0] / static_cast<std::int64_t>(sizeof zero));
+  };
+  for (const bool is_moved : {false, true}) {
+    const FarPyramid far = far_pyramid(at, is_moved);
+    double low[3], high[3];
+    ASSERT_EQ(zoneplate_scene_bounds(far.scene.get(), low, high), ZONEPLATE_OK);
+    EXPECT_NEAR(low[0], at.x, 1e-6);
+    EXPECT_NEAR(high[1], at.y + 0.7, 1e-6);
+    EXPECT_NEAR(far.camera.world_from_camera[3], at.x + 2, 1e-6);
+    EXPECT_NEAR(far.camera.world_from_camera[7], at.y + 1, 1e-6);
+
+    const auto wanted = values(near, "color", std::uint8_t{}), found = values(far, "color", std::uint8_t{});
+    int differing = 0;
+    for (std::size_t i = 0; i < wanted.size(); ++i) differing += std::abs(wanted[i] - found[i]) > 1;
+    EXPECT_LT(differing, 20);
+    // The array of positions has floats, which are multiples of 0.5 there, and 0 in empty pixels.
+    const auto near_places = values(near, "position", float{}), places = values(far, "position", float{});
+    for (std::size_t i = 1; i < places.size(); i += 3) {
+      if (places[i] == 0 || near_places[i] == 0) continue;
+      ASSERT_NEAR(static_cast<double>(places[i]), at.y + static_cast<double>(near_places[i]), 0.26);
+    }
+    EXPECT_EQ(places[1], 0);
+    EXPECT_GT(*std::max_element(places.begin(), places.end()), 5.1e6f);
+  }
+}
+
 }  // namespace
 }  // namespace zoneplate

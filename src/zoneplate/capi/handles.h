@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -41,6 +43,15 @@ struct zoneplate_scene {
   bool is_builtin = false;
   bool uses_own_camera = false;                 ///< a built-in scene with a camera, which is its default view
   std::optional<zoneplate::float4> background;  ///< of built-in scenes that are defined on one
+
+  /// What a scene far from the origin of its coordinates needs while it is built (Scene::origin): by their indices,
+  /// meshes that lie far from their own origin, relative to a centre, and the positions of lights.
+  struct FarMesh {
+    zoneplate::double3 centre;
+    zoneplate::Mesh mesh;  ///< empty once it has replaced the scene's
+  };
+  std::map<std::int32_t, FarMesh> far_meshes;
+  std::map<std::size_t, zoneplate::double3> light_places;
 
   zoneplate_scene() : scene_(std::in_place) {}
   explicit zoneplate_scene(zoneplate::Scene scene) : scene_(std::move(scene)) {}

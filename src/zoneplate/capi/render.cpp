@@ -27,11 +27,15 @@ std::optional<float3> optional_vector(const float* v) {
   return v == nullptr ? std::nullopt : std::optional(float3{v[0], v[1], v[2]});
 }
 
+std::optional<double3> optional_place(const double* v) {
+  return v == nullptr ? std::nullopt : std::optional(double3{v[0], v[1], v[2]});
+}
+
 Camera find_camera(const zoneplate_scene& scene, const zoneplate_view* given, float aspect) {
   const auto v = completed(given, "zoneplate_view");
   View view{.index = optional_of<int>(v.index),
-            .position = optional_vector(v.position),
-            .focal_point = optional_vector(v.focal_point),
+            .position = optional_place(v.position),
+            .focal_point = optional_place(v.focal_point),
             .view_up = optional_vector(v.view_up),
             .view_angle = optional_of<float>(v.vertical_fov),
             .azimuth = optional_of<float>(v.azimuth),
@@ -44,13 +48,15 @@ Camera find_camera(const zoneplate_scene& scene, const zoneplate_view* given, fl
   });
 }
 
-Camera camera_of(const zoneplate_camera* given) {
+Camera camera_of(const zoneplate_camera* given, double3 origin) {
   const auto c = completed(given, "zoneplate_camera");
   Camera out;
   const auto& m = c.world_from_camera;
   for (std::size_t i = 0; i < 4; ++i)
     out.world_from_camera.column[i] = {static_cast<float>(m[i]), static_cast<float>(m[4 + i]),
                                        static_cast<float>(m[8 + i]), static_cast<float>(m[12 + i])};
+  const float3 place = narrowed(double3{m[3], m[7], m[11]} - origin);
+  out.world_from_camera.column[3] = {place.x, place.y, place.z, 1};
   out.is_orthographic = c.is_orthographic != 0;
   out.vertical_fov = static_cast<float>(c.vertical_fov);
   out.half_height = static_cast<float>(c.half_height);
@@ -176,8 +182,8 @@ std::unique_ptr<zoneplate_image> render_image(zoneplate_scene& scene, const zone
   const Lighting light = make_lighting(prepared.scene(), lighting);
   settings.options.display.mapping = tone_mapping.value_or(light.tone_mapping);
   Renderer renderer(prepared.lit(light), std::move(method));
-  RenderedImage image =
-      renderer.render_still(camera != nullptr ? camera_of(camera) : find_camera(scene, nullptr, aspect), settings);
+  RenderedImage image = renderer.render_still(
+      camera != nullptr ? camera_of(camera, prepared.scene().origin) : find_camera(scene, nullptr, aspect), settings);
 
   const bool has_alpha = options.display.is_transparent || options.display.background.w < 1;
   std::unique_ptr<zoneplate_image> out;
@@ -203,6 +209,8 @@ zoneplate_status zoneplate_scene_camera(const zoneplate_scene* scene, const zone
   return guarded([&] {
     if (!(aspect > 0 && aspect < 1e6)) throw Error(ErrorKind::Usage, fmt::format("aspect: is {}", aspect));
     const Camera found = find_camera(required(scene, "scene"), view, static_cast<float>(aspect));
+    const float3 eye = xyz(found.world_from_camera.column[3]);
+    const double3 place = scene->read([&](const Scene& s) { return s.in_file(eye); });
     zoneplate_camera out{};
     out.size = sizeof out;
     for (std::size_t c = 0; c < 4; ++c) {
@@ -210,6 +218,7 @@ zoneplate_status zoneplate_scene_camera(const zoneplate_scene* scene, const zone
       const float values[] = {column.x, column.y, column.z, column.w};
       for (std::size_t row = 0; row < 4; ++row) out.world_from_camera[4 * row + c] = static_cast<double>(values[row]);
     }
+    out.world_from_camera[3] = place.x, out.world_from_camera[7] = place.y, out.world_from_camera[11] = place.z;
     out.is_orthographic = found.is_orthographic ? 1 : 0;
     out.vertical_fov = static_cast<double>(found.vertical_fov);
     out.half_height = static_cast<double>(found.half_height);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
+#include <utility>
 
 #include "zoneplate/capi/arrays.h"
 #include "zoneplate/capi/handles.h"
@@ -11,6 +12,7 @@
 #include "zoneplate/formats/load.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/scene/geometry/flat_normals.h"
+#include "zoneplate/scene/geometry/origin.h"
 #include "zoneplate/scene/geometry/smooth_normals.h"
 #include "zoneplate/scene/geometry/tangent.h"
 #include "zoneplate/scene/sanitize.h"
@@ -109,13 +111,13 @@ std::vector<float4> colors_of(const zoneplate_array& array, std::size_t count) {
   return out;
 }
 
-Mesh mesh_of(const zoneplate_mesh* given, const Scene& scene) {
-  const auto m = completed(&required(given, "mesh"), "zoneplate_mesh");
+/// The mesh with these positions in place of the given ones.
+Mesh mesh_of(const zoneplate_mesh& m, std::vector<float3> positions, const Scene& scene) {
   constexpr Topology topologies[] = {Topology::Triangles, Topology::Lines, Topology::Points};
   Mesh out;
   out.name = text_of(m.name);
   out.topology = at(topologies, m.topology, "topology");
-  out.position = vectors_of<float3>(m.positions, "positions", 0);
+  out.position = std::move(positions);
   const std::size_t count = out.position.size();
   if (count == 0) refuse("positions: is empty");
   if (is_given(m.normals)) out.normal = vectors_of<float3>(m.normals, "normals", count);
@@ -141,25 +143,65 @@ Mesh mesh_of(const zoneplate_mesh* given, const Scene& scene) {
   return out;
 }
 
-float4x4 matrix_of(const double* m) {
+/// A mesh that lies far from its own origin, with positions relative to a centre; nothing for others.
+std::optional<zoneplate_scene::FarMesh> far_mesh_of(const zoneplate_mesh& m, const Mesh& mesh, const Scene& scene) {
+  OriginChoice choice;
+  choice.add(mesh.position);
+  const double3 centre = choice.origin();
+  if (centre == double3{}) return std::nullopt;
+  const std::vector<double> places = doubles_of(m.positions, "positions", 3);
+  std::vector<float3> positions;
+  for (std::size_t i = 0; i + 2 < places.size(); i += 3)
+    positions.push_back(narrowed(double3{places[i], places[i + 1], places[i + 2]} - centre));
+  zoneplate_scene::FarMesh out{centre, mesh_of(m, std::move(positions), scene)};
+  drop_not_finite(out.mesh);
+  return out;
+}
+
+/// Chooses the scene's origin by its first instance: the place of a mesh whose positions are relative to a centre.
+/// Lights that were added before move with it.
+void choose_origin(zoneplate_scene& building, Scene& scene, const Mesh& mesh, const Affine& placed) {
+  OriginChoice choice;
+  constexpr std::size_t positions_per_check = 64;
+  for (std::size_t i = 0; i < mesh.position.size() && (i % positions_per_check != 0 || !choice.is_near()); ++i)
+    choice.add(transform_point(placed, widened(mesh.position[i])));
+  scene.origin = choice.origin();
+  for (const auto& [light, place] : building.light_places)
+    if (!scene.lights[light].is_in_camera_space) scene.lights[light].position = scene.in_world(place);
+}
+
+/// The transform of a further instance of a mesh, which gets its form for a far scene if this is one.
+float4x4 place_instance(zoneplate_scene& building, Scene& scene, std::int32_t number, const Affine& world_from_object) {
+  const auto far = building.far_meshes.find(number);
+  const bool is_far_mesh = far != building.far_meshes.end();
+  Mesh& mesh = scene.meshes[static_cast<std::size_t>(number)];
+  const Affine centered = is_far_mesh ? world_from_object * Affine{.move = far->second.centre} : world_from_object;
+  if (scene.instances.empty()) choose_origin(building, scene, is_far_mesh ? far->second.mesh : mesh, centered);
+  if (scene.origin == double3{} || !is_far_mesh) return narrowed(world_from_object, scene.origin);
+  if (Mesh& form = far->second.mesh; !form.position.empty()) mesh = std::exchange(form, {});
+  return narrowed(centered, scene.origin);
+}
+
+Affine affine_of(const double* m) {
   if (m == nullptr) return {};
-  float4x4 out;
-  for (std::size_t c = 0; c < 4; ++c)
-    out.column[c] = {static_cast<float>(m[c]), static_cast<float>(m[4 + c]), static_cast<float>(m[8 + c]),
-                     static_cast<float>(m[12 + c])};
+  const Affine out{{m[0], m[4], m[8]}, {m[1], m[5], m[9]}, {m[2], m[6], m[10]}, {m[3], m[7], m[11]}};
   if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
     refuse("world_from_object: its last row is not 0, 0, 0, 1: it is not affine, or stored by columns");
   return out;
 }
 
-Light light_of(const zoneplate_light* given) {
-  const auto l = completed(&required(given, "light"), "zoneplate_light");
+double3 place_of(const zoneplate_light& light) {
+  const double* const p = light.position;
+  return p == nullptr ? double3{} : double3{p[0], p[1], p[2]};
+}
+
+Light light_of(const zoneplate_light& l) {
   constexpr LightKind kinds[] = {LightKind::Directional, LightKind::Point, LightKind::Spot};
   Light out;
   out.kind = at(kinds, l.kind, "kind");
   out.color = vector_of(l.color, out.color);
   out.intensity = number_of(l.intensity, out.intensity);
-  out.position = vector_of(l.position, out.position);
+  out.position = narrowed(place_of(l));
   out.direction = normalize(vector_of(l.direction, out.direction), out.direction);
   out.range = number_of(l.range, out.range);
   out.inner_cone = l.inner_cone;
@@ -282,7 +324,10 @@ zoneplate_status zoneplate_scene_add_material(zoneplate_scene* scene, const zone
 zoneplate_status zoneplate_scene_add_mesh(zoneplate_scene* scene, const zoneplate_mesh* mesh, int32_t* index) {
   return guarded([&] {
     required(scene, "scene").change([&](Scene& s) {
-      Mesh added = mesh_of(mesh, s);
+      const auto given = completed(&required(mesh, "mesh"), "zoneplate_mesh");
+      Mesh added = mesh_of(given, vectors_of<float3>(given.positions, "positions", 0), s);
+      if (auto far = far_mesh_of(given, added, s))
+        scene->far_meshes.emplace(static_cast<std::int32_t>(s.meshes.size()), std::move(*far));
       const NotFinite lost = drop_not_finite(added);
       if (lost.dropped > 0)
         s.warnings.push_back(fmt::format("mesh {}: {} primitives have a vertex that is not finite and are dropped",
@@ -302,7 +347,7 @@ zoneplate_status zoneplate_scene_add_instance(zoneplate_scene* scene, int32_t me
     required(scene, "scene").change([&](Scene& s) {
       if (mesh < 0 || static_cast<std::size_t>(mesh) >= s.meshes.size())
         refuse(fmt::format("mesh {} does not exist, there are {}", mesh, s.meshes.size()));
-      const float4x4 matrix = matrix_of(world_from_object);
+      const float4x4 matrix = place_instance(*scene, s, mesh, affine_of(world_from_object));
       const std::size_t object = s.objects.size();
       s.objects.push_back(name != nullptr ? name : s.meshes[static_cast<std::size_t>(mesh)].name);
       s.instances.push_back({mesh, static_cast<int>(object), matrix});
@@ -313,8 +358,14 @@ zoneplate_status zoneplate_scene_add_instance(zoneplate_scene* scene, int32_t me
 
 zoneplate_status zoneplate_scene_add_light(zoneplate_scene* scene, const zoneplate_light* light) {
   return guarded([&] {
-    const Light added = light_of(light);
-    required(scene, "scene").change([&](Scene& s) { s.lights.push_back(added); });
+    const auto given = completed(&required(light, "light"), "zoneplate_light");
+    Light added = light_of(given);
+    required(scene, "scene").change([&](Scene& s) {
+      const double3 place = place_of(given);
+      if (!added.is_in_camera_space) added.position = s.in_world(place);
+      scene->light_places.emplace(s.lights.size(), place);
+      s.lights.push_back(added);
+    });
   });
 }
 
@@ -359,12 +410,15 @@ zoneplate_status zoneplate_scene_name(const zoneplate_scene* scene, zoneplate_pa
 
 zoneplate_status zoneplate_scene_bounds(const zoneplate_scene* scene, double minimum[3], double maximum[3]) {
   return guarded([&] {
-    const Box box = required(scene, "scene").read([](const Scene& s) { return s.bounds(); });
+    Box box;
+    double3 least, greatest;
+    required(scene, "scene").read([&](const Scene& s) {
+      box = s.bounds();
+      least = s.in_file(box.low), greatest = s.in_file(box.high);
+    });
     if (box.empty()) refuse("the scene is empty: it has no bounds");
     double *const low = &required(minimum, "minimum"), *const high = &required(maximum, "maximum");
-    low[0] = static_cast<double>(box.low.x), low[1] = static_cast<double>(box.low.y);
-    low[2] = static_cast<double>(box.low.z);
-    high[0] = static_cast<double>(box.high.x), high[1] = static_cast<double>(box.high.y);
-    high[2] = static_cast<double>(box.high.z);
+    low[0] = least.x, low[1] = least.y, low[2] = least.z;
+    high[0] = greatest.x, high[1] = greatest.y, high[2] = greatest.z;
   });
 }

@@ -113,7 +113,7 @@ std::vector<std::uint8_t> matte_picture(const Frame& frame, const Scene& scene) 
   return encode_png(image);
 }
 
-std::vector<std::uint8_t> position_picture(const Frame& frame, const Scene&) {
+std::vector<std::uint8_t> position_picture(const Frame& frame, const Scene& scene) {
   constexpr float infinity = std::numeric_limits<float>::infinity();
   float3 least{infinity, infinity, infinity}, greatest = -least;
   for (std::size_t i = 0; i < frame.position.values().size(); ++i) {
@@ -123,7 +123,11 @@ std::vector<std::uint8_t> position_picture(const Frame& frame, const Scene&) {
     greatest = {std::max(greatest.x, p.x), std::max(greatest.y, p.y), std::max(greatest.z, p.z)};
   }
   PngOptions options{.is_srgb = false};
-  const auto text = [](float3 p) { return fmt::format("{} {} {}", p.x, p.y, p.z); };
+  const auto text = [&](float3 p) {
+    if (scene.origin == double3{}) return fmt::format("{} {} {}", p.x, p.y, p.z);
+    const double3 q = scene.in_file(p);
+    return fmt::format("{:.10g} {:.10g} {:.10g}", q.x, q.y, q.z);
+  };
   if (least.x <= greatest.x) options.text = {{"least", text(least)}, {"greatest", text(greatest)}};
   const auto part = [](float value, float low, float high) {
     return code8(high > low ? (value - low) / (high - low) : 0.5f);

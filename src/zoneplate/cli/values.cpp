@@ -39,10 +39,11 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
 }
 
 // The numbers of "a,b,c"; nothing if one of them is not a number.
-std::optional<std::vector<float>> numbers_in(std::string_view text) {
-  std::vector<float> numbers;
+template <class T>
+std::optional<std::vector<T>> numbers_in(std::string_view text) {
+  std::vector<T> numbers;
   for (const std::string_view part : split(text, ',')) {
-    const std::optional<float> number = number_in<float>(part);
+    const std::optional<T> number = number_in<T>(part);
     if (!number) return std::nullopt;
     numbers.push_back(*number);
   }
@@ -81,10 +82,12 @@ int parse_whole(const std::string& text, int low, int high) {
   return *value;
 }
 
-float3 parse_triple(const std::string& text) {
-  const auto numbers = numbers_in(text);
+double3 parse_triple(const std::string& text) {
+  const auto numbers = numbers_in<double>(text);
   if (!numbers || numbers->size() != 3) refuse_text(text, "three numbers x,y,z");
-  return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+  const double3 triple{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+  if (!is_finite(narrowed(triple))) refuse_text(text, "three numbers x,y,z");
+  return triple;
 }
 
 int2 parse_size(const std::string& text, int max_side) {
@@ -104,7 +107,7 @@ float4 parse_color(const std::string& text) {
   const auto unit = [](std::uint8_t code) { return static_cast<float>(code) / 255; };
   if (color) return {unit(color->r), unit(color->g), unit(color->b), unit(color->a)};
 
-  const auto numbers = numbers_in(text);
+  const auto numbers = numbers_in<float>(text);
   const auto in_range = [](float x) { return x >= 0 && x <= 1; };
   if (!numbers || numbers->size() < 3 || numbers->size() > 4 ||
       !std::all_of(numbers->begin(), numbers->end(), in_range))

@@ -19,8 +19,8 @@ namespace zoneplate::cli {
 double parse_number(const std::string& text, double low, double high);
 int parse_whole(const std::string& text, int low, int high);
 
-/// "x,y,z": three finite numbers.
-float3 parse_triple(const std::string& text);
+/// "x,y,z": three numbers that are finite as floats.
+double3 parse_triple(const std::string& text);
 
 /// An image's size, "800,600" or "800x600", or "512" for a square, each side in [1, max_side].
 int2 parse_size(const std::string& text, int max_side);

@@ -35,8 +35,9 @@ TEST(ParseWhole, KeepsToItsRange) {
 }
 
 TEST(ParseTriple, TakesThreeNumbers) {
-  EXPECT_EQ(parse_triple("-1,2.5,+3"), (float3{-1, 2.5f, 3}));
-  for (const char* text : {"", "1,2", "1,2,3,4", "1,,3", "1,2,x", "1 2 3"})
+  EXPECT_EQ(parse_triple("-1,2.5,+3"), (double3{-1, 2.5, 3}));
+  EXPECT_EQ(parse_triple("500000.1,5200000.1,0").y, 5200000.1);
+  for (const char* text : {"", "1,2", "1,2,3,4", "1,,3", "1,2,x", "1 2 3", "1e39,0,0"})
     EXPECT_EQ(refusal([&] { parse_triple(text); }), std::string("'") + text + "' is not three numbers x,y,z");
 }
 

@@ -3,6 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 #include "zoneplate/render/cryptomatte.h"
 
 namespace zoneplate {
@@ -43,8 +47,21 @@ void add_depth(const Frame& frame, const Scene&, DataChannels& out) { add_value<
 void add_normal(const Frame& frame, const Scene&, DataChannels& out) {
   add_vector(frame.normal, "XYZ", ChannelPrecision::Float, "N.", out);
 }
-void add_position(const Frame& frame, const Scene&, DataChannels& out) {
-  add_vector(frame.position, "XYZ", ChannelPrecision::Float, "P.", out);
+// Positions in the coordinates of the file; those of empty pixels stay 0.
+void add_position(const Frame& frame, const Scene& scene, DataChannels& out) {
+  if (scene.origin == double3{} || frame.position.empty())
+    return add_vector(frame.position, "XYZ", ChannelPrecision::Float, "P.", out);
+  Plane<float3>& places = out.places.emplace_back(frame.position);
+  for (std::size_t i = 0; i < places.values().size(); ++i)
+    if (frame.instance.values()[i] != Frame::no_id)
+      places.values()[i] = narrowed(scene.in_file(frame.position.values()[i]));
+  add_vector(places, "XYZ", ChannelPrecision::Float, "P.", out);
+  const double3 o = scene.origin;
+  const double farthest = std::max({std::abs(o.x), std::abs(o.y), std::abs(o.z)});
+  out.attributes.emplace_back(
+      "position",
+      fmt::format("coordinates of the file, rounded to floats: multiples of {} at {}",
+                  std::ldexp(1.0, std::ilogb(farthest) - std::numeric_limits<float>::digits + 1), farthest));
 }
 void add_albedo(const Frame& frame, const Scene&, DataChannels& out) {
   add_vector(frame.albedo, "RGB", ChannelPrecision::Half, "albedo.", out);

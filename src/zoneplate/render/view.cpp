@@ -102,8 +102,8 @@ Camera choose_camera(const Scene& scene, const View& view, float aspect) {
   const Box box = scene.bounds();
   const float3 centre = box.empty() ? float3{} : box.centre();
   Pose pose = pose_of(camera, centre);
-  if (view.position) pose = {*view.position, centre, view.up};
-  if (view.focal_point) pose.target = *view.focal_point;
+  if (view.position) pose = {scene.in_world(*view.position), centre, view.up};
+  if (view.focal_point) pose.target = scene.in_world(*view.focal_point);
   if (view.view_up) pose.up = *view.view_up;
   if (pose.eye == pose.target) throw Error(ErrorKind::Usage, "the camera's position and its focal point are the same");
   if (turns) pose = turned(pose, view.azimuth.value_or(0), view.elevation.value_or(0));

@@ -55,7 +55,7 @@ TEST(ChooseCamera, TakesTheScenesCameraUnchanged) {
 }
 
 TEST(ChooseCamera, LooksFromThePositionAtTheCentreOfTheScene) {
-  const Camera camera = choose_camera(cube(), {.position = float3{10, 0, -7}}, 1);
+  const Camera camera = choose_camera(cube(), {.position = double3{10, 0, -7}}, 1);
   expect_near(eye_of(camera), {10, 0, -7});
   expect_near(forward_of(camera), {0, 0, 1});
   expect_near(up_of(camera), {0, 1, 0});
@@ -68,7 +68,7 @@ TEST(ChooseCamera, LooksFromThePositionAtTheCentreOfTheScene) {
 
 TEST(ChooseCamera, ExplicitPartsReplaceThoseOfTheBase) {
   const Camera camera = choose_camera(
-      cube(), {.index = 0, .focal_point = float3{10, 5, 5}, .view_up = float3{0, 0, -1}, .view_angle = 1.0f}, 1);
+      cube(), {.index = 0, .focal_point = double3{10, 5, 5}, .view_up = float3{0, 0, -1}, .view_angle = 1.0f}, 1);
   expect_near(eye_of(camera), {10, 0, 5});
   expect_near(forward_of(camera), {0, 1, 0});
   expect_near(up_of(camera), {0, 0, -1});
@@ -85,7 +85,7 @@ TEST(ChooseCamera, TurnsOtherCamerasAboutTheirFocalPoint) {
 }
 
 TEST(ChooseCamera, NearStaysAheadOfAnEyeInsideTheScene) {
-  const Camera camera = choose_camera(cube(), {.position = float3{10, 0, 0.5f}}, 1);
+  const Camera camera = choose_camera(cube(), {.position = double3{10, 0, 0.5}}, 1);
   EXPECT_GT(camera.near, 0);
   EXPECT_LT(camera.near, 1e-4f);
   EXPECT_GT(camera.far, 1.5f);
@@ -93,7 +93,7 @@ TEST(ChooseCamera, NearStaysAheadOfAnEyeInsideTheScene) {
 
 TEST(ChooseCamera, AParallelViewKeepsTheHeightAtTheFocalPointAndShowsAllInFront) {
   const Camera camera =
-      choose_camera(cube(), {.position = float3{10, 0, 0.5f}, .view_angle = 90 * degree, .is_orthographic = true}, 1);
+      choose_camera(cube(), {.position = double3{10, 0, 0.5}, .view_angle = 90 * degree, .is_orthographic = true}, 1);
   EXPECT_TRUE(camera.is_orthographic);
   EXPECT_NEAR(camera.half_height, 0.5f, 1e-5f);  // 0.5 away, tan 45° = 1
   EXPECT_GT(camera.near, 0);
@@ -104,11 +104,11 @@ TEST(ChooseCamera, AParallelViewKeepsTheHeightAtTheFocalPointAndShowsAllInFront)
 TEST(ChooseCamera, RefusesWhatCannotBe) {
   EXPECT_THROW(choose_camera(cube(), {.index = 1}, 1), Error);
   EXPECT_THROW(choose_camera({}, {.index = 0}, 1), Error);
-  EXPECT_THROW(choose_camera(cube(), {.position = float3{10, 0, 0}}, 1), Error);
+  EXPECT_THROW(choose_camera(cube(), {.position = double3{10, 0, 0}}, 1), Error);
 }
 
 TEST(ChooseCamera, AnEmptySceneHasACamera) {
-  const Camera camera = choose_camera({}, {.position = float3{0, 0, 3}}, 1);
+  const Camera camera = choose_camera({}, {.position = double3{0, 0, 3}}, 1);
   EXPECT_GT(camera.near, 0);
   EXPECT_GT(camera.far, camera.near);
 }
@@ -146,6 +146,17 @@ TEST(Enclosing, ReachesTheEyeAndMovesAnOrthographicCameraBack) {
   EXPECT_LT(moved.near, step - 1);
   EXPECT_GE(moved.far, 20 + step);
   expect_near(forward_of(moved), forward_of(camera));
+}
+
+// The same cube in the coordinates of a survey.
+TEST(ChooseCamera, TakesPlacesInTheCoordinatesOfTheFile) {
+  Scene far = cube();
+  far.origin = {500000.1, 5200000.2, 300.3};
+  const View near_view{.position = double3{10, 0, -7}, .focal_point = double3{9, 1, 0}};
+  const View far_view{.position = far.origin + *near_view.position, .focal_point = far.origin + *near_view.focal_point};
+  const Camera near_camera = choose_camera(cube(), near_view, 1), far_camera = choose_camera(far, far_view, 1);
+  expect_near(eye_of(far_camera), eye_of(near_camera), 1e-6f);
+  expect_near(forward_of(far_camera), forward_of(near_camera), 1e-6f);
 }
 
 }  // namespace

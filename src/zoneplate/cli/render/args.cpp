@@ -388,7 +388,7 @@ std::vector<Option> camera_options(RenderArgs& a) {
       {"--camera-focal-point", "X,Y,Z", "Point at which the camera looks; default: the centre of the scene", group,
        false, [&](auto& text) { a.view.focal_point = parse_triple(text); }},
       {"--camera-view-up", "X,Y,Z", "Upward direction of the image; default: the up axis", group, false,
-       [&](auto& text) { a.view.view_up = parse_triple(text); }},
+       [&](auto& text) { a.view.view_up = narrowed(parse_triple(text)); }},
       {"--camera-view-angle", "DEG", "Vertical angle of view; default 30", group, false,
        [&](auto& text) { a.view.view_angle = radians(text, 0.01, 179); }},
       {"--camera-orthographic", "", "Orthographic projection", group, false,

@@ -23,6 +23,18 @@ ExrMatrix exr_matrix(const float4x4& m) {
 // (x, y, z) -> (x, y, -z).
 constexpr float4x4 mirrored_z{{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, -1, 0}, {0, 0, 0, 1}}}};
 
+// The transform of the coordinates of a file, from that of a world with this origin.
+float4x4 from_file(float4x4 target_from_world, double3 origin) {
+  if (origin == double3{}) return target_from_world;
+  auto& c = target_from_world.column;
+  const auto moved = [&](float x, float y, float z, float w) {
+    return static_cast<float>(w - (x * origin.x + y * origin.y + z * origin.z));
+  };
+  c[3] = {moved(c[0].x, c[1].x, c[2].x, c[3].x), moved(c[0].y, c[1].y, c[2].y, c[3].y),
+          moved(c[0].z, c[1].z, c[2].z, c[3].z), moved(c[0].w, c[1].w, c[2].w, c[3].w)};
+  return target_from_world;
+}
+
 // From clip space to the unit square of a rectangle of the image.
 float4x4 ndc_from_clip(const RenderOptions& options) {
   const Crop crop = options.crop.value_or(Crop{0, 0, options.width, options.height});
@@ -52,15 +64,15 @@ ExrTimeCode time_code(int frame, int per_second) {
 
 }  // namespace
 
-ExrAttributes exr_header(const RenderArgs& args, const Camera& camera, std::optional<int> frame) {
+ExrAttributes exr_header(const RenderArgs& args, const Camera& camera, double3 origin, std::optional<int> frame) {
   const float4x4 camera_from_world = inverse(camera.world_from_camera);
   const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
   ExrAttributes out;
   out.emplace_back("software", std::string("Zoneplate ") + version);
   if (!args.display.raw) out.emplace_back("chromaticities", rec709_chromaticities);
-  out.emplace_back("worldToCamera", exr_matrix(mirrored_z * camera_from_world));
-  out.emplace_back("worldToNDC",
-                   exr_matrix(ndc_from_clip(args.options) * camera.clip_from_camera(aspect) * camera_from_world));
+  out.emplace_back("worldToCamera", exr_matrix(from_file(mirrored_z * camera_from_world, origin)));
+  const float4x4 ndc_from_world = ndc_from_clip(args.options) * camera.clip_from_camera(aspect) * camera_from_world;
+  out.emplace_back("worldToNDC", exr_matrix(from_file(ndc_from_world, origin)));
   out.emplace_back("cameraNearClip", camera.near);
   out.emplace_back("cameraFarClip", camera.far);
   if (!args.sequence.is_sequence()) return out;

@@ -15,8 +15,9 @@ namespace zoneplate::cli {
 /// again after a day.
 ///
 /// Space     those of OpenEXR: row vectors; camera space is left-handed and looks along +z; NDC is (0, 0) at the
-///           top-left and (1, 1) at the bottom-right corner of the image, or of the crop.
+///           top-left and (1, 1) at the bottom-right corner of the image, or of the crop. The world is that of the
+///           file: `origin` is Scene::origin.
 /// Source    OpenEXR, Standard Attributes, openexr.com.
-ExrAttributes exr_header(const RenderArgs& args, const Camera& camera, std::optional<int> frame);
+ExrAttributes exr_header(const RenderArgs& args, const Camera& camera, double3 origin, std::optional<int> frame);
 
 }  // namespace zoneplate::cli

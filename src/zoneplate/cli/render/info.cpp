@@ -66,7 +66,12 @@ constexpr std::string_view light_name(LightKind kind) {
   return kind == LightKind::Directional ? "directional" : kind == LightKind::Point ? "point" : "spot";
 }
 
-Json triple(float3 v) { return Json::Array{v.x, v.y, v.z}; }
+/// Coordinates of the file: the fewest digits of floats, or of doubles in a scene far from the file's origin.
+Json triple(const Scene& scene, float3 p) {
+  if (scene.origin == double3{}) return Json::Array{p.x, p.y, p.z};
+  const double3 q = scene.in_file(p);
+  return Json::Array{q.x, q.y, q.z};
+}
 
 template <class Row, class Write>
 Json rows(const std::vector<Row>& values, Write write) {
@@ -78,7 +83,8 @@ Json rows(const std::vector<Row>& values, Write write) {
 Json info_json(const std::string& input, const Scene& scene) {
   const Counts counts = count(scene);
   const Box box = scene.bounds();
-  const Json bounds = box.empty() ? Json() : Json(Json::Object{{"min", triple(box.low)}, {"max", triple(box.high)}});
+  const Json bounds =
+      box.empty() ? Json() : Json(Json::Object{{"min", triple(scene, box.low)}, {"max", triple(scene, box.high)}});
   return Json::Object{
       {"format", "zoneplate-info"},
       {"version", report_version},
@@ -115,10 +121,10 @@ Json info_json(const std::string& input, const Scene& scene) {
                         return Json::Object{{"name", l.name}, {"kind", light_name(l.kind)}, {"intensity", l.intensity}};
                       })},
       {"cameras", rows(scene.cameras,
-                       [](const Camera& c) {
+                       [&](const Camera& c) {
                          return Json::Object{{"name", c.name},
                                              {"kind", c.is_orthographic ? "orthographic" : "perspective"},
-                                             {"position", triple(xyz(c.world_from_camera.column[3]))}};
+                                             {"position", triple(scene, xyz(c.world_from_camera.column[3]))}};
                        })},
       {"animations", rows(scene.animations,
                           [](const AnimationSpan& a) {
@@ -140,9 +146,12 @@ std::string info_text(const std::string& input, const Scene& scene) {
   if (counts.lines + counts.points > 0)
     text += fmt::format("  others      {} lines, {} points\n", counts.lines, counts.points);
   text += fmt::format("  vertices    {}\n", counts.vertices);
-  if (!box.empty())
-    text += fmt::format("  bounds      {:.6g}, {:.6g}, {:.6g}  to  {:.6g}, {:.6g}, {:.6g}\n", box.low.x, box.low.y,
-                        box.low.z, box.high.x, box.high.y, box.high.z);
+  if (!box.empty()) {
+    const double3 low = scene.in_file(box.low), high = scene.in_file(box.high);
+    const int digits = scene.origin == double3{} ? 6 : 10;
+    text += fmt::format("  bounds      {:.{}g}, {:.{}g}, {:.{}g}  to  {:.{}g}, {:.{}g}, {:.{}g}\n", low.x, digits,
+                        low.y, digits, low.z, digits, high.x, digits, high.y, digits, high.z, digits);
+  }
 
   text += fmt::format("  materials   {}\n", scene.materials.size());
   for (const Material& m : scene.materials)

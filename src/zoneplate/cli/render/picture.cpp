@@ -203,7 +203,7 @@ Rendered finish_picture(const RenderArgs& args, RenderedImage image, const Scene
   out.image = std::move(image.display);
   out.image16 = std::move(image.display16);
   if (is_linear(output)) out.linear = over_background(std::move(image.linear), display);
-  if (is_exr(output)) out.attributes = exr_header(args, camera, frame);
+  if (is_exr(output)) out.attributes = exr_header(args, camera, scene.origin, frame);
   out.has_alpha = display.is_transparent || display.background.w < 1;
   if (!args.aovs.empty()) add_passes(args, scene, image.data, output, out);
   const std::optional<Crop>& crop = args.options.crop;
