@@ -65,7 +65,6 @@ void set_look(std::string_view text, RenderOptions& options) {
   if (const int most = settings.integer("anisotropy"); most > 0) options.anisotropy = most;
   options.specular_aa = static_cast<SpecularAntialiasing>(settings.integer("specular-aa"));
   options.shadows.method = static_cast<ShadowMethod>(settings.integer("shadows"));
-  options.shadows.angle = 3.0f * (3.14159265f / 180);
   options.occlusion.samples = settings.integer("ambient-occlusion") == 0 ? 0 : 32;
   options.ground = settings.integer("ground") == 0 ? GroundKind::None : GroundKind::Shadow;
   if (options.ground == GroundKind::Shadow && !has_visibility(options))

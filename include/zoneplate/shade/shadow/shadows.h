@@ -34,9 +34,10 @@ struct ShadowMapOptions {
 /// alpha-tested surface casts its holes; a blended one attenuates light by its alpha.
 struct ShadowOptions {
   ShadowMethod method = ShadowMethod::None;  ///< None by default
-  int samples = 32;          ///< ShadowMethod::Soft: rays from a fragment to a light; best a power of two
-  float angle = 0.0523599f;  ///< Soft and Pcss: the angular radius, in radians, of lights whose `radius` is 0
-  ShadowMapOptions map;      ///< ShadowMethod::Map
+  int samples = 32;  ///< ShadowMethod::Soft: rays from a fragment to a light; best a power of two
+  /// Soft and Pcss: the angular radius, in radians, of lights whose `radius` is 0. 3 degrees by default.
+  float angle = 3 * (3.14159265f / 180);
+  ShadowMapOptions map;  ///< ShadowMethod::Map
 };
 
 /// The part of the environment that nearby surfaces hide from a point; the environment's light is multiplied by the

@@ -8,6 +8,13 @@
 namespace zoneplate::cli {
 namespace {
 
+TEST(ShadowArgs, DefaultsAreThoseOfTheLibrary) {
+  const ShadowOptions soft = parse_shadows("soft"), map = parse_shadows("map:filter=pcss"), library;
+  EXPECT_EQ(soft.angle, library.angle);
+  EXPECT_EQ(map.angle, library.angle);
+  EXPECT_EQ(soft.samples, library.samples);
+}
+
 TEST(ShadowArgs, NameAMethodWithItsParameters) {
   EXPECT_EQ(parse_shadows("none").method, ShadowMethod::None);
   EXPECT_EQ(parse_shadows("hard").method, ShadowMethod::Hard);
