@@ -24,10 +24,10 @@ target_precompile_headers(zoneplate_fuzzed PRIVATE ${common_headers})
 
 # Beside file formats: `scene`, what a child process answers, `manifest`, the lines of a batch,
 # and `sdf`, scenes of shapes.
-set(fuzz_formats gltf obj mtl ply stl png jpeg webp hdr exr pfm ktx2 scene manifest sdf)
+set(fuzz_formats gltf obj mtl ply stl png jpeg webp hdr exr pfm ktx2 bmp tga scene manifest sdf)
 foreach(format IN LISTS fuzz_formats)
   set(kind model)
-  if(format MATCHES "png|jpeg|webp|hdr|exr|pfm|ktx2")
+  if(format MATCHES "png|jpeg|webp|hdr|exr|pfm|ktx2|bmp|tga")
     set(kind image)
   elseif(format MATCHES "scene|manifest|sdf")
     set(kind ${format})

@@ -8,7 +8,7 @@ file(CREATE_LINK /usr/include/zstd.h ${CMAKE_CURRENT_BINARY_DIR}/headers/zstd.h 
 
 # files.cpp takes the place of the sources that need libraries or child processes.
 set(readers ${all_sources})
-list(FILTER readers INCLUDE REGEX "^src/zoneplate/formats/(gltf|import|json|obj|ply|stl)/|codec/(hdr\\.cpp$|ktx2/)|report/json\\.cpp$")
+list(FILTER readers INCLUDE REGEX "^src/zoneplate/formats/(gltf|import|json|obj|ply|stl)/|codec/(hdr\\.cpp$|ktx2/|bitmap/tga)|report/json\\.cpp$")
 list(FILTER readers EXCLUDE REGEX "_test\\.cpp$|/(draco|image_file|scene_bytes)\\.cpp$")
 
 # The lessons of `zoneplate demo`. Functions of these sources that need more are not linked, since nothing calls them;

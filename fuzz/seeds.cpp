@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "zoneplate/codec/bitmap/pillow_files_for_test.h"
 #include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/ktx2/files_for_test.h"
@@ -112,6 +113,19 @@ void write_images(const std::string& root) {
   write(root + "/jpeg", "pixel.jpg", encode_jpeg(Rgba8Image(1, 1)));
   write(root + "/webp", "rgba.webp", encode_webp(image, true));
   write(root + "/webp", "rgb.webp", encode_webp(image, false));
+  for (const PillowFile& file : pillow_bmp_files)
+    write(root + "/bmp", file.name + std::string(".bmp"), {file.bytes.begin(), file.bytes.end()});
+  for (const PillowFile& file : pillow_tga_files)
+    write(root + "/tga", file.name + std::string(".tga"), {file.bytes.begin(), file.bytes.end()});
+  // Of 2 x 2 pixels with a palette of two colours: RLE8, then 4 bits.
+  const Bytes bmp = {'B', 'M', 0, 0, 0, 0, 0, 0, 0, 0, 62, 0, 0, 0, 40, 0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 1, 0, 8, 0, 1};
+  Bytes runs = bmp, nibbles = bmp;
+  nibbles[28] = 4, nibbles[30] = 0;
+  for (Bytes* file : {&runs, &nibbles}) file->resize(62), (*file)[46] = 2;
+  runs.insert(runs.end(), {0, 2, 0, 1, 1, 1, 0, 0, 0, 3, 0, 1, 1, 0, 0, 1});
+  nibbles.insert(nibbles.end(), {0x10, 0, 0, 0, 0x01, 0, 0, 0});
+  write(root + "/bmp", "runs.bmp", runs);
+  write(root + "/bmp", "nibbles.bmp", nibbles);
   write(root + "/ktx2", "etc1s.ktx2", Bytes(std::begin(etc1s_file), std::end(etc1s_file)));
   write(root + "/ktx2", "uastc.ktx2", Bytes(std::begin(zstandard_file), std::end(zstandard_file)));
 }

@@ -266,7 +266,7 @@ TEST(EnvironmentError, DISABLED_OfPhotographsAndSuns) {
   measure_spline("studio", studio_cube(64), 0.1f);
   for (const std::string& path : shared_files_ending("data/env", {".hdr"})) {
     const FileBytes file(path);
-    const TexelImage image = decode_image(file.bytes(), path, 1u << 30);
+    const TexelImage image = decode_image(file.bytes(), path, 1u << 30).texels;
     // royal_esplanade_256.hdr has lamps of one pixel.
     const std::string name = path.substr(path.rfind('/') + 1);
     measure(name, image, 0.1f, name.starts_with("royal") ? 0.15f : 0.1f);

@@ -111,7 +111,7 @@ std::vector<Case> obj_cases() {
           {"not-finite.obj", "v nan 0 0\nv inf 0 0\nv 0 -inf 0\n" + obj_box + "f 4 5 6\nf 1 2 3\n", 0,
            "2 faces, lines or points have a vertex that is not finite"},
           {"no-number.obj", "v 0 zero 0\n" + obj_box, 3, "line 1: vertex: 'zero' is not a number"},
-          {"no-library.obj", "mtllib gone.mtl\nusemtl red\n" + obj_box, 0, "material library gone.mtl not found"},
+          {"no-library.obj", "mtllib gone.mtl\nusemtl red\n" + obj_box, 0, "material library gone.mtl: not found"},
           {"binary.obj", Bytes("\0\1\2\3", 4), 3, "holds no faces, lines or points"}};
 }
 
@@ -264,8 +264,8 @@ std::vector<Case> image_cases() {
           {"no-data.png", png.substr(0, 33) + png.substr(png.size() - 12), 3, "PNG: IEND: out of place"},
           {"cut.png", png.substr(0, png.size() - 40), 3, "PNG: the file is truncated"},
           {"whole.jpg", jpeg, 0, ""},
-          {"cut.jpg", jpeg.substr(0, jpeg.size() - 60), 3, "JPEG: Premature end"},
-          {"header-alone.jpg", jpeg.substr(0, 20), 3, "JPEG: Premature end"},
+          {"cut.jpg", jpeg.substr(0, jpeg.size() - 60), 0, "JPEG: Premature end"},
+          {"header-alone.jpg", jpeg.substr(0, 20), 3, "JPEG: JPEG datastream contains no image"},
           {"bad-resolution.hdr", hdr + "-Y 4 +Z 4\n" + Bytes(64, 'a'), 3, "HDR: the header is wrong"},
           {"huge-resolution.hdr", hdr + "-Y 2000000000 +X 2000000000\n", 3, "at most 268435456 are allowed"},
           {"cut.hdr", hdr + "-Y 4 +X 4\nabcd", 3, "HDR: the file ends early"},

@@ -318,8 +318,8 @@ void zoneplate_image_free(zoneplate_image* image);
 /// Makes an image whose array "color" is a copy of the pixels: uint8 or uint16 sRGB codes, or float32 linear light, of
 /// 1 (grey), 3 or 4 channels.
 zoneplate_status zoneplate_image_new(const zoneplate_array* pixels, zoneplate_image** image);
-/// Reads a PNG, JPEG, WebP, HDR, EXR or PFM file; the floats of the last three as they are stored, with NaN and
-/// infinities.
+/// Reads a PNG, JPEG, WebP, BMP, TGA, HDR, EXR or PFM file; the floats of the last three as they are stored, with NaN
+/// and infinities.
 zoneplate_status zoneplate_image_load(const char* path, zoneplate_image** image);
 
 /// Measures the difference of two images by a metric, as "psnr" or "flip:ppd=30". Integers are sRGB codes, floats

@@ -117,7 +117,7 @@ class Image:
 
 
 def load_image(path: str | os.PathLike[str]) -> Image:
-    """Reads a PNG, JPEG, WebP, HDR, EXR or PFM file. The last three are linear light (float32)."""
+    """Reads a PNG, JPEG, WebP, BMP, TGA, HDR, EXR or PFM file. The last three are linear light (float32)."""
     return Image(_native.image_load(os.fspath(path)))
 
 

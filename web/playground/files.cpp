@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/codec/bitmap/tga.h"
 #include "zoneplate/codec/hdr.h"
 #include "zoneplate/codec/ktx2/ktx2.h"
 #include "zoneplate/formats/gltf/draco.h"
@@ -91,6 +92,7 @@ static std::string_view reason_of(std::span<const std::uint8_t> bytes) {
 std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes) {
   if (is_hdr(bytes)) return find_hdr_size(bytes);
   if (is_ktx2(bytes)) return find_ktx2_size(bytes);
+  if (is_tga(bytes)) return find_tga_size(bytes);
   if (!reason_of(bytes).empty()) return std::nullopt;
   const int image = find_image(bytes.data(), bytes.size());
   if (image < 0 || image_value(image, 0) == 0) return std::nullopt;
@@ -114,18 +116,19 @@ static Plane<Texel> image_of(int image) {
   return out;
 }
 
-TexelImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+DecodedImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
   if (const std::string_view reason = reason_of(bytes); !reason.empty())
     throw Error(ErrorKind::Input, fmt::format("{}: {}", name, reason));
-  if (is_hdr(bytes)) return decode_hdr_rgba(bytes, name, max_pixels);
-  if (is_ktx2(bytes)) return decode_ktx2(bytes, name, max_pixels);
+  if (is_hdr(bytes)) return {decode_hdr_rgba(bytes, name, max_pixels)};
+  if (is_ktx2(bytes)) return {decode_ktx2(bytes, name, max_pixels)};
+  if (is_tga(bytes)) return {decode_tga(bytes, name, max_pixels)};
   const std::optional<int2> size = find_image_size(bytes);
   if (!size) throw Error(ErrorKind::Input, name + ": the browser does not decode this image");
   if (static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y) > max_pixels)
     throw Error(ErrorKind::Input, name + ": too many pixels");
   const int image = find_image(bytes.data(), bytes.size());
-  if (image_value(image, 2) == 16) return image_of<Rgba16>(image);
-  return image_of<Rgba8>(image);
+  if (image_value(image, 2) == 16) return {image_of<Rgba16>(image)};
+  return {image_of<Rgba8>(image)};
 }
 
 std::optional<std::string> size_warning(const TextureImage&) { return std::nullopt; }

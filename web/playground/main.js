@@ -273,7 +273,7 @@ function setTheme(theme) {
 }
 setTheme('auto');
 
-const files = element('input', { type: 'file', multiple: true, hidden: true, 'aria-label': 'Files of a model, or an environment', accept: '.glb,.gltf,.obj,.ply,.stl,.mtl,.bin,.ktx2,.hdr,image/*',
+const files = element('input', { type: 'file', multiple: true, hidden: true, 'aria-label': 'Files of a model, or an environment', accept: '.glb,.gltf,.obj,.ply,.stl,.mtl,.bin,.ktx2,.hdr,.tga,image/*',
   onchange: () => chooseFiles(files.files) });
 for (const type of ['dragover', 'dragleave', 'drop']) {
   document.addEventListener(type, (event) => {

@@ -149,7 +149,7 @@ Json::Object Session::prepare_environment(const std::string& file) {
   const CubeImage cube = on_one_thread([&] {
     const FileBytes bytes(file, page_limits().memory);
     if (!is_hdr(bytes.bytes())) throw Error(ErrorKind::Input, file + ": is no Radiance image (.hdr)");
-    const TexelImage image = decode_image(bytes.bytes(), file, page_limits().pixels);
+    const TexelImage image = decode_image(bytes.bytes(), file, page_limits().pixels).whole();
     return cube_of(image, layout_of(image.width(), image.height()));
   });
   prepared_ = PreparedEnvironment(cube).bytes();

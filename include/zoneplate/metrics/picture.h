@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include "zoneplate/image/rgb.h"
 
@@ -17,6 +18,7 @@ struct Picture {
   /// 1 where a surface was hidden, or outside the image, in the frame before. Only of references that the renderer has
   /// made as frames of a sequence; otherwise empty.
   Plane<std::uint8_t> is_uncovered = {};
+  std::string flaw = {};  ///< damage of its file that the decoder passed over, after the file's name; empty if none
 
   /// Pixels in a row; both images have the same size.
   int width() const { return display.width(); }

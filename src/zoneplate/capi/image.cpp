@@ -151,6 +151,7 @@ zoneplate_status zoneplate_image_new(const zoneplate_array* pixels, zoneplate_im
 zoneplate_status zoneplate_image_load(const char* path, zoneplate_image** image) {
   return guarded([&] {
     metrics::Picture picture = metrics::load_picture(&required(path, "path"));
+    if (!picture.flaw.empty()) throw Error(ErrorKind::Input, picture.flaw);
     const bool has_alpha = is_clear_anywhere(picture.linear);
     std::unique_ptr<zoneplate_image> out;
     if (picture.is_scene_linear)

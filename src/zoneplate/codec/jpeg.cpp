@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "zoneplate/base/callback_error.h"
@@ -23,12 +24,13 @@ namespace {
 
 static_assert(sizeof(Rgba8) == 4, "rows are handed to libjpeg as they lie");
 
-/// libjpeg's error manager, with the longjmp target and the error message, or the exception of a callback.
+/// libjpeg's error manager, with the longjmp target and the error message, or the exception of a callback, and the
+/// first warning.
 struct Report {
   jpeg_error_mgr manager{};
   std::jmp_buf place;
   CallbackError error;
-  std::array<char, JMSG_LENGTH_MAX> message{};
+  std::array<char, JMSG_LENGTH_MAX> message{}, warning{};
 };
 
 [[noreturn]] void jump_back(j_common_ptr jpeg) {
@@ -37,10 +39,12 @@ struct Report {
   std::longjmp(report->place, 1);
 }
 
-/// libjpeg conceals damage and warns; only warnings that do not concern the image data are accepted.
-void refuse_warning(j_common_ptr jpeg, int level) {
+/// libjpeg conceals damage and warns. The first warning is kept, unless it concerns neither pixels nor the file's end.
+void keep_warning(j_common_ptr jpeg, int level) {
+  auto* report = reinterpret_cast<Report*>(jpeg->err);
   const int code = jpeg->err->msg_code;
-  if (level < 0 && code != JWRN_EXTRANEOUS_DATA && code != JWRN_ADOBE_XFORM && code != JWRN_BOGUS_ICC) jump_back(jpeg);
+  const bool is_harmless = level >= 0 || code == JWRN_ADOBE_XFORM || code == JWRN_BOGUS_ICC;
+  if (!is_harmless && report->warning[0] == '\0') jpeg->err->format_message(jpeg, report->warning.data());
 }
 
 /// The limit of scans: a small file can contain very many scans of a large image. Encoders write about ten. The limit
@@ -72,7 +76,7 @@ class Reader {
   Reader(std::span<const std::uint8_t> bytes, const std::string& name) : bytes_(bytes), name_(name) {
     jpeg_.err = jpeg_std_error(&report_.manager);
     report_.manager.error_exit = jump_back;
-    report_.manager.emit_message = refuse_warning;
+    report_.manager.emit_message = keep_warning;
     check(guarded([this] { jpeg_create_decompress(&jpeg_); }));
     progress_.progress_monitor = check_progress;
     jpeg_.progress = &progress_;
@@ -93,9 +97,10 @@ class Reader {
     return frame;
   }
 
-  Rgba8Image decode(std::uint64_t max_pixels) {
+  JpegImage decode(std::uint64_t max_pixels) {
     check(read_header());
     check_size(max_pixels);
+    check_data();
     const bool is_cmyk = jpeg_.jpeg_color_space == JCS_CMYK || jpeg_.jpeg_color_space == JCS_YCCK;
     jpeg_.out_color_space = is_cmyk ? JCS_CMYK : JCS_EXT_RGBA;
     // The exact integer transform gives the same codes on every machine.
@@ -105,7 +110,8 @@ class Reader {
     Rgba8Image image(static_cast<int>(jpeg_.image_width), static_cast<int>(jpeg_.image_height));
     read_rows(image);
     if (is_cmyk) mix_inks(image);
-    return image;
+    std::string flaw = report_.warning[0] == '\0' ? "" : name_ + ": JPEG: " + report_.warning.data();
+    return {std::move(image), std::move(flaw)};
   }
 
  private:
@@ -140,6 +146,13 @@ class Reader {
     // A Huffman code takes at least one bit per block of 8 x 8 pixels, so that a file with far fewer bytes is
     // truncated.
     if (!jpeg_.arith_code && pixels / 1024 > bytes_.size()) throw Error(ErrorKind::Input, name_ + ": JPEG: truncated");
+  }
+
+  /// Throws if a marker follows the header of the first scan at once: then nothing of the image can be decoded.
+  void check_data() const {
+    const std::span<const JOCTET> data(jpeg_.src->next_input_byte, jpeg_.src->bytes_in_buffer);
+    if (data.empty() || (data[0] == 0xff && (data.size() < 2 || data[1] != 0)))
+      throw Error(ErrorKind::Input, name_ + ": JPEG: has no data of its pixels");
   }
 
   void read_rows(Rgba8Image& image) {
@@ -185,7 +198,7 @@ std::optional<JpegFrame> read_jpeg_frame(std::span<const std::uint8_t> bytes) {
   return is_jpeg(bytes) ? Reader(bytes, no_name).frame() : std::nullopt;
 }
 
-Rgba8Image decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+JpegImage decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
   if (!is_jpeg(bytes)) throw Error(ErrorKind::Input, name + ": not a JPEG file");
   return Reader(bytes, name).decode(max_pixels);
 }

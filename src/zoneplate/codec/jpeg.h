@@ -24,8 +24,17 @@ struct JpegFrame {
 /// Reads the frame header with libjpeg; nothing if the bytes up to the first scan are not a valid JPEG.
 std::optional<JpegFrame> read_jpeg_frame(std::span<const std::uint8_t> bytes);
 
-/// Errors    ErrorKind::Input with `name` in front: not a JPEG, truncated, corrupt, more than `max_pixels` pixels.
-Rgba8Image decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& name,
-                       std::uint64_t max_pixels = std::uint64_t{1} << 28);
+/// A decoded JPEG.
+struct JpegImage {
+  Rgba8Image pixels;
+  std::string flaw;  ///< the first damage that libjpeg found and decoded past, after the name; empty if there is none
+};
+
+/// Of a damaged file what libjpeg decodes is kept; pixels that are missing are grey.
+///
+/// Errors    ErrorKind::Input with `name` in front: not a JPEG, no data of its pixels, a corrupt header, more than
+///           `max_pixels` pixels.
+JpegImage decode_jpeg(std::span<const std::uint8_t> bytes, const std::string& name,
+                      std::uint64_t max_pixels = std::uint64_t{1} << 28);
 
 }  // namespace zoneplate

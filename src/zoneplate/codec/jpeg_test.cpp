@@ -7,6 +7,7 @@
 
 #include <jpeglib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <vector>
@@ -99,13 +100,13 @@ TEST(Jpeg, DecodesColorAndGrey) {
     for (const auto& [width, height] : {std::pair{1, 1}, std::pair{17, 9}, std::pair{64, 50}}) {
       const Bytes color = jpeg_of(width, height, {.is_progressive = is_progressive});
       // Errors: luma, chroma and each coefficient are rounded, and chroma is multiplied by up to 1.8.
-      EXPECT_LE(worst_difference(decode_jpeg(color, "a"), smooth), 4);
+      EXPECT_LE(worst_difference(decode_jpeg(color, "a").pixels, smooth), 4);
       const Bytes grey = jpeg_of(width, height, {JCS_GRAYSCALE, JCS_GRAYSCALE, 1, is_progressive});
       const auto expected = [](int x, int y, int) { return smooth(x, y, 0); };
-      EXPECT_LE(worst_difference(decode_jpeg(grey, "a"), expected), 2);
+      EXPECT_LE(worst_difference(decode_jpeg(grey, "a").pixels, expected), 2);
       // Subsampled chroma blurs the image; the tolerance still rejects a different image.
       const Bytes half = jpeg_of(width, height, {.is_progressive = is_progressive, .is_subsampled = true});
-      EXPECT_LE(worst_difference(decode_jpeg(half, "a"), smooth), 20);
+      EXPECT_LE(worst_difference(decode_jpeg(half, "a").pixels, smooth), 20);
     }
   }
 }
@@ -114,7 +115,7 @@ TEST(Jpeg, MixesInks) {
   // libjpeg writes Adobe's marker here: the codes are transmittance, not ink.
   const auto expected = [](int x, int y, int c) { return (smooth(x, y, c) * smooth(x, y, 3) + 127) / 255; };
   for (const J_COLOR_SPACE stored : {JCS_CMYK, JCS_YCCK}) {
-    EXPECT_LE(worst_difference(decode_jpeg(jpeg_of(40, 30, {JCS_CMYK, stored, 4}), "a"), expected), 5);
+    EXPECT_LE(worst_difference(decode_jpeg(jpeg_of(40, 30, {JCS_CMYK, stored, 4}), "a").pixels, expected), 5);
   }
 }
 
@@ -136,13 +137,53 @@ TEST(Jpeg, SaysWhatIsWrong) {
   EXPECT_EQ(error_of(good, 199), "a.jpg: JPEG: 20 x 10 pixels, at most 199 are allowed");
 }
 
-TEST(Jpeg, RefusesEveryTruncation) {
+Bytes first_of(const Bytes& bytes, std::size_t count) {
+  return {bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(count)};
+}
+
+TEST(Jpeg, KeepsWhatIsLeftOfATruncatedFile) {
   for (const bool is_progressive : {false, true}) {
-    const Bytes good = jpeg_of(20, 10, {.is_progressive = is_progressive});
+    const Bytes good = jpeg_of(20, 40, {.is_progressive = is_progressive});
+    const Rgba8Image whole = decode_jpeg(good, "a.jpg").pixels;
+    int pictures = 0;
     for (std::size_t size = 0; size < good.size(); ++size) {
-      EXPECT_NE(error_of(Bytes(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size))), "") << size;
+      const Bytes cut = first_of(good, size);
+      if (!error_of(cut).empty()) continue;
+      ++pictures;
+      EXPECT_TRUE(decode_jpeg(cut, "a.jpg").flaw.starts_with("a.jpg: JPEG: ")) << size;
     }
+    EXPECT_GT(pictures, 100);
+    // The mark of the end holds no pixels.
+    const JpegImage endless = decode_jpeg(first_of(good, good.size() - 2), "a.jpg");
+    EXPECT_EQ(endless.pixels, whole);
+    EXPECT_EQ(endless.flaw, "a.jpg: JPEG: Premature end of JPEG file");
+    const JpegImage short_one = decode_jpeg(first_of(good, good.size() - 20), "a.jpg");
+    EXPECT_EQ(short_one.pixels(0, 0), whole(0, 0));
+    EXPECT_NE(short_one.pixels, whole);
   }
+}
+
+TEST(Jpeg, RefusesAFileWithoutDataOfItsPixels) {
+  const Bytes good = jpeg_of(20, 10, {});
+  const Bytes mark = {0xff, 0xda};
+  const auto scan =
+      static_cast<std::size_t>(std::search(good.begin(), good.end(), mark.begin(), mark.end()) - good.begin());
+  const std::size_t header = scan + 2 + good[scan + 3];
+  Bytes empty = first_of(good, header);
+  EXPECT_EQ(error_of(empty), "a.jpg: JPEG: has no data of its pixels");
+  empty.insert(empty.end(), {0xff, 0xd9});
+  EXPECT_EQ(error_of(empty), "a.jpg: JPEG: has no data of its pixels");
+  EXPECT_EQ(error_of(first_of(good, header + 1)), "");
+}
+
+TEST(Jpeg, DecodesPastExtraneousBytes) {
+  const Bytes good = jpeg_of(20, 10, {});
+  Bytes padded = good;
+  padded.insert(padded.end() - 2, 40, std::uint8_t{1});
+  const JpegImage image = decode_jpeg(padded, "a.jpg");
+  EXPECT_EQ(image.pixels, decode_jpeg(good, "a.jpg").pixels);
+  EXPECT_NE(image.flaw.find("extraneous bytes before marker 0xd9"), std::string::npos) << image.flaw;
+  EXPECT_EQ(decode_jpeg(good, "a.jpg").flaw, "");
 }
 
 TEST(Jpeg, DamageGivesAPictureOrAnError) {
@@ -169,6 +210,9 @@ TEST_P(SharedJpeg, IsDecodedUnlessItIsInvalid) {
   const FileBytes file(GetParam());
   const std::string error = error_of(Bytes(file.bytes().begin(), file.bytes().end()));
   EXPECT_EQ(error.empty(), GetParam().find("/invalid/") == std::string::npos) << error;
+  if (error.empty()) {
+    EXPECT_EQ(decode_jpeg(file.bytes(), "a.jpg").flaw, "");
+  }
 }
 GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(SharedJpeg);
 INSTANTIATE_TEST_SUITE_P(Images, SharedJpeg, testing::ValuesIn(shared_files_ending("data/models", {".jpg"})));
@@ -188,7 +232,7 @@ Bytes in_many_scans(int size) {
 }
 
 TEST(Jpeg, TakesFewerScansOfALargerPicture) {
-  EXPECT_EQ(decode_jpeg(in_many_scans(64), "small")(9, 9).r, 77);
+  EXPECT_EQ(decode_jpeg(in_many_scans(64), "small").pixels(9, 9).r, 77);
   // 2^31 / 3600^2 = 165.
   try {
     decode_jpeg(in_many_scans(3600), "large");

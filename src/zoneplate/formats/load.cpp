@@ -85,7 +85,8 @@ Scene read_file(const std::string& name, const LoadOptions& options) {
     throw Error(ErrorKind::Usage, "'" + options.format + "' is not a format that can be read (" + readable + ")");
   std::error_code ignored;
   const bool exists = std::filesystem::exists(name, ignored);
-  if (exists && (extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".webp"))
+  constexpr std::string_view images[] = {".png", ".jpg", ".jpeg", ".webp", ".bmp", ".tga"};
+  if (exists && std::ranges::find(images, extension) != std::end(images))
     throw Error(ErrorKind::Input, name + ": is an image, expected a model; zoneplate filter antialiases images");
   throw Error(ErrorKind::Input, exists ? name + ": not a format that can be read (" + readable + ")"
                                        : name + ": no such file, and no built-in scene of that name");

@@ -13,6 +13,7 @@
 #include "zoneplate/codec/apng.h"
 #include "zoneplate/codec/exr.h"
 #include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/os/file.h"
 
@@ -117,11 +118,11 @@ TEST_F(FilterFiles, InputsAreKeptUnlessForced) {
 TEST_F(FilterFiles, OtherFormatsAreNamed) {
   using namespace std::string_literals;
   const std::pair<const char*, std::string> files[] = {
-      {"a GIF", "GIF89a"}, {"a BMP", "BM6"}, {"a TIFF", "II*\0abcd"s}, {"an AVIF", "\0\0\0\x1c"s + "ftypavif"}};
+      {"a GIF", "GIF89a"}, {"a KTX2", "\xabKTX 20"}, {"a TIFF", "II*\0abcd"s}, {"an AVIF", "\0\0\0\x1c"s + "ftypavif"}};
   for (const auto& [format, bytes] : files) {
     save("x.bin", std::vector<std::uint8_t>(bytes.begin(), bytes.end()));
     expect_refused("x.bin -o out.png --aa smaa", 3,
-                   fmt::format("x.bin: is {} image, expected PNG, JPEG, WebP, HDR, EXR or PFM", format));
+                   fmt::format("x.bin: is {} image, expected PNG, JPEG, WebP, HDR, EXR, PFM, BMP or TGA", format));
   }
   Animation animation;
   animation.frames = {Rgba8Image(side, side, {9, 9, 9, 255}), Rgba8Image(side, side, {0, 9, 9, 255})};
@@ -129,6 +130,37 @@ TEST_F(FilterFiles, OtherFormatsAreNamed) {
   const ProgramAnswer answer = run("film.png -o first.png --aa smaa");
   EXPECT_EQ(answer.code, 0);
   EXPECT_TRUE(contains(answer.out, "is an animation of 2 frames, of which the first is filtered")) << answer.out;
+}
+
+TEST_F(FilterFiles, BitmapsAreRead) {
+  const std::vector<std::uint8_t> tga = {0, 0, 11, 0, 0, 0, 0, 0, 0, 0, 0, 0, side, 0, side, 0, 8, 0, 0xff, 7, 0xff, 7};
+  std::vector<std::uint8_t> bmp = {'B', 'M', 0, 0,    0, 0, 0, 0,    0, 0, 54, 0, 0, 0, 40,
+                                   0,   0,   0, side, 0, 0, 0, side, 0, 0, 0,  1, 0, 24};
+  bmp.resize(54 + 3 * side * side, 0);
+  std::fill(bmp.begin() + 54, bmp.end(), std::uint8_t{7});
+  save("in/a.tga", tga), save("in/b.bmp", bmp);
+  const ProgramAnswer answer = run("in -o out --aa smaa");
+  EXPECT_EQ(answer.code, 0) << answer.out;
+  for (const char* name : {"out/a.png", "out/b.png"}) {
+    const FileBytes file((place / name).string());
+    EXPECT_EQ(decode_png(file.bytes(), name).pixels, Rgba8Image(side, side, {7, 7, 7, 255})) << name;
+  }
+  const ProgramAnswer equal = ProgramTest::run("metrics in/a.tga in/b.bmp");
+  EXPECT_EQ(equal.code, 0) << equal.out;
+}
+
+// What libjpeg decodes is kept, by every verb of images.
+TEST_F(FilterFiles, DamagedJpegsGiveAWarning) {
+  std::vector<std::uint8_t> jpeg = encode_jpeg(Rgba8Image(side, side, {200, 9, 9, 255}));
+  save("whole.jpg", jpeg);
+  jpeg.resize(jpeg.size() - 2);
+  save("cut.jpg", jpeg);
+  for (const char* arguments : {"filter cut.jpg -o a.png --aa smaa", "metrics whole.jpg cut.jpg",
+                                "signal resample cut.jpg -o b.png --size 50%", "texture levels cut.jpg"}) {
+    const ProgramAnswer answer = ProgramTest::run(arguments);
+    EXPECT_EQ(answer.code, 0) << answer.out;
+    EXPECT_TRUE(contains(answer.out, "warning: cut.jpg: JPEG: Premature end of JPEG file")) << answer.out;
+  }
 }
 
 TEST_F(FilterFiles, WhatIsNotFiniteDoesNotEnterTheHistory) {

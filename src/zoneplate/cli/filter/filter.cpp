@@ -108,8 +108,9 @@ UpscaleGrid grid_of(const Filters& filters, int width, int height, const std::st
 
 void filter_linear(const FilterItem& item, const LinearImage& image, const Filters& filters, Delivery& out) {
   if (filters.antialiasing)
-    throw Error(ErrorKind::Input,
-                item.input + ": is a scene-linear image, expected a display-referred one (PNG, JPEG or WebP)");
+    throw Error(
+        ErrorKind::Input,
+        item.input + ": is a scene-linear image, expected a display-referred one (PNG, JPEG, WebP, BMP or TGA)");
   if (!is_linear_file(item.output))
     throw Error(ErrorKind::Usage, fmt::format("{}: is a scene-linear image, and {} is not: write an .exr or a .pfm",
                                               item.input, item.output));
@@ -175,7 +176,7 @@ Syntax make_syntax(FilterArgs& args) {
           "  zoneplate filter c.####.png --depth z.####.exr --motion v.####.exr --motion-scale -960,540 \\\n"
           "      --upscale fsr2 --size 1920x1080 --jitter offsets.txt -o out/\n",
       .notes =
-          "IMAGES is a PNG, JPEG or WebP file, a folder of them, or a sequence (name.####.png, name.%04d.png);\n"
+          "IMAGES is a PNG, JPEG, WebP, BMP or TGA file, a folder of them, or a sequence (name.####.png);\n"
           "upscalers also read scene-linear .hdr, .exr and .pfm files, and write .exr and .pfm for them.\n"
           "A file that is read is not replaced without --force.\n"
           "Antialiasing filters work on 8-bit sRGB values. Pixels that the filter does not blend keep their exact "

@@ -14,11 +14,13 @@
 namespace zoneplate::cli {
 namespace {
 
-TextureImage read_texture(const std::string& path, const LoadLimits& limits) {
+TextureImage read_texture(const std::string& path, const LoadLimits& limits, std::vector<std::string>& warnings) {
   const MappedFileWatch watch;
   const FileBytes file(path, limits.memory);
   ImportBudget(path, limits).take(decoded_image_memory(file.bytes()) + image_working_memory(file.bytes()));
-  TextureImage image{path, decode_image(file.bytes(), path, limits.pixels)};
+  DecodedImage decoded = decode_image(file.bytes(), path, limits.pixels);
+  if (!decoded.flaw.empty() && !limits.is_strict) warnings.push_back(std::exchange(decoded.flaw, ""));
+  TextureImage image{path, std::move(decoded).whole()};
   watch.check(path);
   return image;
 }
@@ -46,7 +48,7 @@ void set_default_material(const DefaultMaterial& look, const LoadLimits& limits,
   int image = -1;
   if (!look.texture.empty()) {
     image = static_cast<int>(scene.images.size());
-    scene.images.push_back(read_texture(look.texture, limits));
+    scene.images.push_back(read_texture(look.texture, limits, scene.warnings));
     const auto has_no_place = [&](const Mesh& mesh) {
       return scene.materials[static_cast<std::size_t>(mesh.material)].is_default && mesh.uv0.empty();
     };

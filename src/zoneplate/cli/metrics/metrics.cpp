@@ -123,7 +123,7 @@ Syntax make_syntax(MetricsArgs& args) {
           "  zoneplate metrics golden/ made/ --metric ssim --threshold 0.98 --report report.html\n"
           "  zoneplate metrics golden/ made/ --metric pixels:tolerance=2 --threshold 0.1 --junit junit.xml\n",
       .notes =
-          "Operands are PNG, JPEG, WebP, HDR, EXR or PFM files, directories, sequences (name.####.png,\n"
+          "Operands are PNG, JPEG, WebP, BMP, TGA, HDR, EXR or PFM files, directories, sequences (name.####.png,\n"
           "name.%04d.png) or videos (.mp4, .mov, .mkv, .webm, .avi, .gif, .apng; ffmpeg decodes them).\n"
           "The images of two directories and their subfolders are paired by path, those of two sequences by\n"
           "number. Every pair passes or fails by itself: an image that is missing, new, unreadable or of another\n"
@@ -188,6 +188,7 @@ metrics::PictureSet within_limits(metrics::PictureSet set, Delivery& out) {
   set.decode = [&out](const metrics::ImageFile& file) {
     metrics::Picture picture;
     out.read(file.name, [&] { picture = metrics::decode_file(file, out.limits().pixels); });
+    if (!picture.flaw.empty()) out.warn(picture.flaw);
     return picture;
   };
   return set;

@@ -128,7 +128,7 @@ struct EnvironmentSource {
     ImportBudget(names.front(), limits).take(need);
     std::vector<TexelImage> images;
     for (std::size_t k = 0; k < files.size(); ++k)
-      images.push_back(decode_image(files[k].bytes(), names[k], limits.pixels));
+      images.push_back(decode_image(files[k].bytes(), names[k], limits.pixels).whole());
     if (images.size() > 1) return cube_of(strip_of(images, names), EnvironmentLayout::Strip);
     const TexelImage& image = images.front();
     return cube_of(image, args.hdri_layout.value_or(layout_of(image.width(), image.height())));

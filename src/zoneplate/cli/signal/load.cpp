@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "zoneplate/base/error.h"
 #include "zoneplate/codec/exr.h"
 #include "zoneplate/codec/hdr.h"
 #include "zoneplate/codec/pfm.h"
@@ -52,34 +53,50 @@ LinearImage as_codes(LinearImage image) {
   return image;
 }
 
-LinearImage load_file(const std::string& operand, bool uses_codes, std::uint64_t most_pixels) {
+/// An image, and damage of its file that the decoder passed over.
+struct Loaded {
+  LinearImage image;
+  std::string flaw = {};
+};
+
+Loaded load_file(const std::string& operand, bool uses_codes, std::uint64_t most_pixels) {
   const FileBytes file(operand);
   if (is_hdr(file.bytes()) || is_exr(file.bytes()) || is_pfm(file.bytes())) {
     LinearImage light = is_hdr(file.bytes())   ? decode_hdr(file.bytes(), operand, most_pixels)
                         : is_exr(file.bytes()) ? decode_exr(file.bytes(), operand, most_pixels)
                                                : decode_pfm(file.bytes(), operand, most_pixels);
-    return uses_codes ? as_codes(std::move(light)) : light;
+    return {uses_codes ? as_codes(std::move(light)) : std::move(light)};
   }
   const bool is_png = !file.bytes().empty() && file.bytes()[0] == 0x89;
-  if (!is_png) return image_of(decode_image(file.bytes(), operand, most_pixels).as<Rgba8>(), uses_codes);
+  if (!is_png) {
+    DecodedImage decoded = decode_image(file.bytes(), operand, most_pixels);
+    return {image_of(decoded.texels.as<Rgba8>(), uses_codes), std::move(decoded.flaw)};
+  }
   const PngImage png = decode_png(file.bytes(), operand, most_pixels);
-  return png.pixels16.empty() ? image_of(png.pixels, uses_codes) : image_of(png.pixels16, uses_codes);
+  return {png.pixels16.empty() ? image_of(png.pixels, uses_codes) : image_of(png.pixels16, uses_codes)};
+}
+
+Loaded load(const std::string& operand, bool uses_codes, std::uint64_t most_pixels) {
+  if (is_pattern(operand)) return {uses_codes ? as_codes(make_pattern(operand)) : make_pattern(operand)};
+  const MappedFileWatch watch;
+  Loaded loaded = load_file(operand, uses_codes, most_pixels);
+  watch.check(operand);
+  return loaded;
 }
 
 }  // namespace
 
 LinearImage load_signal(const std::string& operand, bool uses_codes, std::uint64_t most_pixels) {
-  if (is_pattern(operand)) return uses_codes ? as_codes(make_pattern(operand)) : make_pattern(operand);
-  const MappedFileWatch watch;
-  LinearImage image = load_file(operand, uses_codes, most_pixels);
-  watch.check(operand);
-  return image;
+  Loaded loaded = load(operand, uses_codes, most_pixels);
+  if (!loaded.flaw.empty()) throw Error(ErrorKind::Input, loaded.flaw);
+  return std::move(loaded.image);
 }
 
 LinearImage load_signal(const std::string& operand, bool uses_codes, Delivery& out) {
-  LinearImage image;
-  out.read(operand, [&] { image = load_signal(operand, uses_codes, out.limits().pixels); });
-  return image;
+  Loaded loaded;
+  out.read(operand, [&] { loaded = load(operand, uses_codes, out.limits().pixels); });
+  if (!loaded.flaw.empty()) out.warn(loaded.flaw);
+  return std::move(loaded.image);
 }
 
 }  // namespace zoneplate::cli

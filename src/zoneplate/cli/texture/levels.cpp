@@ -31,18 +31,18 @@ struct LevelsArgs : SignalArgs {
   bool shows_ripmap = false;
 };
 
-TexelImage load_texels(const std::string& operand, std::uint64_t most_pixels) {
-  if (is_pattern(operand)) return shown(make_pattern(operand), false);
+DecodedImage load_texels(const std::string& operand, std::uint64_t most_pixels) {
+  if (is_pattern(operand)) return {shown(make_pattern(operand), false)};
   const MappedFileWatch watch;
   const FileBytes file(operand);
-  TexelImage image;
+  DecodedImage image;
   if (is_pfm(file.bytes())) {
     const LinearImage light = decode_pfm(file.bytes(), operand, most_pixels);
     Plane<float4> texels(light.width(), light.height());
     std::ranges::transform(light.values(), texels.values().begin(), [](const Linear& c) {
       return float4{c.r, c.g, c.b, c.a};
     });
-    image = std::move(texels);
+    image.texels = std::move(texels);
   } else {
     image = decode_image(file.bytes(), operand, most_pixels);
   }
@@ -225,7 +225,11 @@ void run_texture_levels(std::span<const std::string> arguments) {
   check_picture_name(args.output);
   run_subcommand(args, {input}, {}, [&](Delivery& out) {
     TexelImage texels;
-    out.read(input, [&] { texels = load_texels(input, out.limits().pixels); });
+    out.read(input, [&] {
+      DecodedImage image = load_texels(input, out.limits().pixels);
+      if (!image.flaw.empty()) out.warn(image.flaw);
+      texels = std::move(image.texels);
+    });
     const Texture texture(std::move(texels), args.meaning, args.options);
     const bool is_color = args.meaning == TexelMeaning::Color;
     if (!args.output.empty())

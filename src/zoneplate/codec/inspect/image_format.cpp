@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "zoneplate/codec/bitmap/tga.h"
 #include "zoneplate/codec/exr.h"
 #include "zoneplate/codec/hdr.h"
 #include "zoneplate/codec/jpeg.h"
@@ -52,6 +53,7 @@ std::string_view format_of_image(std::span<const std::uint8_t> bytes) {
   if (is_pfm(bytes)) return "a PFM";
   for (const Signature& known : signatures)
     if (has_text_at(bytes, known.at, known.text)) return known.name;
+  if (is_tga(bytes)) return "a TGA";
   return "no known";
 }
 

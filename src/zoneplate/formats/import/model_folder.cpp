@@ -33,19 +33,33 @@ bool is_file(const std::string& path) {
   return std::filesystem::is_regular_file(path, trouble);
 }
 
+/// Whether a name with slashes is absolute, in Unix or Windows.
+bool is_absolute(const std::string& path) { return path.starts_with('/') || (path.size() > 1 && path[1] == ':'); }
+
 }  // namespace
 
-std::optional<std::string> ModelFolder::find_file(const std::string& within, std::string_view name) const {
+std::optional<std::string> ModelFolder::find_file(const std::string& within, std::string_view name) {
   const std::string path = with_slashes(name);
-  const bool has_drive = path.size() > 1 && path[1] == ':';
-  const bool is_absolute = has_drive || (!path.empty() && path[0] == '/');
   const std::string last = path.substr(path.find_last_of('/') + 1);
-  const std::string tries[] = {is_absolute ? path : within + path, path, within + last, last};
+  const std::string tries[] = {is_absolute(path) ? path : within + path, path, within + last, last};
   for (const std::string& attempt : tries) {
     const auto found = find_path(folder_, to_uri(attempt), budget_.limits().allowed_paths);
     if (found && is_file(*found)) return found;
   }
+  for (const std::string& attempt : tries) {
+    const auto found = finder_.find(to_uri(attempt));
+    if (found && is_file(*found)) return found;
+  }
   return std::nullopt;
+}
+
+std::string ModelFolder::missing_text(const std::string& within, const std::string& name) const {
+  const std::string path = with_slashes(name);
+  if (path.find("<UDIM>") != path.npos) return name + ": a set of UDIM tiles, which are not drawn";
+  const bool is_outside =
+      !path.empty() && !is_absolute(path) && !find_path(folder_, to_uri(within + path), budget_.limits().allowed_paths);
+  return name + (is_outside ? ": leads out of the model's folder (--allow-path PATH permits more)"
+                            : ": not found in the model's folder");
 }
 
 FileBytes ModelFolder::open(const std::string& path) const {
@@ -62,7 +76,7 @@ int ModelFolder::image(const std::string& within, const std::string& name) {
   const std::optional<std::string> path = missing_ < most_missing ? find_file(within, name) : std::nullopt;
   const auto [entry, is_new] = images_.try_emplace(path.value_or("missing " + name), -1);
   const bool is_missing = is_new && !path;
-  if (is_new && missing_ < most_missing) entry->second = load(name, path);
+  if (is_new && missing_ < most_missing) entry->second = load(within, name, path);
   if (is_missing && ++missing_ == most_missing) warn(budget_.file() + ": no more textures are looked for");
   return known->second = entry->second;
 }
@@ -96,15 +110,18 @@ TextureImage ModelFolder::decode(const std::string& name, std::span<const std::u
   const std::uint64_t working = image_working_memory(bytes);
   budget_.take(name.size() + 2 * sizeof(TextureImage));
   budget_.take(working + decoded_image_memory(bytes));
-  TextureImage image{name, decode_image(bytes, name, budget_.limits().pixels)};
+  DecodedImage decoded = decode_image(bytes, name, budget_.limits().pixels);
   budget_.give_back(working);
+  if (!decoded.flaw.empty() && !budget_.limits().is_strict)
+    warn(fmt::format("{}: texture {}", budget_.file(), std::exchange(decoded.flaw, "")));
+  TextureImage image{name, std::move(decoded).whole()};
   if (const auto warning = size_warning(image)) scene_.warnings.push_back(budget_.file() + ": " + *warning);
   return image;
 }
 
-int ModelFolder::load(const std::string& name, const std::optional<std::string>& path) {
+int ModelFolder::load(const std::string& within, const std::string& name, const std::optional<std::string>& path) {
   return add([&] {
-    if (!path) throw Error(ErrorKind::Input, name + ": not found in the model's folder");
+    if (!path) throw Error(ErrorKind::Input, missing_text(within, name));
     const FileBytes file = open(*path);
     return decode(name, file.bytes());
   });

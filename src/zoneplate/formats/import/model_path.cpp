@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/formats/import/model_path.h"
 
+#include <dirent.h>
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -10,6 +11,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <system_error>
 
 #include "zoneplate/base/error.h"
@@ -51,6 +53,11 @@ bool is_allowed(std::span<const std::string> allowed, const std::filesystem::pat
     const std::filesystem::path known = std::filesystem::weakly_canonical(path, trouble);
     return !trouble && (known == file || is_within(known, file));
   });
+}
+
+std::string lower_case(std::string text) {
+  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return text;
 }
 
 struct Descriptor {
@@ -135,6 +142,52 @@ std::optional<std::string> find_path(const std::string& folder, std::string_view
   const fs::path found = fs::weakly_canonical(inside / name, trouble);
   if (trouble || !(is_within(inside, found) || is_allowed(allowed, found))) return std::nullopt;
   return file.string();
+}
+
+std::optional<std::string> PathFinder::find(std::string_view uri) {
+  namespace fs = std::filesystem;
+  const std::optional<std::string> exact = find_path(folder_, uri, allowed_);
+  std::error_code trouble;
+  if (!exact || fs::exists(*exact, trouble)) return exact;
+  const fs::path inside = fs::weakly_canonical(folder_.empty() ? "." : folder_, trouble);
+  const auto is_readable = [&](const fs::path& place) {
+    const fs::path found = fs::weakly_canonical(place, trouble);
+    return !trouble && (found == inside || is_within(inside, found) || is_allowed(allowed_, found));
+  };
+  fs::path place;
+  for (const fs::path& part : fs::path(*exact)) {
+    const fs::path same = place / part;
+    if (fs::exists(fs::symlink_status(same, trouble))) {
+      place = same;
+      continue;
+    }
+    const fs::path folder = place.empty() ? fs::path(".") : place;
+    if (!is_readable(folder)) return exact;
+    const Names& names = names_in(folder.string());
+    const auto other = names.find(lower_case(part.string()));
+    if (other == names.end()) return exact;
+    place /= other->second;
+  }
+  return is_readable(place) ? place.string() : exact;
+}
+
+const PathFinder::Names& PathFinder::names_in(const std::string& folder) {
+  const auto [known, is_new] = known_.try_emplace(folder);
+  Names& names = known->second;
+  if (!is_new) return names;
+  // Not an iterator of the standard library, which calls fcntl: the sandbox does not allow it.
+  const std::unique_ptr<DIR, int (*)(DIR*)> open(::opendir(folder.c_str()), ::closedir);
+  constexpr std::size_t most_entries = 1 << 16;  // the memory of the names is not counted
+  while (open != nullptr && entries_ < most_entries) {
+    const dirent* const entry = ::readdir(open.get());
+    if (entry == nullptr) break;
+    ++entries_;
+    const std::string name = entry->d_name;
+    const auto [kept, is_first] = names.try_emplace(lower_case(name), name);
+    if (!is_first) kept->second = std::min(kept->second, name);
+  }
+  if (entries_ == most_entries) names.clear();  // the order of the entries must not matter
+  return names;
 }
 
 FileBytes open_found(const std::string& folder, const std::string& path, std::span<const std::string> allowed,

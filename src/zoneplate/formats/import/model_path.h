@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "zoneplate/os/file.h"
@@ -26,6 +29,27 @@ bool has_scheme(std::string_view uri);
 /// nor below one of them.
 std::optional<std::string> find_path(const std::string& folder, std::string_view uri,
                                      std::span<const std::string> allowed);
+
+/// Finds the files that a model names, as find_path does, and where there is none of that name, one whose name differs
+/// in the case of ASCII letters alone: many models were written where case does not count.
+class PathFinder {
+ public:
+  PathFinder(std::string folder, std::span<const std::string> allowed)
+      : folder_(std::move(folder)), allowed_(allowed) {}
+
+  /// The path of a file that need not exist. In each folder of the path an entry of the very name comes first, then the
+  /// first of another case in the order of bytes. A folder outside the model's and those that are allowed is not read.
+  std::optional<std::string> find(std::string_view uri);
+
+ private:
+  using Names = std::map<std::string, std::string>;  ///< by the name in lower case
+  const Names& names_in(const std::string& folder);
+
+  std::string folder_;
+  std::span<const std::string> allowed_;
+  std::map<std::string, Names> known_;  ///< by folder
+  std::size_t entries_ = 0;             ///< of all folders that were read
+};
 
 /// Opens a file that find_path found. It is checked again to be within the folder or `allowed`, because the path may
 /// have changed in the meantime, and opened without following links, because it may change again.

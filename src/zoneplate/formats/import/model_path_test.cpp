@@ -94,6 +94,29 @@ TEST(GltfUri, AStreamIsNotAFile) {
   }
 }
 
+TEST(PathFinder, FindsNamesInAnotherCaseWithinTheFolder) {
+  const TestFolder folder;
+  for (const char* name : {"model/Sub/In.BIN", "model/b.png", "model/B.png", "out/Far.bin"})
+    folder.write(name, std::string("x"));
+  const std::string model = folder.path("model");
+  const auto found = [&](const char* uri, const Paths& allowed = {}) {
+    return PathFinder(model, allowed).find(uri).value_or("nothing");
+  };
+  EXPECT_EQ(found("sUB/iN.bin"), model + "/Sub/In.BIN");
+  EXPECT_EQ(found("SUB/../sub/in%2ebin"), model + "/Sub/../Sub/In.BIN");
+  EXPECT_EQ(found("b.png"), model + "/b.png");
+  EXPECT_EQ(found("B.PNG"), model + "/B.png");
+  EXPECT_EQ(found("sub/gone.bin"), model + "/sub/gone.bin");
+  // Nothing outside is looked for, unless it is allowed.
+  EXPECT_EQ(found("../OUT/far.bin"), "nothing");
+  EXPECT_EQ(found("../out/far.bin", Paths{folder.path("out")}), model + "/../out/Far.bin");
+  EXPECT_EQ(found("../OUT/far.bin", Paths{folder.path("out")}), "nothing");
+  // A link of another name that leads out is not followed.
+  std::filesystem::create_symlink("../out/Far.bin", folder.path("model/Link.bin"));
+  EXPECT_EQ(found("link.BIN"), model + "/link.BIN");
+  EXPECT_EQ(found("link.BIN", Paths{folder.path("out")}), model + "/Link.bin");
+}
+
 TEST(GltfUri, FollowsLinksBeforeItAnswers) {
   const TestFolder folder;
   folder.write("model/in.bin", std::string("x"));

@@ -7,6 +7,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "zoneplate/base/error.h"
+#include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/formats/obj/obj.h"
 #include "zoneplate/image/transfer.h"
@@ -190,16 +192,72 @@ TEST_F(MtlScene, WarnsOfWhatIsMissing) {
   EXPECT_EQ(scene.materials[0].base_color.x, 0.8f);
   EXPECT_EQ(warnings_of(scene),
             "m.obj: texture gone.png: not found in the model's folder\n"
-            "m.obj: texture bad.png: is no known image, expected PNG, JPEG, WebP, HDR, EXR, PFM or KTX2\n"
+            "m.obj: texture bad.png: is no known image, expected PNG, JPEG, WebP, HDR, EXR, PFM, KTX2, BMP or TGA\n"
             "m.obj: material m: not drawn: refl\n");
   write("model/m.obj", "mtllib a.mtl b c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   write("model/b c.mtl", "");
   EXPECT_EQ(warnings_of(load_obj((folder_ / "model/m.obj").string())),
-            "m.obj: material library a.mtl not found in the model's folder\n"
-            "m.obj: material library b not found in the model's folder\n"
-            "m.obj: material library c.mtl not found in the model's folder\n");
+            "m.obj: material library a.mtl: not found in the model's folder\n"
+            "m.obj: material library b: not found in the model's folder\n"
+            "m.obj: material library c.mtl: not found in the model's folder\n");
   write("model/m.obj", "mtllib b c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   EXPECT_EQ(warnings_of(load_obj((folder_ / "model/m.obj").string())), "");
+}
+
+// Blender finds such files too.
+TEST_F(MtlScene, NamesInAnotherCaseAreFound) {
+  write("model/C.mtl", "newmtl m\nmap_Kd TEX\\q.png\nmap_Ke r.PNG\n");
+  write("model/m.obj", "mtllib c.MTL\nusemtl m\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  fs::create_directories(folder_ / "model/Tex");
+  write_png("model/Tex/Q.PNG", {1, 2, 3, 255}, {1, 2, 3, 255});
+  write_png("model/R.png", {4, 5, 6, 255}, {4, 5, 6, 255});
+  write_png("model/r.png", {7, 8, 9, 255}, {7, 8, 9, 255});
+  const Scene scene = load_obj((folder_ / "model/m.obj").string());
+  EXPECT_EQ(warnings_of(scene), "");
+  ASSERT_EQ(scene.images.size(), 2u);
+  // Of several names the first in the order of bytes counts.
+  const auto texel = [&](int image) { return scene.images[static_cast<std::size_t>(image)].pixels.as<Rgba8>()(0, 0); };
+  EXPECT_EQ(texel(scene.materials.at(0).base_color_texture.image), (Rgba8{1, 2, 3, 255}));
+  EXPECT_EQ(texel(scene.materials.at(0).emissive_texture.image), (Rgba8{4, 5, 6, 255}));
+  // The very name comes first, also where it is searched last.
+  write_png("model/q.png", {9, 9, 9, 255}, {9, 9, 9, 255});
+  const Scene exact = load_obj((folder_ / "model/m.obj").string());
+  EXPECT_EQ(exact.images.at(0).pixels.as<Rgba8>()(0, 0), (Rgba8{9, 9, 9, 255}));
+}
+
+TEST_F(MtlScene, HintsAtFilesOutsideAndAtTiles) {
+  fs::create_directories(folder_ / "textures");
+  write_png("textures/x.png", {1, 2, 3, 255}, {1, 2, 3, 255});
+  const std::string mtl = "newmtl m\nmap_Kd ../textures/x.png\nmap_Ke wall.<UDIM>.png\n";
+  EXPECT_EQ(warnings_of(load(mtl)),
+            "m.obj: texture ../textures/x.png: leads out of the model's folder (--allow-path PATH permits more)\n"
+            "m.obj: texture wall.<UDIM>.png: a set of UDIM tiles, which are not drawn\n");
+  EXPECT_EQ(load(mtl, {.allowed_paths = {(folder_ / "textures").string()}}).images.size(), 1u);
+  write("model/m.obj", "mtllib ../m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  fs::remove(folder_ / "model/m.mtl");
+  EXPECT_EQ(warnings_of(load_obj((folder_ / "model/m.obj").string())),
+            "m.obj: material library ../m.mtl: leads out of the model's folder (--allow-path PATH permits more)\n");
+}
+
+TEST_F(MtlScene, KeepsWhatIsLeftOfADamagedJpeg) {
+  const std::vector<std::uint8_t> bytes = encode_jpeg(Rgba8Image(8, 8, {200, 10, 10, 255}));
+  write("model/cut.jpg", std::string(bytes.begin(), bytes.end() - 2));
+  const Scene scene = load("newmtl m\nmap_Kd cut.jpg\n");
+  EXPECT_EQ(warnings_of(scene), "m.obj: texture cut.jpg: JPEG: Premature end of JPEG file\n");
+  ASSERT_EQ(scene.materials.at(0).base_color_texture.image, 0);
+  EXPECT_NEAR(scene.images.at(0).pixels.as<Rgba8>()(4, 4).r, 200, 3);
+  EXPECT_THROW(load("newmtl m\nmap_Kd cut.jpg\n", {.is_strict = true}), Error);
+}
+
+TEST_F(MtlScene, ReadsBitmaps) {
+  const std::string bmp("BM\x3a\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x1\0\0\0\x1\0\0\0\x1\0\x18\0", 30);
+  write("model/a.bmp", bmp + std::string(24, '\0') + "\x1\x2\x3");
+  write("model/b.tga", std::string("\0\0\x3\0\0\0\0\0\0\0\0\0\x1\0\x1\0\x8\0\x7", 19));
+  const Scene scene = load("newmtl m\nmap_Kd a.bmp\nmap_Ke b.tga\n");
+  EXPECT_EQ(warnings_of(scene), "");
+  ASSERT_EQ(scene.images.size(), 2u);
+  EXPECT_EQ(scene.images[0].pixels.as<Rgba8>()(0, 0), (Rgba8{3, 2, 1, 255}));
+  EXPECT_EQ(scene.images[1].pixels.as<Rgba8>()(0, 0), (Rgba8{7, 7, 7, 255}));
 }
 
 TEST_F(MtlScene, ImagesAreSharedScaledAndClamped) {

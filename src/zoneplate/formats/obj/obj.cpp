@@ -92,7 +92,7 @@ class Libraries {
     if (!path) {
       if (++missing_ <= most_named)
         scene.warnings.push_back(
-            fmt::format("{}: material library {} not found in the model's folder", folder_.budget().file(), name));
+            fmt::format("{}: material library {}", folder_.budget().file(), folder_.missing_text("", name)));
       return;
     }
     if (!opened_.insert(*path).second) return;

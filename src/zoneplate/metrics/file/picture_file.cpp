@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
@@ -13,6 +12,8 @@
 #include <string_view>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/codec/bitmap/bmp.h"
+#include "zoneplate/codec/bitmap/tga.h"
 #include "zoneplate/codec/exr.h"
 #include "zoneplate/codec/hdr.h"
 #include "zoneplate/codec/inspect/image_format.h"
@@ -49,9 +50,10 @@ DisplayImage display_of(const Rgba16Image& codes) {
 }
 
 DisplayImage decode_display(std::span<const std::uint8_t> bytes, const std::string& path, std::uint64_t most_pixels) {
-  if (is_jpeg(bytes)) return display_of(decode_jpeg(bytes, path, most_pixels));
   if (is_webp(bytes)) return display_of(decode_webp(bytes, path, most_pixels));
-  if (!is_png(bytes)) throw unread_format(bytes, path, "PNG, JPEG, WebP, HDR, EXR or PFM");
+  if (is_bmp(bytes)) return display_of(decode_bmp(bytes, path, most_pixels));
+  if (!is_png(bytes) && is_tga(bytes)) return display_of(decode_tga(bytes, path, most_pixels));
+  if (!is_png(bytes)) throw unread_format(bytes, path, "PNG, JPEG, WebP, HDR, EXR, PFM, BMP or TGA");
   const PngImage png = decode_png_as_stored(bytes, path, most_pixels);
   return png.pixels16.empty() ? display_of(png.pixels) : display_of(png.pixels16);
 }
@@ -85,13 +87,13 @@ std::string lower_extension(const fs::path& path) {
 }
 
 bool is_picture_name(const fs::path& path) {
-  constexpr std::array<std::string_view, 7> known = {".png", ".jpg", ".jpeg", ".webp", ".hdr", ".exr", ".pfm"};
-  return std::ranges::find(known, lower_extension(path)) != known.end();
+  constexpr std::string_view known[] = {".png", ".jpg", ".jpeg", ".webp", ".hdr", ".exr", ".pfm", ".bmp", ".tga"};
+  return std::ranges::find(known, lower_extension(path)) != std::end(known);
 }
 
 bool is_other_image_name(const fs::path& path) {
-  constexpr std::string_view known[] = {".apng", ".gif", ".bmp",  ".tif", ".tiff", ".avif", ".heic", ".jxl", ".tga",
-                                        ".ktx2", ".dds", ".webm", ".mp4", ".mov",  ".mkv",  ".avi",  ".m4v"};
+  constexpr std::string_view known[] = {".apng", ".gif",  ".tif", ".tiff", ".avif", ".heic", ".jxl", ".ktx2",
+                                        ".dds",  ".webm", ".mp4", ".mov",  ".mkv",  ".avi",  ".m4v"};
   return std::ranges::find(known, lower_extension(path)) != std::end(known);
 }
 
@@ -149,7 +151,7 @@ bool is_directory(const std::string& path) {
 std::vector<std::string> if_any(std::vector<std::string> paths, const std::string& directory) {
   if (paths.empty())
     throw Error(ErrorKind::Input,
-                directory + ": the directory holds no .png, .jpg, .jpeg, .webp, .hdr, .exr or .pfm file");
+                directory + ": the directory holds no .png, .jpg, .jpeg, .webp, .hdr, .exr, .pfm, .bmp or .tga file");
   return paths;
 }
 
@@ -174,6 +176,12 @@ std::vector<std::uint64_t> frame_numbers(const std::vector<std::string>& paths) 
 }  // namespace
 
 Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t most_pixels) {
+  if (is_jpeg(bytes)) {
+    JpegImage image = decode_jpeg(bytes, name, most_pixels);
+    Picture picture = make_picture(display_of(image.pixels));
+    picture.flaw = std::move(image.flaw);
+    return picture;
+  }
   return is_hdr(bytes)   ? make_picture(decode_hdr(bytes, name, most_pixels))
          : is_exr(bytes) ? make_picture(decode_exr_as_stored(bytes, name, most_pixels))
          : is_pfm(bytes) ? make_picture(decode_pfm(bytes, name, most_pixels))

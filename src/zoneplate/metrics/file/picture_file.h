@@ -19,8 +19,8 @@ ImageFile open_image(const std::string& path);
 /// Decodes it as load_picture does.
 Picture decode_file(const ImageFile& file, std::uint64_t most_pixels = std::uint64_t{1} << 28);
 
-/// Loads an image from a PNG (8 or 16 bits), JPEG, WebP, HDR, EXR or PFM file, recognised by its first bytes. "-" is
-/// stdin.
+/// Loads an image from a PNG (8 or 16 bits), JPEG, WebP, HDR, EXR, PFM, BMP or TGA file, recognised by its first bytes.
+/// "-" is stdin. Of a damaged JPEG what can be decoded is kept, with a flaw.
 ///
 /// HDR, EXR and PFM contain unbounded linear light, which is kept as it is stored, with NaN and infinities; their
 /// display-referred values are clamped.
@@ -39,9 +39,9 @@ struct PictureFiles {
 
 /// Lists the files of one operand, in order.
 ///
-/// A directory: its .png, .jpg, .jpeg, .webp, .hdr, .exr and .pfm files in natural order (9 before 10), without
-/// subfolders. A name whose last component contains `####` or `%04d`: the files with a number in its place, in the
-/// order of the numbers. Any other operand: that file.
+/// A directory: its .png, .jpg, .jpeg, .webp, .hdr, .exr, .pfm, .bmp and .tga files in natural order (9 before 10),
+/// without subfolders. A name whose last component contains `####` or `%04d`: the files with a number in its place, in
+/// the order of the numbers. Any other operand: that file.
 ///
 /// Errors    ErrorKind::Input if a directory or a pattern matches no image.
 PictureFiles list_pictures(const std::string& operand);
