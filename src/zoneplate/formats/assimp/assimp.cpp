@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <new>
 #include <optional>
@@ -71,20 +72,41 @@ std::string one_line(std::string text) {
   return text.substr(0, 400);
 }
 
+/// What the polygons of an X3D file are. assimp gives the polylines of line sets as polygons: they are polylines if the
+/// file has no other shapes, and stay polygons if it has, with a warning.
+Polygons polygons_of_x3d(std::span<const std::uint8_t> bytes, ModelFolder& folder) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (text.find("LineSet") == text.npos) return Polygons::Filled;
+  constexpr std::string_view surfaces[] = {"FaceSet", "TriangleSet",   "TriangleFanSet", "TriangleStripSet",
+                                           "QuadSet", "ElevationGrid", "Extrusion",      "<Box",
+                                           "<Cone",   "<Cylinder",     "<Sphere",        "2D"};
+  const bool has_surfaces = std::any_of(std::begin(surfaces), std::end(surfaces),
+                                        [&](std::string_view name) { return text.find(name) != text.npos; });
+  if (has_surfaces)
+    folder.warn(folder.budget().file() +
+                ": line sets beside surfaces are drawn as polygons, as assimp hands them over");
+  return has_surfaces ? Polygons::Filled : Polygons::Polylines;
+}
+
 Scene import(const AssimpLibrary& library, const std::string& path, std::string_view extension, ImportBudget& budget) {
   const std::string folder = path == "-" ? "." : std::filesystem::path(path).parent_path().string();
   AssimpFiles files(path, folder, extension, budget);
-  constexpr unsigned steps = aiProcess_GenUVCoords | aiProcess_JoinIdenticalVertices;
+  // The transforms of FBX are not those that assimp applies: they are about the origin and in degrees.
+  const unsigned transforms = extension == ".fbx" ? 0u : unsigned{aiProcess_TransformUVCoords};
+  const unsigned steps = aiProcess_GenUVCoords | aiProcess_JoinIdenticalVertices | transforms;
   const std::unique_ptr<const aiScene, decltype(library.release)> read(
       library.import(files.model_name().c_str(), steps, files.io()), library.release);
   files.rethrow();
   if (!read && std::string_view(library.error()).find("bad_alloc") != std::string_view::npos) throw std::bad_alloc();
-  if (!read) throw Error(ErrorKind::Input, budget.file() + ": " + one_line(library.error()));
+  const bool is_gltf = extension == ".gltf" || extension == ".glb";
+  const std::string place = budget.file() + (is_gltf ? ": glTF 1.0: " : ": ");
+  if (!read) throw Error(ErrorKind::Input, place + one_line(library.error()));
   Scene scene;
   ModelFolder textures(folder, budget, scene);
-  convert_assimp_scene(*read, extension, textures);
-  if (scene.instances.empty()) throw Error(ErrorKind::Input, budget.file() + ": holds nothing to draw");
-  if (const auto flaw = find_invalid(scene)) throw Error(ErrorKind::Input, budget.file() + ": " + *flaw);
+  const Polygons polygons = extension == ".x3d" ? polygons_of_x3d(files.model(), textures) : Polygons::Filled;
+  convert_assimp_scene(*read, extension, polygons, textures);
+  if (scene.instances.empty()) throw Error(ErrorKind::Input, place + "holds nothing to draw");
+  if (const auto flaw = find_invalid(scene)) throw Error(ErrorKind::Input, place + *flaw);
   center_far_scene(scene);
   return scene;
 }

@@ -243,6 +243,115 @@ TEST(Assimp, ATextureOfFbxReplacesTheDiffuseColour) {
   EXPECT_FALSE(m.is_default);
 }
 
+/// The FBX file with more lines in its texture, and a second set of coordinates.
+std::string fbx_with(const std::string& texture) {
+  std::string text = fbx;
+  const auto insert = [&](std::string_view behind, const std::string& lines) {
+    text.insert(text.find(behind) + behind.size(), lines);
+  };
+  insert("RelativeFilename: \"tex.png\"\n", texture);
+  insert("LayerElementUV: 0 {\n", "Name: \"first\"\n");
+  insert("0,0,1,0,0,1\n}\n}\n",
+         "LayerElementUV: 1 {\nName: \"second\"\nMappingInformationType: \"ByPolygonVertex\"\n"
+         "ReferenceInformationType: \"Direct\"\nUV: *6 {\na: 0.5,0.25,0.75,0.25,0.5,0.5\n}\n}\n");
+  insert("TypedIndex: 0\n}\n}\n", "Layer: 1 {\nLayerElement:  {\nType: \"LayerElementUV\"\nTypedIndex: 1\n}\n}\n");
+  return text;
+}
+
+// A tiled floor must not be one stretched tile.
+TEST(Assimp, TransformsCoordinatesOfFbx) {
+  if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
+  const TestFolder folder;
+  folder.write("tex.png", encode_png(Rgba8Image(2, 1, {200, 0, 0, 255})));
+  const auto use_of = [&](const char* properties) {
+    const std::string text = fbx_with(std::string("Properties70:  {\n") + properties + "}\n");
+    return load_scene(folder.write("a.fbx", text)).materials.at(0).base_color_texture;
+  };
+  const TextureUse plain = use_of("");
+  EXPECT_EQ(plain.scale, (float2{1, 1}));
+  EXPECT_EQ(plain.offset, (float2{0, 0}));
+  const TextureUse tiled = use_of(
+      "P: \"Scaling\", \"Vector\", \"\", \"A\",2,3,1\n"
+      "P: \"Translation\", \"Vector\", \"\", \"A\",0.25,0.5,0\n");
+  EXPECT_EQ(tiled.scale, (float2{2, 3}));
+  EXPECT_EQ(tiled.offset, (float2{0.25f, -2.5f}));  // from the top: 1 - 3 - 0.5
+  EXPECT_EQ(tiled.rotation, 0);
+  EXPECT_NEAR(use_of("P: \"Rotation\", \"Vector\", \"\", \"A\",0,0,90\n").rotation, 1.5707963f, 1e-6f);
+}
+
+TEST(Assimp, UsesTheCoordinatesThatATextureNames) {
+  if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
+  const TestFolder folder;
+  folder.write("tex.png", encode_png(Rgba8Image(2, 1, {200, 0, 0, 255})));
+  const auto first_uv = [&](const char* texture) {
+    const Scene s = load_scene(folder.write("a.fbx", fbx_with(texture)));
+    EXPECT_TRUE(s.meshes.at(0).uv1.empty());
+    return s.meshes.at(0).uv0.at(0);
+  };
+  EXPECT_EQ(first_uv(""), (float2{0, 1}));
+  EXPECT_EQ(first_uv("Properties70:  {\nP: \"UVSet\", \"KString\", \"\", \"\", \"second\"\n}\n"),
+            (float2{0.5f, 0.75f}));
+}
+
+/// A square of ASE, whose texture is transformed.
+std::string ase_with(const std::string& transform) {
+  return "*3DSMAX_ASCIIEXPORT 200\n*MATERIAL_LIST {\n*MATERIAL_COUNT 1\n*MATERIAL 0 {\n*MATERIAL_NAME \"m\"\n"
+         "*MATERIAL_CLASS \"Standard\"\n*MAP_DIFFUSE {\n*MAP_AMOUNT 1.0\n*BITMAP \"tex.png\"\n" +
+         transform +
+         "}\n}\n}\n*GEOMOBJECT {\n*NODE_NAME \"t\"\n*NODE_TM {\n*NODE_NAME \"t\"\n*TM_ROW0 1.0 0.0 0.0\n"
+         "*TM_ROW1 0.0 1.0 0.0\n*TM_ROW2 0.0 0.0 1.0\n*TM_ROW3 0.0 0.0 0.0\n}\n*MESH {\n*TIMEVALUE 0\n"
+         "*MESH_NUMVERTEX 3\n*MESH_NUMFACES 1\n*MESH_VERTEX_LIST {\n*MESH_VERTEX 0 0.0 0.0 0.0\n"
+         "*MESH_VERTEX 1 1.0 0.0 0.0\n*MESH_VERTEX 2 1.0 0.0 1.0\n}\n*MESH_FACE_LIST {\n"
+         "*MESH_FACE 0: A: 0 B: 1 C: 2 AB: 1 BC: 1 CA: 0 *MESH_SMOOTHING 1 *MESH_MTLID 0\n}\n*MESH_NUMTVERTEX 3\n"
+         "*MESH_TVERTLIST {\n*MESH_TVERT 0 0.0 0.0 0.0\n*MESH_TVERT 1 1.0 0.0 0.0\n*MESH_TVERT 2 1.0 1.0 0.0\n}\n"
+         "*MESH_NUMTVFACES 1\n*MESH_TFACELIST {\n*MESH_TFACE 0 0 1 2\n}\n}\n*MATERIAL_REF 0\n}\n";
+}
+
+// 3D Studio Max scales and rotates about the centre.
+TEST(Assimp, TransformsCoordinatesOfAse) {
+  if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
+  const TestFolder folder;
+  folder.write("tex.png", encode_png(Rgba8Image(2, 1, {200, 0, 0, 255})));
+  const auto first_uv = [&](const char* transform) {
+    const Scene s = load_scene(folder.write("a.ase", ase_with(transform)));
+    EXPECT_EQ(s.materials.at(0).base_color_texture.image, 0);
+    const Mesh& mesh = s.meshes.at(0);
+    for (std::size_t v = 0; v < mesh.position.size(); ++v)
+      if (length(mesh.position[v]) < 1e-6f) return mesh.uv0.at(v);
+    return float2{-99, -99};
+  };
+  const auto expect_near = [](float2 found, float2 expected) {
+    EXPECT_NEAR(found.x, expected.x, 1e-5f);
+    EXPECT_NEAR(found.y, expected.y, 1e-5f);
+  };
+  expect_near(first_uv(""), {0, 1});
+  expect_near(first_uv("*UVW_U_TILING 2.0\n*UVW_V_TILING 3.0\n"), {-0.5f, 2});
+  expect_near(first_uv("*UVW_ANGLE 1.5707963\n"), {1, 1});
+  expect_near(first_uv("*UVW_U_OFFSET 0.25\n"), {0.25f, 1});
+}
+
+TEST(Assimp, LineSetsOfX3dAreLines) {
+  if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
+  const std::string lines =
+      "<Shape><IndexedLineSet coordIndex=\"0 1 2 3 -1\"><Coordinate point=\"0 0 0 1 0 0 1 1 0 0 1 0\"/>"
+      "</IndexedLineSet></Shape>";
+  const std::string faces =
+      "<Shape><IndexedFaceSet coordIndex=\"0 1 2 -1\"><Coordinate point=\"0 0 0 1 0 0 1 1 "
+      "0\"/></IndexedFaceSet></Shape>";
+  const auto scene = [](const std::string& shapes) {
+    return load(bytes_of("<?xml version=\"1.0\"?><X3D version=\"3.0\"><Scene>" + shapes + "</Scene></X3D>"), "x3d");
+  };
+  const Scene polyline = scene(lines);
+  ASSERT_EQ(polyline.meshes.size(), 1u);
+  EXPECT_EQ(polyline.meshes[0].topology, Topology::Lines);
+  EXPECT_EQ(polyline.meshes[0].primitives(), 3u);
+  EXPECT_TRUE(polyline.warnings.empty());
+  const Scene both = scene(lines + faces);
+  ASSERT_EQ(both.warnings.size(), 1u);
+  EXPECT_NE(both.warnings[0].find("line sets"), std::string::npos) << both.warnings[0];
+  EXPECT_EQ(scene(faces).meshes.at(0).topology, Topology::Triangles);
+}
+
 TEST(Assimp, ReadsNothingOutsideTheModelsFolder) {
   if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
   const TestFolder folder;

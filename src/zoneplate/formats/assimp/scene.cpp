@@ -58,18 +58,57 @@ std::string find_text(const aiMaterial& m, std::string_view key, unsigned semant
   return {p->mData + 4, std::min<std::size_t>(length, p->mDataLength - 5)};
 }
 
-std::string find_image(const aiMaterial& m, std::initializer_list<aiTextureType> kinds) {
-  for (const aiTextureType kind : kinds)
-    if (std::string name = find_text(m, "$tex.file", kind); !name.empty()) return name;
-  return "";
-}
-
-std::optional<int> find_whole(const aiMaterial& m, std::string_view key) {
-  const aiMaterialProperty* p = find_property(m, key);
+std::optional<int> find_whole(const aiMaterial& m, std::string_view key, unsigned semantic = 0) {
+  const aiMaterialProperty* p = find_property(m, key, semantic);
   if (p == nullptr || p->mType != aiPTI_Integer || p->mDataLength < sizeof(std::int32_t)) return std::nullopt;
   std::int32_t value = 0;
   std::memcpy(&value, p->mData, sizeof value);
   return value;
+}
+
+/// The coordinates of a mesh that the textures of a material use: two of the eight that assimp has.
+struct UsedChannels {
+  std::vector<unsigned> channel = {};  ///< of Mesh::uv0 and uv1
+
+  /// The number of a channel, which it gets here; nothing if there are two others.
+  std::optional<int> use(unsigned wanted) {
+    const auto found = std::find(channel.begin(), channel.end(), wanted);
+    if (found == channel.end() && channel.size() == 2) return std::nullopt;
+    const auto number = static_cast<int>(found - channel.begin());
+    if (found == channel.end()) channel.push_back(wanted);
+    return number;
+  }
+};
+
+/// The transform of coordinates of an FBX texture: scaled, rotated (in degrees) and moved, about the origin. That of
+/// other formats is applied by assimp.
+void read_transform(const aiMaterial& m, unsigned kind, MtlTexture& out) {
+  constexpr float radians = 0.017453292f;
+  const aiMaterialProperty* p = find_property(m, "$tex.uvtrafo", kind);
+  float v[5] = {};
+  if (p == nullptr || p->mType != aiPTI_Float || p->mDataLength < sizeof v) return;
+  std::memcpy(v, p->mData, sizeof v);
+  if (!std::all_of(std::begin(v), std::end(v), [](float f) { return std::isfinite(f); })) return;
+  out.offset = {v[0], v[1]}, out.scale = {v[2], v[3]}, out.rotation = v[4] * radians;
+}
+
+/// The first texture of these kinds; without a file if there is none, or if it would use a third set of coordinates.
+MtlTexture find_texture(const aiMaterial& m, std::initializer_list<aiTextureType> kinds, UsedChannels& channels,
+                        std::vector<std::string>& unsupported) {
+  MtlTexture out;
+  for (const aiTextureType kind : kinds) {
+    out.file = find_text(m, "$tex.file", kind);
+    if (out.file.empty()) continue;
+    read_transform(m, kind, out);
+    const int wanted = find_whole(m, "$tex.uvwsrc", kind).value_or(0);
+    const bool exists = wanted >= 0 && wanted < AI_MAX_NUMBER_OF_TEXTURECOORDS;
+    const std::optional<int> set = channels.use(exists ? static_cast<unsigned>(wanted) : 0);
+    if (!set) unsupported.push_back(out.file + " (a third set of texture coordinates)");
+    if (!set) return {};
+    out.uv_set = *set;
+    return out;
+  }
+  return out;
 }
 
 /// Applies the shading models of COLLADA's common profile: <constant> is its emission alone, and <lambert>, which
@@ -84,7 +123,7 @@ void set_collada_model(const aiMaterial& m, MtlMaterial& out) {
 }
 
 /// Converts a material to the parameters of MTL, the only ones that are imported from these formats.
-MtlMaterial mtl_of(const aiMaterial& m) {
+MtlMaterial mtl_of(const aiMaterial& m, UsedChannels& channels) {
   MtlMaterial out;
   out.name = find_text(m, "?mat.name");
   out.diffuse = find_color(m, "$clr.diffuse");
@@ -95,27 +134,32 @@ MtlMaterial mtl_of(const aiMaterial& m) {
   out.opacity = find_float(m, "$mat.opacity");
   out.metallic = find_float(m, "$mat.metallicFactor");
   out.roughness = find_float(m, "$mat.roughnessFactor");
-  out.diffuse_map.file = find_image(m, {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR});
+  out.diffuse_map = find_texture(m, {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR}, channels, out.unsupported);
   // In FBX, COLLADA and 3DS a texture is the diffuse colour; in formats with a base colour it multiplies that.
   if (!out.diffuse_map.file.empty() && !find_color(m, "$clr.base")) out.diffuse.reset();
   out.ambient = out.diffuse;
-  out.emissive_map.file = find_image(m, {aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR});
-  out.opacity_map.file = find_image(m, {aiTextureType_OPACITY});
-  out.normal_map.file = find_image(m, {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA});
+  out.emissive_map = find_texture(m, {aiTextureType_EMISSIVE, aiTextureType_EMISSION_COLOR}, channels, out.unsupported);
+  out.opacity_map = find_texture(m, {aiTextureType_OPACITY}, channels, out.unsupported);
+  out.normal_map = find_texture(m, {aiTextureType_NORMALS, aiTextureType_NORMAL_CAMERA}, channels, out.unsupported);
   return out;
 }
 
 /// The state of a conversion. A mesh of assimp may mix primitives, and becomes up to three meshes.
 class Conversion {
  public:
-  Conversion(const aiScene& from, std::string_view extension, ModelFolder& folder)
-      : from_(from), extension_(extension), folder_(folder), scene_(folder.scene()), budget_(folder.budget()) {}
+  Conversion(const aiScene& from, std::string_view extension, Polygons polygons, ModelFolder& folder)
+      : from_(from),
+        extension_(extension),
+        folder_(folder),
+        scene_(folder.scene()),
+        budget_(folder.budget()),
+        polygons_(polygons) {}
 
   void run() {
     scene_.up = up();
     for (unsigned i = 0; i < from_.mNumTextures; ++i) embed(*from_.mTextures[i], i);
     for (unsigned i = 0; i < from_.mNumMaterials; ++i) add_material(*from_.mMaterials[i]);
-    if (scene_.materials.empty()) scene_.materials.push_back(plain_material("default"));
+    if (scene_.materials.empty()) scene_.materials.push_back(plain_material("default")), channels_.emplace_back();
     for (unsigned i = 0; i < from_.mNumMeshes; ++i) parts_.push_back(add_mesh(*from_.mMeshes[i]));
     if (from_.mRootNode != nullptr) add_node(*from_.mRootNode, {}, 0);
     if (dropped_ > 0)
@@ -128,7 +172,7 @@ class Conversion {
  private:
   // Where a file has no materials, its importer adds one of these names, in a grey of its own.
   void add_material(const aiMaterial& from) {
-    MtlMaterial mtl = mtl_of(from);
+    MtlMaterial mtl = mtl_of(from, channels_.emplace_back());
     const bool is_default = mtl.name == AI_DEFAULT_MATERIAL_NAME || (mtl.name.empty() && is_format(".off")) ||
                             (mtl.name == "%%%DEFAULT" && is_format(".3ds"));
     if (is_default && mtl.diffuse_map.file.empty()) {
@@ -171,9 +215,8 @@ class Conversion {
   Mesh vertices_of(const aiMesh& m) {
     Mesh out;
     const std::size_t n = m.mNumVertices;
-    const bool has_uv = m.mTextureCoords[0] != nullptr, has_color = m.mColors[0] != nullptr;
-    budget_.take(n * (sizeof(float3) + (m.mNormals ? sizeof(float3) : 0) + (has_uv ? sizeof(float2) : 0) +
-                      (has_color ? sizeof(float4) : 0)));
+    const bool has_color = m.mColors[0] != nullptr;
+    budget_.take(n * (sizeof(float3) + (m.mNormals ? sizeof(float3) : 0) + (has_color ? sizeof(float4) : 0)));
     const auto to_float3 = [](const aiVector3D& v) { return float3{v.x, v.y, v.z}; };
     out.position.resize(n), std::transform(m.mVertices, m.mVertices + n, out.position.begin(), to_float3);
     if (m.mNormals != nullptr) {
@@ -182,12 +225,9 @@ class Conversion {
         return is_finite(to_float3(v)) ? normalize(to_float3(v), {0, 1, 0}) : float3{0, 1, 0};
       });
     }
-    if (has_uv) {
-      out.uv0.resize(n);
-      std::transform(m.mTextureCoords[0], m.mTextureCoords[0] + n, out.uv0.begin(), [](const aiVector3D& v) {
-        return float2{v.x, 1 - v.y};
-      });
-    }
+    const std::vector<unsigned>& channels = channels_[material_of(m)].channel;
+    out.uv0 = coordinates_of(m, channels.empty() ? 0 : channels[0]);
+    if (channels.size() == 2) out.uv1 = coordinates_of(m, channels[1]);
     if (has_color) {
       out.color.resize(n);
       std::transform(m.mColors[0], m.mColors[0] + n, out.color.begin(), [](const aiColor4D& c) {
@@ -199,6 +239,18 @@ class Conversion {
     }
     return out;
   }
+  /// The coordinates of a channel; the first ones of a mesh that has none there.
+  std::vector<float2> coordinates_of(const aiMesh& m, unsigned channel) {
+    const aiVector3D* const from = m.mTextureCoords[m.mTextureCoords[channel] != nullptr ? channel : 0];
+    if (from == nullptr) return {};
+    budget_.take(m.mNumVertices * sizeof(float2));
+    std::vector<float2> out(m.mNumVertices);
+    std::transform(from, from + m.mNumVertices, out.begin(), [](const aiVector3D& v) { return float2{v.x, 1 - v.y}; });
+    return out;
+  }
+  std::size_t material_of(const aiMesh& m) const {
+    return std::min<std::size_t>(m.mMaterialIndex, scene_.materials.size() - 1);
+  }
   static float linear(float code) { return decode_srgb(std::clamp(code, 0.0f, 1.0f)); }
 
   void add_face(const aiFace& face, const aiMesh& m, std::array<std::vector<std::uint32_t>, 3>& index) {
@@ -208,8 +260,12 @@ class Conversion {
     if (corners.empty()) return;
     constexpr std::size_t many_corners = 64;  // triangulating a polygon of more corners may take long
     if (corners.size() > many_corners) budget_.check_time();
-    std::vector<std::uint32_t>& out = index[std::min<std::size_t>(corners.size(), 3) - 1];
     budget_.take(3 * corners.size() * sizeof(std::uint32_t));
+    if (polygons_ == Polygons::Polylines && corners.size() > 1) {
+      for (std::size_t i = 1; i < corners.size(); ++i) index[1].insert(index[1].end(), {corners[i - 1], corners[i]});
+      return;
+    }
+    std::vector<std::uint32_t>& out = index[std::min<std::size_t>(corners.size(), 3) - 1];
     if (corners.size() <= 3) return void(out.insert(out.end(), corners.begin(), corners.end()));
     polygon_.clear(), triangles_.clear();
     for (const unsigned i : corners) polygon_.push_back({m.mVertices[i].x, m.mVertices[i].y, m.mVertices[i].z});
@@ -234,7 +290,7 @@ class Conversion {
       budget_.take(2 * sizeof(Mesh) + mesh.name.size());
       mesh.topology = corners == 1 ? Topology::Points : corners == 2 ? Topology::Lines : Topology::Triangles;
       mesh.index = std::move(index[corners - 1]);
-      mesh.material = static_cast<int>(std::min<std::size_t>(m.mMaterialIndex, scene_.materials.size() - 1));
+      mesh.material = static_cast<int>(material_of(m));
       dropped_ += drop_not_finite(mesh).dropped;
       if (mesh.index.empty()) continue;
       if (corners == 3 && mesh.normal.empty()) {
@@ -281,6 +337,8 @@ class Conversion {
   ModelFolder& folder_;
   Scene& scene_;
   ImportBudget& budget_;
+  Polygons polygons_;
+  std::vector<UsedChannels> channels_;   ///< by material
   std::vector<std::vector<int>> parts_;  ///< for each mesh of assimp, the indices of our meshes
   std::vector<float3> polygon_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;
@@ -289,8 +347,8 @@ class Conversion {
 
 }  // namespace
 
-void convert_assimp_scene(const aiScene& from, std::string_view extension, ModelFolder& folder) {
-  Conversion(from, extension, folder).run();
+void convert_assimp_scene(const aiScene& from, std::string_view extension, Polygons polygons, ModelFolder& folder) {
+  Conversion(from, extension, polygons, folder).run();
 }
 
 }  // namespace zoneplate

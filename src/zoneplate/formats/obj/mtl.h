@@ -17,6 +17,9 @@ struct MtlTexture {
   float2 offset{0, 0}, scale{1, 1};  ///< -o, -s: the coordinate is offset + scale × uv, origin at the bottom left
   bool clamp = false;                ///< -clamp on
   float strength = 1;                ///< -bm
+  // MTL has none of these; the other formats whose materials are converted to MTL's have.
+  float rotation = 0;  ///< radians, counter-clockwise; after the scale, before the offset
+  int uv_set = 0;
 };
 
 /// A material as stated in an MTL file; the colours are unchanged.

@@ -31,9 +31,13 @@ TextureUse use_of(const MtlTexture& texture, int image) {
   TextureUse use;
   use.image = image;
   if (texture.clamp) use.sampler.wrap_u = use.sampler.wrap_v = Wrap::Clamp;
-  // v_file = offset + scale × (1 - v), and our v is 1 - v_file.
+  // uv_file = offset + rotation × scale × (u, 1 - v), and our v is 1 - v_file.
+  const float c = texture.rotation == 0 ? 1 : std::cos(texture.rotation);
+  const float s = texture.rotation == 0 ? 0 : std::sin(texture.rotation);
   use.scale = texture.scale;
-  use.offset = {texture.offset.x, 1 - texture.scale.y - texture.offset.y};
+  use.rotation = texture.rotation;
+  use.offset = {texture.offset.x - s * texture.scale.y, 1 - c * texture.scale.y - texture.offset.y};
+  use.uv_set = texture.uv_set;
   return use;
 }
 
