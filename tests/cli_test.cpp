@@ -301,8 +301,8 @@ TEST_F(Cli, ErrorsAreOneLineWithTheDocumentedCode) {
       {3, {"triangels", "-o", "a.png"}, "triangels: no such file or scene; did you mean triangles?"},
       {3,
        {"text.xyz", "-o", "a.png"},
-       "text.xyz: not a format that can be read (.gltf, .glb, .obj, .ply, .stl and others, see zoneplate list "
-       "formats)"},
+       "text.xyz: not a format that can be read (.gltf, .glb, .vrm, .obj, .ply, .stl and others, see zoneplate "
+       "list formats)"},
       {3, {"missing.xyz", "-o", "a.png"}, "missing.xyz: no such file, and no built-in scene of that name"},
       {4, {"triangles", "-o", "folder.png"}, "folder.png: is a directory; write into it with a / at its end"},
       {4, {"triangles", "-o", "missing/a.png"}, "missing/a.png: cannot be written: no directory missing"},

@@ -15,6 +15,7 @@
 #include "zoneplate/formats/obj/obj.h"
 #include "zoneplate/formats/ply/ply.h"
 #include "zoneplate/formats/stl/stl.h"
+#include "zoneplate/os/file.h"
 #include "zoneplate/os/library.h"
 #include "zoneplate/os/mapped_file_guard.h"
 #include "zoneplate/scene/builtin/builtin.h"
@@ -22,11 +23,10 @@
 namespace zoneplate {
 namespace {
 
-constexpr SceneFormat formats[] = {{".gltf", "glTF 2.0, with its buffers and images"},
-                                   {".glb", "glTF 2.0 in one binary file"},
-                                   {".obj", "Wavefront OBJ, with its MTL materials"},
-                                   {".ply", "PLY, ASCII or binary, meshes and points"},
-                                   {".stl", "STL, ASCII or binary"}};
+constexpr SceneFormat formats[] = {
+    {".gltf", "glTF 2.0, with its buffers and images"},   {".glb", "glTF 2.0 in one binary file"},
+    {".vrm", "VRM avatars, glTF 2.0 in one binary file"}, {".obj", "Wavefront OBJ, with its MTL materials"},
+    {".ply", "PLY, ASCII or binary, meshes and points"},  {".stl", "STL, ASCII or binary"}};
 
 Scene read_gltf(const std::string& path, const LoadOptions& o) { return load_gltf(path, o.limits, o.choice); }
 
@@ -41,7 +41,7 @@ Scene read_obj(const std::string& path, const LoadOptions& o) { return load_obj(
 Scene read_ply(const std::string& path, const LoadOptions& o) { return load_ply(path, limits_of(o)); }
 Scene read_stl(const std::string& path, const LoadOptions& o) { return load_stl(path, limits_of(o)); }
 using Loader = Scene (*)(const std::string&, const LoadOptions&);
-constexpr Loader loaders[] = {read_gltf, read_gltf, read_obj, read_ply, read_stl};
+constexpr Loader loaders[] = {read_gltf, read_gltf, read_gltf, read_obj, read_ply, read_stl};
 static_assert(std::size(loaders) == std::size(formats));
 
 std::string lower_case(std::string text) {
@@ -54,6 +54,37 @@ std::string lower_case(std::string text) {
 std::string extension_of(const std::string& name, const std::string& format) {
   if (format.empty()) return lower_case(std::filesystem::path(name).extension().string());
   return lower_case((format.starts_with('.') ? "" : ".") + format);
+}
+
+bool has(std::span<const SceneFormat> all, const std::string& extension) {
+  return std::any_of(all.begin(), all.end(), [&](const SceneFormat& f) { return f.extension == extension; });
+}
+
+/// How a file is read: the extension of its format, and whether assimp reads it.
+struct Reader {
+  std::string extension;
+  bool is_assimp = false;
+};
+
+/// The reader by the extension. A binary glTF file is known by its first bytes where its extension is not known, and
+/// glTF 1.0 is left to assimp.
+///
+/// Errors    those of FileBytes.
+Reader reader_of(const std::string& name, const LoadOptions& options) {
+  std::string extension = extension_of(name, options.format);
+  if (has(assimp_formats(), extension)) return {std::move(extension), true};
+  std::error_code ignored;
+  const bool is_known = has(formats, extension);
+  const bool is_gltf = extension == ".gltf" || extension == ".glb" || extension == ".vrm";
+  if ((is_known && !is_gltf) || name == "-" || !std::filesystem::is_regular_file(name, ignored))
+    return {std::move(extension)};
+  const MappedFileWatch watch;
+  const FileBytes file(name, options.limits.memory);
+  if (!is_known && options.format.empty() && is_binary_gltf(file.bytes())) extension = ".glb";
+  const bool is_assimp = (is_gltf || extension == ".glb") && is_gltf_1(file.bytes());
+  if (is_assimp) extension = is_binary_gltf(file.bytes()) ? ".glb" : ".gltf";
+  watch.check(name);
+  return {std::move(extension), is_assimp};
 }
 
 }  // namespace
@@ -69,16 +100,15 @@ bool is_builtin_scene(std::string_view name) {
 namespace {
 
 /// Reads a file of a supported format, or throws an error with the cause.
-Scene read_file(const std::string& name, const LoadOptions& options) {
+Scene read_file(const std::string& name, const Reader& reader, const LoadOptions& options) {
   std::string readable;
   for (const SceneFormat& format : formats) readable.append(readable.empty() ? "" : ", ").append(format.extension);
   if (name == "-" && options.format.empty())
     throw Error(ErrorKind::Usage, "standard input requires --format (" + readable + ")");
-  const std::string extension = extension_of(name, options.format);
+  const auto& [extension, is_assimp] = reader;
+  if (is_assimp) return load_by_assimp(name, extension, limits_of(options));
   for (std::size_t i = 0; i < std::size(formats); ++i)
     if (extension == formats[i].extension) return loaders[i](name, options);
-  for (const SceneFormat& format : assimp_formats())
-    if (extension == format.extension) return load_by_assimp(name, extension, limits_of(options));
 
   readable += " and others, see zoneplate list formats";
   if (!options.format.empty())
@@ -92,20 +122,20 @@ Scene read_file(const std::string& name, const LoadOptions& options) {
                                        : name + ": no such file, and no built-in scene of that name");
 }
 
-Scene read_watched(const std::string& name, const LoadOptions& options) {
+Scene read_watched(const std::string& name, const Reader& reader, const LoadOptions& options) {
   const MappedFileWatch watch;
-  Scene scene = read_file(name, options);
+  Scene scene = read_file(name, reader, options);
   watch.check(name);
   return scene;
 }
 
 /// Calls read_watched in a child process with limits of its resources.
-Scene read_in_child(const std::string& name, const LoadOptions& options) {
+Scene read_in_child(const std::string& name, const Reader& reader, const LoadOptions& options) {
   ImportBudget budget(name == "-" ? "standard input" : name, options.limits);
   LimitedChild child(
       budget.file(), child_limits(budget),
       [&](ChildAnswer& answer) {
-        const Scene scene = read_watched(name, options);
+        const Scene scene = read_watched(name, reader, options);
         write_scene(scene, [&](const void* data, std::size_t size) { answer.write(data, size); });
       },
       [] {
@@ -123,11 +153,6 @@ Scene moment_of_builtin(const std::string& name, const SceneChoice& choice) {
   return *make_builtin_scene(fmt::format("{}:time={:.6f}", name, std::clamp(choice.time, 0.0, 10.0)));
 }
 
-bool is_for_assimp(const std::string& extension) {
-  const auto others = assimp_formats();
-  return std::any_of(others.begin(), others.end(), [&](const SceneFormat& f) { return f.extension == extension; });
-}
-
 }  // namespace
 
 Scene load_scene(const std::string& name, const LoadOptions& options) {
@@ -137,8 +162,9 @@ Scene load_scene(const std::string& name, const LoadOptions& options) {
       return options.choice.animation && !scene->animations.empty() ? moment_of_builtin(name, options.choice)
                                                                     : std::move(*scene);
     }
-  const bool has_child = options.is_sandboxed && !is_for_assimp(extension_of(name, options.format));
-  return has_child ? read_in_child(name, options) : read_watched(name, options);
+  const Reader reader = reader_of(name, options);
+  const bool has_child = options.is_sandboxed && !reader.is_assimp;
+  return has_child ? read_in_child(name, reader, options) : read_watched(name, reader, options);
 }
 
 std::vector<std::string> readable_paths(const std::string& name, const LoadOptions& options) {
@@ -153,9 +179,9 @@ struct SceneSource::OpenFile {
 
 SceneSource::SceneSource(std::string name, LoadOptions options) : name_(std::move(name)), options_(std::move(options)) {
   auto file = std::make_unique<OpenFile>();
-  const std::string extension = extension_of(name_, options_.format);
-  const bool is_gltf = extension == ".gltf" || extension == ".glb";
-  if (is_gltf && !options_.is_sandboxed && (name_ != "-" || !options_.format.empty()))
+  const auto [extension, is_assimp] = reader_of(name_, options_);
+  const bool is_gltf = extension == ".gltf" || extension == ".glb" || extension == ".vrm";
+  if (is_gltf && !is_assimp && !options_.is_sandboxed && (name_ != "-" || !options_.format.empty()))
     file->gltf = std::make_unique<GltfModel>(name_, options_.limits);
   file->watch.check(name_);
   file_ = std::move(file);

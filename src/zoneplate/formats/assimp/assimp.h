@@ -20,7 +20,7 @@ std::span<const SceneFormat> assimp_formats();
 /// are computed as for PLY.
 ///
 /// Inside a LimitedChild, which has limits already, the library runs in that process.
-/// Requires  `extension` is one of assimp_formats().
+/// Requires  `extension` is one of assimp_formats(), or ".gltf" or ".glb" of glTF 1.0.
 /// Errors    ErrorKind::Input with the library's own message if it rejects the file; also if it crashes or is not
 ///           installed.
 Scene load_by_assimp(const std::string& path, std::string_view extension, const LoadLimits& limits);

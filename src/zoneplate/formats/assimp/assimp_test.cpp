@@ -366,6 +366,58 @@ TEST(Assimp, ReadsNothingOutsideTheModelsFolder) {
   EXPECT_EQ(load_scene(path, {.limits = {.allowed_paths = {"/"}}, .format = "", .choice = {}}).images.size(), 1u);
 }
 
+/// A red triangle of glTF 1.0, whose buffer is `buffer`.
+std::string gltf_1(const std::string& version, const std::string& buffer) {
+  return R"({"asset":{"version":)" + version +
+         R"(},"scene":"s","scenes":{"s":{"nodes":["n"]}},"nodes":{"n":{"meshes":["m"]}},"meshes":{"m":{"primitives":[
+      {"attributes":{"POSITION":"p"},"indices":"i","material":"r","mode":4}]}},"materials":{"r":{"values":{"diffuse":[1,0,0,1]}}},
+      "accessors":{"p":{"bufferView":"v","byteOffset":0,"byteStride":12,"componentType":5126,"count":3,"type":"VEC3"},
+      "i":{"bufferView":"w","byteOffset":0,"byteStride":0,"componentType":5123,"count":3,"type":"SCALAR"}},
+      "bufferViews":{"v":{"buffer":"binary_glTF","byteOffset":0,"byteLength":36,"target":34962},
+      "w":{"buffer":"binary_glTF","byteOffset":36,"byteLength":6,"target":34963}},
+      "extensionsUsed":["KHR_binary_glTF"],"buffers":{"binary_glTF":{"byteLength":42,"type":"arraybuffer")" +
+         buffer + "}}}";
+}
+
+// The first version of the format has other tables: assimp reads it.
+TEST(Assimp, ReadsTheFirstVersionOfGltf) {
+  if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
+  Bytes buffer;
+  for (const float f : {0.0f, 0.0f, 0.0f, 1.0f, 0.0f, 0.0f, 0.0f, 1.0f, 0.0f}) mesh_samples::add<float>(buffer, f);
+  for (const unsigned i : {0u, 1u, 2u}) mesh_samples::add(buffer, static_cast<std::uint16_t>(i));
+  const TestFolder folder;
+  folder.write("b.bin", buffer);
+  const std::string uri = R"(,"uri":"b.bin")";
+  std::string json = gltf_1("\"1.0\"", "");
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  Bytes glb = bytes_of("glTF");
+  for (const std::size_t word : {std::size_t{1}, 20 + json.size() + buffer.size(), json.size(), std::size_t{0}})
+    mesh_samples::add<std::uint32_t>(glb, static_cast<std::uint32_t>(word));
+  glb = joined(joined(std::move(glb), bytes_of(json)), buffer);
+  for (const std::string& path :
+       {folder.write("text.gltf", gltf_1("\"1.0\"", uri)), folder.write("NUMBER.glTF", gltf_1("1.0", uri)),
+        folder.write("binary.GLB", glb), folder.write("binary.gltf", glb)})
+    for (const bool is_sandboxed : {false, true}) {
+      const Scene s = load_scene(path, {.is_sandboxed = is_sandboxed});
+      EXPECT_EQ(area_of(s), 0.5) << path;
+      EXPECT_EQ(s.materials.at(0).base_color, (float4{1, 0, 0, 1})) << path;
+    }
+  try {
+    load_scene(folder.write("bad.gltf", std::string(R"({"asset":{"version":"1.0"},"meshes":{"m":3}})")));
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("bad.gltf: glTF 1.0: "), std::string::npos) << error.what();
+  }
+}
+
+TEST(Load, KnowsGltfByItsContentsAndInAnyCase) {
+  GltfMaker m;
+  m.mesh(R"("POSITION":)" + m.floats("VEC3", {0, 0, 0, 1, 0, 0, 0, 1, 0}));
+  const TestFolder folder;
+  for (const char* name : {"a.GLB", "b.glTF", "c.vrm", "avatar", "d.bin"})
+    EXPECT_EQ(area_of(load_scene(folder.write(name, m.glb()))), 0.5) << name;
+}
+
 TEST(Assimp, SaysWhyNot) {
   if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
   const MemoryFile file;

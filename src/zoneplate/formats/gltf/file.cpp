@@ -3,7 +3,9 @@
 
 #include <cstring>
 #include <filesystem>
+#include <string_view>
 
+#include "zoneplate/formats/gltf/gltf.h"
 #include "zoneplate/formats/import/model_path.h"
 #include "zoneplate/formats/meshopt/meshopt.h"
 
@@ -33,13 +35,35 @@ constexpr std::uint64_t most_zeros_in_all = std::uint64_t{1} << 23;
 
 }  // namespace
 
+bool is_binary_gltf(std::span<const std::uint8_t> bytes) {
+  return bytes.size() >= 4 && read_u32(bytes, 0) == glb_magic;
+}
+
+bool is_gltf_1(std::span<const std::uint8_t> bytes) {
+  if (is_binary_gltf(bytes)) return bytes.size() >= 8 && read_u32(bytes, 4) == 1;
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  // The text behind a key and its colon; empty if there is no such key.
+  const auto value_of = [](std::string_view in, std::string_view key) {
+    for (std::size_t at = in.find(key); at != in.npos; at = in.find(key, at + 1)) {
+      const std::size_t colon = in.find_first_not_of(" \t\r\n", at + key.size());
+      if (colon == in.npos || in[colon] != ':') continue;
+      const std::size_t value = in.find_first_not_of(" \t\r\n", colon + 1);
+      return value == in.npos ? std::string_view() : in.substr(value);
+    }
+    return std::string_view();
+  };
+  const std::string_view asset = value_of(text, "\"asset\"");
+  const std::string_view version = value_of(asset.substr(0, asset.find('}')), "\"version\"");
+  return version.starts_with("1") || version.starts_with("\"1");
+}
+
 GltfFile::GltfFile(const std::string& path, const LoadLimits& limits)
     : path_(path),
       budget_(path, limits),
       finder_(std::filesystem::path(path).parent_path().string(), budget_.limits().allowed_paths),
       file_(path, limits.memory) {
   const std::span<const std::uint8_t> bytes = file_.bytes();
-  if (bytes.size() >= 4 && read_u32(bytes, 0) == glb_magic)
+  if (is_binary_gltf(bytes))
     read_chunks(bytes);
   else
     json_bytes_ = bytes;
@@ -172,6 +196,7 @@ GltfBytes GltfFile::load_uri(const JsonView& owner, const std::string& uri) {
   if (!path) owner.fail("uri " + quoted(uri) + " leads out of the model's folder (--allow-path PATH permits more)");
   if (is_stream(*path)) owner.fail("uri " + quoted(uri) + " is not a regular file");
   try {
+    const std::string folder = std::filesystem::path(path_).parent_path().string();
     out.file.emplace(open_found(folder, *path, budget_.limits().allowed_paths, budget_.memory_left()));
   } catch (const Error& e) {
     owner.fail(e.what());

@@ -132,6 +132,16 @@ TEST(GltfFile, VersionMustBeTwo) {
   EXPECT_EQ(error(R"({"asset":{"version":"2.1"}})"), "no error");
   EXPECT_TRUE(has(error(R"({"asset":{"version":"1.0"}})"), "asset: version is '1.0', expected 2.0"));
   EXPECT_TRUE(has(error(R"({"asset":{"version":2}})"), "asset: version is a number, expected a string"));
+  const auto is_first = [](const std::string& text) {
+    return is_gltf_1({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  };
+  for (const char* text : {R"({"asset":{"version":"1.0"}})",
+                           R"({"n":"asset","asset" : {"generator":"g", "version" : 1.0}})", R"({"asset":{"version":1)"})
+    EXPECT_TRUE(is_first(text)) << text;
+  for (const char* text :
+       {R"({"asset":{"version":"2.1"}})", R"({"asset":{},"version":"1.0"})", R"({"asset":)", "\"asset\"",
+        R"({"nodes":[{"name":"asset"}],"asset":{"version":"2.0","minVersion":"1.0"}})", ""})
+    EXPECT_FALSE(is_first(text)) << text;
   EXPECT_TRUE(has(error(R"({"asset":{"version":"2.1","minVersion":"2.1"}})"), "minVersion is '2.1'"));
   EXPECT_TRUE(has(error(R"({"asset":{}})"), "version is missing"));
   EXPECT_TRUE(has(error(R"({})"), "version is missing"));

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,13 @@ namespace zoneplate {
 ///           supported is named. An optional one gives a warning that names it. ErrorKind::Usage for a choice that the
 ///           file does not have.
 Scene load_gltf(const std::string& path, const LoadLimits& limits = {}, const SceneChoice& choice = {});
+
+/// Whether the bytes begin as a binary glTF file does, of any version.
+bool is_binary_gltf(std::span<const std::uint8_t> bytes);
+
+/// Whether the contents of a file are glTF 1.0, which load_gltf does not read: the version of its container, or of its
+/// first object `asset`, begins with 1. The JSON is searched, not parsed.
+bool is_gltf_1(std::span<const std::uint8_t> bytes);
 
 /// A glTF file that stays open, for loading at several times: its materials and images are read once.
 class GltfModel {

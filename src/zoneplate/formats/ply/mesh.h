@@ -6,6 +6,9 @@
 
 namespace zoneplate {
 
+/// Whether the vertices are Gaussian splats: their colours are coefficients of spherical harmonics, f_dc_0 to f_dc_2.
+bool are_splats(const PlyElement& vertices);
+
 /// A mesh without indices, and the Scene::origin that its positions are relative to.
 struct PlyVertices {
   Mesh mesh;
@@ -14,8 +17,9 @@ struct PlyVertices {
 
 /// Reads the vertices of a PLY file: positions and the other attributes that are present.
 ///
-/// Colours are sRGB codes: integers over their whole range, floats in [0, 1], or either in [0, 255] (one_of). The
-/// origin of texture coordinates in the file is at the bottom left.
+/// Colours are sRGB codes: integers over their whole range, floats in [0, 1], or either in [0, 255] (one_of); those of
+/// splats are that of their constant harmonic, and splats have no normals. The origin of texture coordinates in the
+/// file is at the bottom left.
 /// Errors    ErrorKind::Input: no x, y or z, or more vertices than 32-bit indices can address.
 PlyVertices read_ply_vertices(const PlyRows& rows, ImportBudget& budget);
 

@@ -56,6 +56,23 @@ TEST(Ply, AsciiQuadWithColorsAndUv) {
   EXPECT_EQ(s.materials[0].alpha_mode, AlphaMode::Blend);
 }
 
+// Their colours are coefficients of spherical harmonics, and their normals are zero.
+TEST(Ply, GaussianSplatsArePointsOfTheirColor) {
+  const std::string head =
+      ascii + "element vertex 2\n" + xyz +
+      "property float nx\nproperty float ny\nproperty float nz\nproperty float f_dc_0\nproperty float f_dc_1\n"
+      "property float f_dc_2\nproperty float opacity\nproperty float scale_0\nproperty float rot_0\nend_header\n";
+  const Scene s = load(head + "0 0 0 0 0 0 0.5 -9 9 -4 1 1\n1 0 0 0 0 0 0 0 nan 4 1 1\n");
+  const Mesh& m = s.meshes.at(0);
+  EXPECT_EQ(m.topology, Topology::Points);
+  EXPECT_TRUE(m.normal.empty());
+  EXPECT_EQ(m.color.at(0), (float4{decode_srgb(0.5f + 0.28209479f * 0.5f), 0, 1, 1}));
+  EXPECT_EQ(m.color.at(1), (float4{decode_srgb(0.5f), decode_srgb(0.5f), 0, 1}));
+  EXPECT_EQ(s.materials.at(0).base_color, (float4{1, 1, 1, 1}));
+  ASSERT_EQ(s.warnings.size(), 1u);
+  EXPECT_TRUE(s.warnings[0].ends_with(": looks like Gaussian splats: drawn as points")) << s.warnings[0];
+}
+
 /// A pyramid whose coordinates have the given type and byte order.
 template <class T>
 Bytes pyramid(const char* type, bool is_big) {

@@ -135,6 +135,29 @@ void decode_colors(const PlyElement& element, const std::array<std::size_t, 4>& 
   });
 }
 
+using Three = std::array<std::size_t, 3>;
+
+std::optional<Three> find_harmonics(const PlyElement& e) {
+  return find_all<3>(e, {Names{"f_dc_0"}, {"f_dc_1"}, {"f_dc_2"}});
+}
+
+/// Reads the constant coefficients of splats, and makes colours of them.
+///
+/// Source    Kerbl et al., 3D Gaussian Splatting for Real-Time Radiance Field Rendering, 2023: the code is 0.5 plus the
+///           coefficient times the harmonic of degree 0, 1 / (2 sqrt(pi)).
+void read_splat_colors(const PlyRows& rows, const Three& harmonics, std::vector<float4>& colors) {
+  const std::array<std::size_t, 4> all{harmonics[0], harmonics[1], harmonics[2], harmonics[0]};
+  read_columns(rows, all, colors);
+  const auto linear = [](float coefficient) {
+    const float code = 0.5f + 0.28209479f * coefficient;
+    return code > 0 ? decode_srgb(std::min(code, 1.0f)) : 0.0f;
+  };
+  parallel_ranges(colors.size(), PlyRows::block, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      colors[i] = {linear(colors[i].x), linear(colors[i].y), linear(colors[i].z), 1};
+  });
+}
+
 /// Normalizes normals; those without a direction become zero.
 void normalize_all(std::vector<float3>& normals) {
   parallel_ranges(normals.size(), PlyRows::block, [&](std::size_t begin, std::size_t end) {
@@ -151,12 +174,19 @@ void normalize_all(std::vector<float3>& normals) {
 
 }  // namespace
 
+bool are_splats(const PlyElement& vertices) {
+  return find_harmonics(vertices) && find(vertices, {"opacity"}) && find(vertices, {"scale_0"}) &&
+         find(vertices, {"rot_0"}) && !find(vertices, {"red", "r", "diffuse_red"});
+}
+
 PlyVertices read_ply_vertices(const PlyRows& rows, ImportBudget& budget) {
   const PlyElement& e = *rows.element;
   const auto position = find_all<3>(e, {Names{"x"}, {"y"}, {"z"}});
   if (!position) throw Error(ErrorKind::Input, budget.file() + ": element vertex: has no x, y and z");
   if (e.count >= 0xffffffffu) throw Error(ErrorKind::Input, budget.file() + ": more than 2^32 vertices");
-  const auto normal = find_all<3>(e, {Names{"nx"}, {"ny"}, {"nz"}});
+  const bool has_splats = are_splats(e);
+  // The normals of splats are zero.
+  const auto normal = has_splats ? std::nullopt : find_all<3>(e, {Names{"nx"}, {"ny"}, {"nz"}});
   const auto uv = find_all<2>(
       e, {Names{"s", "u", "texture_u", "texture_s", "texcoord_u"}, {"t", "v", "texture_v", "texture_t", "texcoord_v"}});
   const auto color = find_all<3>(
@@ -164,14 +194,14 @@ PlyVertices read_ply_vertices(const PlyRows& rows, ImportBudget& budget) {
   const auto alpha = find(e, {"alpha", "a", "diffuse_alpha"});
 
   const std::size_t n = rows.count();
-  budget.take(
-      n * (sizeof(float3) + (normal ? sizeof(float3) : 0) + (uv ? sizeof(float2) : 0) + (color ? sizeof(float4) : 0)));
+  budget.take(n * (sizeof(float3) + (normal ? sizeof(float3) : 0) + (uv ? sizeof(float2) : 0) +
+                   (color || has_splats ? sizeof(float4) : 0)));
   Mesh mesh;
   parallel_for(4, [&](std::size_t i) {
     const auto make = [n](auto& values) { reserve_large(values, n), values.resize(n); };
     if (i == 0) make(mesh.position);
     if (i == 1 && normal) make(mesh.normal);
-    if (i == 2 && color) make(mesh.color);
+    if (i == 2 && (color || has_splats)) make(mesh.color);
     if (i == 3 && uv) make(mesh.uv0);
   });
   const double3 origin = choose_origin(rows, *position);
@@ -184,6 +214,7 @@ PlyVertices read_ply_vertices(const PlyRows& rows, ImportBudget& budget) {
     read_columns(rows, all, mesh.color);
     decode_colors(e, all, alpha.has_value(), mesh.color);
   }
+  if (has_splats) read_splat_colors(rows, *find_harmonics(e), mesh.color);
   return {std::move(mesh), origin};
 }
 
