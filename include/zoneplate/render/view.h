@@ -22,9 +22,10 @@ struct View {
 
 /// The camera for an image of the given aspect ratio (width / height).
 ///
-/// The base is camera `index` of the scene, or without an index a whole-scene view, three-quarter from above. Position,
-/// focal point, view-up and view angle replace those of the base. For the whole-scene view, azimuth and elevation are
-/// its direction, 0 and 0 being the front; any other camera is turned by them about its focal point as the last step,
+/// The base is camera `index` of the scene, or without an index a whole-scene view, three-quarter from above; where
+/// that would see nothing but back faces, which are not drawn, it is taken from behind or from below. Position, focal
+/// point, view-up and view angle replace those of the base. For the whole-scene view, azimuth and elevation are its
+/// direction, 0 and 0 being the front; any other camera is turned by them about its focal point as the last step,
 /// azimuth to the right and elevation upwards. The focal point of a base camera is the point on its axis nearest to the
 /// centre of the scene. Near and far planes enclose the scene, unless the base is used unchanged.
 ///

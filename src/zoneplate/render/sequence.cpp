@@ -49,7 +49,7 @@ class Poses {
   explicit Poses(bool has_sides) : cost_of_instance_(has_sides ? 16 * sides : 16) {}
 
   void add(Scene scene) {
-    if (count_++ == 0) all_.cameras = scene.cameras, all_.origin = scene.origin;
+    if (count_++ == 0) all_.cameras = scene.cameras, all_.origin = scene.origin, all_.materials = scene.materials;
     std::vector<int> meshes(scene.meshes.size(), -1);  // of this pose, in all_
     for (Instance instance : scene.instances) {
       int& mesh = meshes[static_cast<std::size_t>(instance.mesh)];
@@ -80,7 +80,8 @@ class Poses {
     }
     kept_ += mesh.position.size();
     Mesh& out = all_.meshes.emplace_back();
-    out.topology = mesh.topology, out.position = std::move(mesh.position), out.index = std::move(mesh.index);
+    out.topology = mesh.topology, out.material = mesh.material, out.position = std::move(mesh.position),
+    out.index = std::move(mesh.index);
     return static_cast<int>(all_.meshes.size()) - 1;
   }
 

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/math/elementary.h"
@@ -71,6 +73,20 @@ void enclose(Camera& camera, const Box& box) {
     enclose(camera, AxisRange{nearest, farthest});
 }
 
+// The view from another side, behind or below, that sees a front face; nothing if there is none.
+std::optional<Camera> front_camera(const Scene& scene, float aspect, const AutoFit& fit) {
+  constexpr float half_turn = 3.14159265f;
+  for (const auto& [azimuth, elevation] :
+       {std::pair{fit.azimuth + half_turn, fit.elevation}, std::pair{fit.azimuth, -fit.elevation},
+        std::pair{fit.azimuth + half_turn, -fit.elevation}}) {
+    AutoFit other = fit;
+    other.azimuth = azimuth, other.elevation = elevation;
+    const Camera camera = fit_camera(scene, aspect, other);
+    if (!sees_backs_alone(scene, camera)) return camera;
+  }
+  return std::nullopt;
+}
+
 Camera base_camera(const Scene& scene, const View& view, float aspect) {
   if (!view.index) {
     AutoFit fit;
@@ -81,7 +97,9 @@ Camera base_camera(const Scene& scene, const View& view, float aspect) {
       if (view.azimuth) fit.azimuth = *view.azimuth;
       if (view.elevation) fit.elevation = *view.elevation;
     }
-    return fit_camera(scene, aspect, fit);
+    const Camera camera = fit_camera(scene, aspect, fit);
+    const bool is_free = !view.position && !view.focal_point && !view.view_up && !view.azimuth && !view.elevation;
+    return is_free && sees_backs_alone(scene, camera) ? front_camera(scene, aspect, fit).value_or(camera) : camera;
   }
   const int count = static_cast<int>(scene.cameras.size());
   if (*view.index >= count)

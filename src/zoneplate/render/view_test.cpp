@@ -41,6 +41,38 @@ TEST(ChooseCamera, ShowsTheWholeSceneThreeQuarterFromAbove) {
   expect_near(-forward, {0.4698463f, 0.3420201f, 0.8137977f}, 1e-4f);
 }
 
+// Single-sided surfaces are not drawn from behind.
+TEST(ChooseCamera, ShowsFrontFacesIfThereAreAny) {
+  Scene plane;
+  Mesh& mesh = plane.meshes.emplace_back();
+  mesh.position = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+  plane.materials.emplace_back();
+  plane.instances.emplace_back();
+  const auto eye_on = [&](std::vector<std::uint32_t> index, const View& view = {}) {
+    plane.meshes[0].index = std::move(index);
+    return eye_of(choose_camera(plane, view, 1));
+  };
+  EXPECT_GT(eye_on({0, 1, 2}).z, 0);
+  const float3 behind = eye_on({0, 2, 1});
+  EXPECT_LT(behind.z, 0);
+  EXPECT_GT(behind.y, 0);
+  EXPECT_LT(eye_on({0, 2, 1}, {.is_orthographic = true}).z, 0);
+  // Not if the direction is given, or if there are two sides.
+  EXPECT_GT(eye_on({0, 2, 1}, {.azimuth = 0.0f}).z, 0);
+  EXPECT_GT(eye_on({0, 2, 1, 0, 1, 2}).z, 0);
+  plane.materials[0].double_sided = true;
+  EXPECT_GT(eye_on({0, 2, 1}).z, 0);
+  plane.materials[0].double_sided = false;
+  plane.instances[0].world_from_object.column[0].x = -1;  // a mirrored triangle is still seen from its front
+  EXPECT_LT(eye_on({0, 2, 1}).z, 0);
+  EXPECT_GT(eye_on({0, 1, 2}).z, 0);
+  // A ceiling is seen from below.
+  plane.instances[0].world_from_object = {};
+  for (float3& p : plane.meshes[0].position) p = {p.x, 0, p.y};
+  EXPECT_LT(eye_on({0, 1, 2}).y, 0);
+  EXPECT_GT(eye_on({0, 2, 1}).y, 0);
+}
+
 TEST(ChooseCamera, AzimuthAndElevationChooseTheDirectionOfTheWholeSceneView) {
   expect_near(forward_of(choose_camera(cube(), {.azimuth = 0.0f, .elevation = 0.0f}, 1)), {0, 0, -1});
   expect_near(forward_of(choose_camera(cube(), {.azimuth = 90 * degree, .elevation = 0.0f}, 1)), {-1, 0, 0});

@@ -119,6 +119,28 @@ Camera fit_camera(const Scene& scene, float picture_aspect, const AutoFit& fit) 
   return fit_camera(std::span<const float3>(all.point), picture_aspect, fit);
 }
 
+bool sees_backs_alone(const Scene& scene, const Camera& camera) {
+  const float3 back = xyz(camera.world_from_camera.column[2]), eye = xyz(camera.world_from_camera.column[3]);
+  bool is_any = false;
+  for (const Instance& instance : scene.instances) {
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    if (mesh.index.empty()) continue;
+    if (mesh.topology != Topology::Triangles) return false;
+    if (scene.materials[static_cast<std::size_t>(mesh.material)].double_sided) return false;
+    const float4x4& m = instance.world_from_object;
+    const float3 x = xyz(m.column[0]), y = xyz(m.column[1]), z = xyz(m.column[2]);
+    const float side = dot(cross(x, y), z) < 0 ? -1.0f : 1.0f;  // a mirrored triangle is turned
+    const auto corner = [&](std::size_t i) { return transform_point(m, mesh.position[mesh.index[i]]); };
+    for (std::size_t i = 0; i + 3 <= mesh.index.size(); i += 3) {
+      const float3 a = corner(i), normal = cross(corner(i + 1) - a, corner(i + 2) - a) * side;
+      const float3 towards_eye = camera.is_orthographic ? back : eye - a;
+      if (dot(normal, towards_eye) > 0) return false;
+    }
+    is_any = true;
+  }
+  return is_any;
+}
+
 std::optional<AxisRange> range_along_view(const Scene& scene, const Camera& camera) {
   UsedVertices used(scene);
   const float3 back = xyz(camera.world_from_camera.column[2]), eye = xyz(camera.world_from_camera.column[3]);

@@ -15,6 +15,9 @@ namespace zoneplate {
 ///           image.
 Camera fit_camera(const Scene& scene, float picture_aspect, const AutoFit& fit);
 
+/// Whether a camera sees nothing but back faces of single-sided triangles, which are not drawn.
+bool sees_backs_alone(const Scene& scene, const Camera& camera);
+
 /// Distances along a camera's view axis, from its eye; negative behind it.
 struct AxisRange {
   float nearest = 0, farthest = 0;
