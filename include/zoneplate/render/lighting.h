@@ -23,7 +23,8 @@ struct Lighting {
 
 /// Which lights of a scene are used.
 enum class LightSource {
-  Scene,    ///< those of the scene; the default light where it has none
+  Scene,    ///< those of the scene, with a fill light where it needs one; the default light where it has none
+  Alone,    ///< those of the scene without a fill light; the default light where it has none
   Default,  ///< the default light, or the environment of the options, in place of those of the scene
   Both,     ///< those of the scene and the default light
 };
@@ -44,12 +45,13 @@ struct LightingOptions {
 /// which turns with the camera: an environment of soft boxes and a directional light from the brightest of them, for
 /// the Neutral curve (Lighting::tone_mapping). Other scenes get three directional lights and a dim constant environment
 /// (scene/default_lights.h); in a scene of (Blinn-)Phong materials alone these lights are divided by π,
-/// which the diffuse term of these models lacks. A scene with lights of its own and no environment gets none. The mean
+/// which the diffuse term of these models lacks. A scene with lights of its own and no environment gets none, unless it
+/// needs a fill light (Scene::needs_fill_light): that is the environment of the default light, dimmed to 0.15. The mean
 /// radiance of the environment is also the ambient light of (Blinn-)Phong materials where the scene has none.
 Lighting make_lighting(const Scene& scene, const LightingOptions& options = {});
 
-/// Lights the scene by make_lighting without options: a scene that has lights keeps them, any other gets the default
-/// ones. The renderer itself adds no lights.
+/// Lights the scene by make_lighting without options: a scene that has lights keeps them, and gets a fill light if it
+/// needs one; any other gets the default ones. The renderer itself adds no lights.
 void light_unlit(Scene& scene);
 
 /// Gives a material another shading model, and the nearest parameters that the model has.

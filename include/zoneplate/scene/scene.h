@@ -53,6 +53,7 @@ struct Scene {
   float3 up{0, 1, 0};                ///< the up axis of the file's format, for the camera
   float3 ambient_light{0, 0, 0};     ///< of (Blinn-)Phong's ambient term, times Material::ambient; with an environment
                                      ///< of one colour, zero stands for that colour
+  bool needs_fill_light = false;     ///< the lights are those of a file, and where they do not reach, all is black
   std::vector<AnimationSpan> animations;  ///< of the file
   std::vector<std::string> variants;      ///< material variants of the file
   std::vector<std::string> warnings;      ///< what the loader ignored, one line each

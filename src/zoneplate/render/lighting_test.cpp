@@ -154,6 +154,25 @@ TEST(Lighting, LeavesAFilesOwnLightAlone) {
   EXPECT_EQ(scene.ambient_light, (float3{0.1f, 0.2f, 0.3f}));
 }
 
+// The lights of a file often reach a part of it only.
+TEST(Lighting, FillsTheLightOfAFileByADimStudio) {
+  Scene scene;
+  scene.materials.emplace_back();
+  scene.lights.emplace_back();
+  EXPECT_EQ(make_lighting(scene).environment, Environment{});
+  scene.needs_fill_light = true;
+  const Lighting filled = make_lighting(scene);
+  EXPECT_EQ(filled.lights.size(), 1u);
+  EXPECT_NE(filled.environment.map, nullptr);
+  EXPECT_EQ(filled.environment.strength, 0.15f);
+  EXPECT_EQ(filled.tone_mapping, ToneMapping::None);
+  EXPECT_EQ(make_lighting(scene, {.source = LightSource::Alone}).environment, Environment{});
+  const Environment own{.color = {1, 2, 3}};
+  EXPECT_EQ(make_lighting(scene, {.environment = own}).environment, own);
+  scene.environment = own;
+  EXPECT_EQ(make_lighting(scene).environment, own);
+}
+
 TEST(Lighting, AnEnvironmentTakesThePlaceOfTheDefaultLights) {
   Scene scene;
   const Lighting lighting = make_lighting(scene, {.environment = Environment{.color = {1, 0.5f, 0}}});

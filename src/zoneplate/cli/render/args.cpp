@@ -41,9 +41,11 @@ constexpr const char* notes =
     "\n"
     "Light: a scene without lights gets a studio made in code, which turns with the camera: soft boxes, which metals\n"
     "reflect, and a key light, displayed by the Neutral tone curve. (Blinn-)Phong materials get a key, a fill and a\n"
-    "back light instead. --hdri-file and --environment replace them. A file with lights of its own has no environment\n"
-    "without these options; --lights default ignores its lights, --lights both adds the studio, and --exposure auto\n"
-    "adapts to lights of any strength.\n"
+    "back light instead. --hdri-file and --environment replace them. A glTF file with lights of its own has\n"
+    "the studio's environment at 0.15 without these options, so that nothing is black; --lights file is its light "
+    "alone,\n"
+    "--lights default ignores its lights, --lights both adds the studio, and --exposure auto adapts to lights of any\n"
+    "strength.\n"
     "\n"
     "Sequences: frame F has the time F / rate seconds of the animation. OUT contains the frame number, as\n"
     "chair.####.png, chair.@@@@.png, chair.$F4.png, chair%04d.png or chair_{frame:04}.png, or is a video. GIF, MP4 and "
@@ -432,12 +434,12 @@ std::vector<Option> scene_options(RenderArgs& a) {
        "Procedural texture of all materials, for example marble:scale=6: " + solid_texture_names(), group, false,
        [&](auto& text) { a.solid_texture = check_solid_texture(text); }},
       choice_option("--lights", "SOURCE",
-                    "Lights: file, those of the model, or the default light where it has none; default, the default "
-                    "light, or --environment or --hdri-file alone; or both, the model's and the default light; default "
-                    "file",
+                    "Lights: file, those of the model alone, or the default light where it has none; default, the "
+                    "default light, or --environment or --hdri-file alone; or both, the model's and the default light; "
+                    "by default those of the model and, so that nothing is black, the default environment at 0.15",
                     group, false, {"file", "default", "both"},
                     [&](std::size_t i) {
-                      constexpr LightSource sources[] = {LightSource::Scene, LightSource::Default, LightSource::Both};
+                      constexpr LightSource sources[] = {LightSource::Alone, LightSource::Default, LightSource::Both};
                       a.lighting.source = sources[i];
                     }),
       {"--light-intensity", "FACTOR", "Factor of all lights; default 1", group, false,

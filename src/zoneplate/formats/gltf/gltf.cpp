@@ -357,6 +357,7 @@ void SceneReader::add_light(const GltfNode& node, const JsonView& use) {
     scene_.lights.pop_back();
   } else {
     file_.budget().take(2 * sizeof(Light) + scene_.lights.back().name.size());
+    scene_.needs_fill_light = true;
   }
 }
 

@@ -172,6 +172,7 @@ TEST(Gltf, Lights) {
       {"type":"point","range":7,"name":"p"},{"type":"spot","spot":{"innerConeAngle":0.1,"outerConeAngle":0.2}}]}})";
   const Scene s = load(m);
   ASSERT_EQ(s.lights.size(), 3u);
+  EXPECT_TRUE(s.needs_fill_light);
   EXPECT_EQ(s.lights[0].kind, LightKind::Directional);
   EXPECT_EQ(s.lights[0].color, (float3{1, 0.5f, 0}));
   EXPECT_EQ(s.lights[0].intensity, 3);

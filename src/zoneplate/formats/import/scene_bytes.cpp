@@ -264,6 +264,7 @@ void pass(S& s, Scene& scene) {
   s.list(scene.lights, [&](Light& l) { pass(s, l); });
   s.list(scene.cameras, [&](Camera& c) { pass(s, c); });
   pass(s, scene.environment), s.value(scene.origin), s.value(scene.up), s.value(scene.ambient_light);
+  s.choice(scene.needs_fill_light);
   s.list(scene.animations, [&](AnimationSpan& a) { s.text(a.name), s.value(a.begin), s.value(a.end); });
   s.list(scene.variants, text), s.list(scene.warnings, text);
 }

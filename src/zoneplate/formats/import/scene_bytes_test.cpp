@@ -33,6 +33,7 @@ Scene full_scene() {
   const MemoryFile file;
   Scene s = load_gltf(file.write(everything().glb()));
   s.ambient_light = {1, 2, 3};
+  s.needs_fill_light = true;
   s.environment = {.color = {3, 2, 1}, .image = 0, .rotation = 0.5f, .strength = 2};
   s.lights[0].is_in_camera_space = true;
   s.origin = {500000.1, 2, 3}, s.up = {0, 0, 1};
