@@ -111,7 +111,7 @@ TEST_F(Cli, VersionTellsInstructionSetAndCompiler) {
   EXPECT_NE(result.out.find("\nUses Jimenez's MLAA. Copyright (C) 2010 "),
             std::string::npos);  // as its licence demands
   for (const char* library : {"libpng ", "zlib ", "libjpeg-turbo ", "libwebp ", "FreeType ", "Draco ", "libseccomp ",
-                              "fmt ", "Highway ", "JSON for Modern C++ ", "CLI11 "}) {
+                              "expat ", "fmt ", "Highway ", "JSON for Modern C++ ", "CLI11 "}) {
     const std::size_t at = result.out.find(library);
     ASSERT_NE(at, std::string::npos) << library;
     const char digit = result.out[at + std::string_view(library).size()];
@@ -301,8 +301,8 @@ TEST_F(Cli, ErrorsAreOneLineWithTheDocumentedCode) {
       {3, {"triangels", "-o", "a.png"}, "triangels: no such file or scene; did you mean triangles?"},
       {3,
        {"text.xyz", "-o", "a.png"},
-       "text.xyz: not a format that can be read (.gltf, .glb, .vrm, .obj, .ply, .stl and others, see zoneplate "
-       "list formats)"},
+       "text.xyz: not a format that can be read (.gltf, .glb, .vrm, .obj, .ply, .stl, .3mf, .amf and others, see "
+       "zoneplate list formats)"},
       {3, {"missing.xyz", "-o", "a.png"}, "missing.xyz: no such file, and no built-in scene of that name"},
       {4, {"triangles", "-o", "folder.png"}, "folder.png: is a directory; write into it with a / at its end"},
       {4, {"triangles", "-o", "missing/a.png"}, "missing/a.png: cannot be written: no directory missing"},

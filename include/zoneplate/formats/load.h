@@ -28,6 +28,7 @@ struct LoadOptions {
 };
 
 /// Loads a file by its extension, or makes the built-in scene of that name: "chair.glb", "sphere:triangles=1000".
+/// A ZIP archive of another extension is taken as 3MF.
 ///
 /// A built-in scene takes precedence over a file of the same name, which is given as "./teapot". "-" is standard input,
 /// and requires a format; files that it refers to are searched in the working directory. No default lights are

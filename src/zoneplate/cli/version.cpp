@@ -2,6 +2,7 @@
 #include "zoneplate/cli/version.h"
 
 #include <draco/core/draco_version.h>
+#include <expat.h>
 #include <fmt/format.h>
 #include <ft2build.h>
 #include <hwy/highway.h>
@@ -55,6 +56,11 @@ std::string seccomp_library_version() {
   return fmt::format("{}.{}.{}", v->major, v->minor, v->micro);
 }
 
+std::string expat_version() {
+  const XML_Expat_Version v = XML_ExpatVersionInfo();
+  return fmt::format("{}.{}.{}", v.major, v.minor, v.micro);
+}
+
 }  // namespace
 
 std::string version_text() {
@@ -62,15 +68,17 @@ std::string version_text() {
       "zoneplate {} ({}, {})\n"
       "commit {}\n"
       "licence Apache-2.0\n"
-      "libpng {}, zlib {}, libjpeg-turbo {}, libwebp {}, FreeType {}, Draco {}, libseccomp {}\n"
+      "libpng {}, zlib {}, libjpeg-turbo {}, libwebp {}, FreeType {}, Draco {}, libseccomp {}, expat {}, minizip (of "
+      "zlib)\n"
       "fmt {}.{}.{}, Highway {}.{}.{}, JSON for Modern C++ {}.{}.{}, CLI11 {}\n"
       // Its licence requires this statement of programs (THIRD_PARTY.md).
       "Uses Jimenez's MLAA. Copyright (C) 2010 by Jorge Jimenez, Belen Masia, Jose I. Echevarria, Fernando Navarro and "
       "Diego Gutierrez.\n",
       version, name_of(best_isa()), compiler(), commit, png_get_libpng_ver(nullptr), ::zlibVersion(),
       ZONEPLATE_VALUE(LIBJPEG_TURBO_VERSION), webp_version(), freetype_version(), draco::kDracoVersion,
-      seccomp_library_version(), FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100, HWY_MAJOR, HWY_MINOR,
-      HWY_PATCH, NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR, NLOHMANN_JSON_VERSION_PATCH, CLI11_VERSION);
+      seccomp_library_version(), expat_version(), FMT_VERSION / 10000, FMT_VERSION / 100 % 100, FMT_VERSION % 100,
+      HWY_MAJOR, HWY_MINOR, HWY_PATCH, NLOHMANN_JSON_VERSION_MAJOR, NLOHMANN_JSON_VERSION_MINOR,
+      NLOHMANN_JSON_VERSION_PATCH, CLI11_VERSION);
 }
 
 }  // namespace zoneplate::cli

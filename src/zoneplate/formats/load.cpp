@@ -8,6 +8,8 @@
 #include <optional>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/formats/3mf/3mf.h"
+#include "zoneplate/formats/amf/amf.h"
 #include "zoneplate/formats/assimp/assimp.h"
 #include "zoneplate/formats/gltf/gltf.h"
 #include "zoneplate/formats/import/import_child.h"
@@ -15,6 +17,7 @@
 #include "zoneplate/formats/obj/obj.h"
 #include "zoneplate/formats/ply/ply.h"
 #include "zoneplate/formats/stl/stl.h"
+#include "zoneplate/formats/zip/zip.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/library.h"
 #include "zoneplate/os/mapped_file_guard.h"
@@ -24,9 +27,10 @@ namespace zoneplate {
 namespace {
 
 constexpr SceneFormat formats[] = {
-    {".gltf", "glTF 2.0, with its buffers and images"},   {".glb", "glTF 2.0 in one binary file"},
-    {".vrm", "VRM avatars, glTF 2.0 in one binary file"}, {".obj", "Wavefront OBJ, with its MTL materials"},
-    {".ply", "PLY, ASCII or binary, meshes and points"},  {".stl", "STL, ASCII or binary"}};
+    {".gltf", "glTF 2.0, with its buffers and images"},     {".glb", "glTF 2.0 in one binary file"},
+    {".vrm", "VRM avatars, glTF 2.0 in one binary file"},   {".obj", "Wavefront OBJ, with its MTL materials"},
+    {".ply", "PLY, ASCII or binary, meshes and points"},    {".stl", "STL, ASCII or binary"},
+    {".3mf", "3D Manufacturing Format, with its textures"}, {".amf", "Additive Manufacturing File, plain or zipped"}};
 
 Scene read_gltf(const std::string& path, const LoadOptions& o) { return load_gltf(path, o.limits, o.choice); }
 
@@ -40,8 +44,10 @@ const LoadLimits& limits_of(const LoadOptions& o) {
 Scene read_obj(const std::string& path, const LoadOptions& o) { return load_obj(path, limits_of(o)); }
 Scene read_ply(const std::string& path, const LoadOptions& o) { return load_ply(path, limits_of(o)); }
 Scene read_stl(const std::string& path, const LoadOptions& o) { return load_stl(path, limits_of(o)); }
+Scene read_3mf(const std::string& path, const LoadOptions& o) { return load_3mf(path, limits_of(o)); }
+Scene read_amf(const std::string& path, const LoadOptions& o) { return load_amf(path, limits_of(o)); }
 using Loader = Scene (*)(const std::string&, const LoadOptions&);
-constexpr Loader loaders[] = {read_gltf, read_gltf, read_gltf, read_obj, read_ply, read_stl};
+constexpr Loader loaders[] = {read_gltf, read_gltf, read_gltf, read_obj, read_ply, read_stl, read_3mf, read_amf};
 static_assert(std::size(loaders) == std::size(formats));
 
 std::string lower_case(std::string text) {
@@ -66,8 +72,8 @@ struct Reader {
   bool is_assimp = false;
 };
 
-/// The reader by the extension. A binary glTF file is known by its first bytes where its extension is not known, and
-/// glTF 1.0 is left to assimp.
+/// The reader by the extension. Where that is not known, binary glTF and ZIP archives, which are taken as 3MF, are
+/// known by their first bytes. glTF 1.0 is left to assimp.
 ///
 /// Errors    those of FileBytes.
 Reader reader_of(const std::string& name, const LoadOptions& options) {
@@ -80,7 +86,8 @@ Reader reader_of(const std::string& name, const LoadOptions& options) {
     return {std::move(extension)};
   const MappedFileWatch watch;
   const FileBytes file(name, options.limits.memory);
-  if (!is_known && options.format.empty() && is_binary_gltf(file.bytes())) extension = ".glb";
+  if (!is_known && options.format.empty())
+    extension = is_binary_gltf(file.bytes()) ? ".glb" : is_zip(file.bytes()) ? ".3mf" : extension;
   const bool is_assimp = (is_gltf || extension == ".glb") && is_gltf_1(file.bytes());
   if (is_assimp) extension = is_binary_gltf(file.bytes()) ? ".glb" : ".gltf";
   watch.check(name);

@@ -398,8 +398,8 @@ std::vector<Option> camera_options(RenderArgs& a) {
        [&](auto&) { a.view.is_orthographic = true; }},
       {"--camera-index", "N", "Index of a camera of the scene, from 0", group, false,
        [&](auto& text) { a.view.index = parse_whole(text, 0, 1 << 20); }},
-      {"--up", "AXIS", "Up axis of the scene: +Y, +Z, ...; default +Z for STL, +Y for other formats", group, false,
-       [&](auto& text) { a.up = parse_up(text); }},
+      {"--up", "AXIS", "Up axis of the scene: +Y, +Z, ...; default +Z for STL, 3MF and AMF, else +Y or the file's",
+       group, false, [&](auto& text) { a.up = parse_up(text); }},
   };
 }
 

@@ -26,28 +26,16 @@
 namespace zoneplate {
 namespace {
 
-constexpr SceneFormat formats[] = {{".fbx", "Autodesk FBX"},
-                                   {".dae", "COLLADA"},
-                                   {".3ds", "3D Studio"},
-                                   {".x", "DirectX X"},
-                                   {".off", "Object File Format"},
-                                   {".3mf", "3D Manufacturing Format"},
-                                   {".amf", "Additive Manufacturing File"},
-                                   {".lwo", "LightWave object"},
-                                   {".ase", "3D Studio ASE"},
-                                   {".ac", "AC3D"},
-                                   {".blend", "Blender, to 2.7"},
-                                   {".dxf", "Drawing Interchange"},
-                                   {".ms3d", "MilkShape 3D"},
-                                   {".md2", "Quake II"},
-                                   {".md3", "Quake III"},
-                                   {".md5mesh", "Doom 3"},
-                                   {".b3d", "BlitzBasic 3D"},
-                                   {".iqm", "Inter-Quake Model"},
-                                   {".smd", "Valve SMD"},
-                                   {".x3d", "X3D"},
-                                   {".cob", "TrueSpace"},
-                                   {".nff", "Neutral File Format"}};
+constexpr SceneFormat formats[] = {{".fbx", "Autodesk FBX"},       {".dae", "COLLADA"},
+                                   {".3ds", "3D Studio"},          {".x", "DirectX X"},
+                                   {".off", "Object File Format"}, {".lwo", "LightWave object"},
+                                   {".ase", "3D Studio ASE"},      {".ac", "AC3D"},
+                                   {".blend", "Blender, to 2.7"},  {".dxf", "Drawing Interchange"},
+                                   {".ms3d", "MilkShape 3D"},      {".md2", "Quake II"},
+                                   {".md3", "Quake III"},          {".md5mesh", "Doom 3"},
+                                   {".b3d", "BlitzBasic 3D"},      {".iqm", "Inter-Quake Model"},
+                                   {".smd", "Valve SMD"},          {".x3d", "X3D"},
+                                   {".cob", "TrueSpace"},          {".nff", "Neutral File Format"}};
 
 #if __has_include(<assimp/cimport.h>)
 

@@ -219,20 +219,6 @@ TEST(Assimp, DefaultMaterialsAreThatOfEveryFormat) {
   EXPECT_EQ(s.materials.at(0).base_color, plain_material("").base_color);
 }
 
-// Without colours, the importer of AMF gives all vertices (0, 0, 0, 0). Printers have +Z up.
-TEST(Assimp, AmfIsUprightAndNotBlack) {
-  if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
-  const Scene s =
-      load(bytes_of("<?xml version=\"1.0\"?><amf unit=\"millimeter\"><object id=\"0\"><mesh><vertices>"
-                    "<vertex><coordinates><x>0</x><y>0</y><z>0</z></coordinates></vertex>"
-                    "<vertex><coordinates><x>1</x><y>0</y><z>0</z></coordinates></vertex>"
-                    "<vertex><coordinates><x>0</x><y>1</y><z>0</z></coordinates></vertex></vertices>"
-                    "<volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume></mesh></object></amf>"),
-           "amf");
-  EXPECT_EQ(s.up, (float3{0, 0, 1}));
-  EXPECT_TRUE(s.meshes.at(0).color.empty());
-}
-
 TEST(Assimp, ATextureOfFbxReplacesTheDiffuseColour) {
   if (!has_library()) GTEST_SKIP() << "libassimp is not installed";
   const TestFolder folder;

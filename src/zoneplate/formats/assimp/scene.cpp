@@ -185,9 +185,9 @@ class Conversion {
   }
   bool is_format(std::string_view extension) const { return extension_ == extension; }
 
-  /// The axis that points up: +Z in the worlds of printers and of Blender, FBX states it; assimp turns other formats.
+  /// The axis that points up: +Z in the world of Blender, FBX states it; assimp turns other formats.
   float3 up() const {
-    if (is_format(".3mf") || is_format(".amf") || is_format(".blend")) return {0, 0, 1};
+    if (is_format(".blend")) return {0, 0, 1};
     std::int32_t axis = 1, sign = 1;
     if (!is_format(".fbx") || from_.mMetaData == nullptr || !from_.mMetaData->Get("UpAxis", axis)) return scene_.up;
     from_.mMetaData->Get("UpAxisSign", sign);
@@ -233,9 +233,6 @@ class Conversion {
       std::transform(m.mColors[0], m.mColors[0] + n, out.color.begin(), [](const aiColor4D& c) {
         return float4{linear(c.r), linear(c.g), linear(c.b), c.a};
       });
-      // The importer of AMF gives vertices without colours such ones.
-      if (std::all_of(out.color.begin(), out.color.end(), [](const float4& c) { return c == float4{0, 0, 0, 0}; }))
-        out.color.clear();
     }
     return out;
   }

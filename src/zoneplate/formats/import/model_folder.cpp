@@ -127,14 +127,16 @@ int ModelFolder::load(const std::string& within, const std::string& name, const 
   });
 }
 
-void ModelFolder::embed(std::span<const std::string> names, std::span<const std::uint8_t> bytes) {
+int ModelFolder::embed(std::span<const std::string> names, std::span<const std::uint8_t> bytes) {
   const int number = add([&] { return decode(names.front(), bytes); });
   for (const std::string& name : names) images_["missing " + name] = number;
+  return number;
 }
 
-void ModelFolder::embed(std::span<const std::string> names, Rgba8Image pixels) {
+int ModelFolder::embed(std::span<const std::string> names, Rgba8Image pixels) {
   const int number = add([&] { return TextureImage{names.front(), std::move(pixels)}; });
   for (const std::string& name : names) images_["missing " + name] = number;
+  return number;
 }
 
 Material plain_material(const std::string& name) {

@@ -43,9 +43,9 @@ class ModelFolder {
   int image(const std::string& within, const std::string& name);
 
   /// Adds an image that is embedded in the model's file. image() finds it by any of the names unless there is a file of
-  /// that name.
-  void embed(std::span<const std::string> names, std::span<const std::uint8_t> bytes);
-  void embed(std::span<const std::string> names, Rgba8Image pixels);
+  /// that name. Returns its index in Scene::images; -1, with a warning, if it cannot be decoded.
+  int embed(std::span<const std::string> names, std::span<const std::uint8_t> bytes);
+  int embed(std::span<const std::string> names, Rgba8Image pixels);
 
   /// Adds a warning about ignored content. Only the first 2000 are kept.
   void warn(std::string text);
