@@ -19,12 +19,12 @@ foreach(isa IN LISTS isas)
   target_sources(zoneplate_fuzzed PRIVATE $<TARGET_OBJECTS:zoneplate_fuzzed_${isa}>)
 endforeach()
 target_link_libraries(zoneplate_fuzzed PUBLIC zoneplate_flags fmt::fmt Threads::Threads JPEG::JPEG ${webpmux_library}
-                      ${webp_library} PNG::PNG ${CMAKE_DL_LIBS} ${seccomp_library} z)
+                      ${webp_library} PNG::PNG ${CMAKE_DL_LIBS} ${seccomp_library} ${minizip_library} ${expat_library} z)
 target_precompile_headers(zoneplate_fuzzed PRIVATE ${common_headers})
 
 # Beside file formats: `scene`, what a child process answers, `manifest`, the lines of a batch,
 # and `sdf`, scenes of shapes.
-set(fuzz_formats gltf obj mtl ply stl png jpeg webp hdr exr pfm ktx2 bmp tga scene manifest sdf)
+set(fuzz_formats gltf obj mtl ply stl 3mf amf png jpeg webp hdr exr pfm ktx2 bmp tga scene manifest sdf)
 foreach(format IN LISTS fuzz_formats)
   set(kind model)
   if(format MATCHES "png|jpeg|webp|hdr|exr|pfm|ktx2|bmp|tga")

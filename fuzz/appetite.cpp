@@ -91,7 +91,7 @@ int main(int count, char** arguments) {
   try {
     Collection out(arguments[1], has_choice);
     for (const auto add : {add_gltf_claims, add_gltf_packed, add_crowds, add_png, add_pictures, add_exr, add_obj,
-                           add_ply_and_stl, add_foreign})
+                           add_ply_and_stl, add_printed, add_foreign})
       add(out);
   } catch (const std::exception& error) {
     std::cerr << "fuzz_appetite: " << error.what() << '\n';

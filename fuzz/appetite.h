@@ -72,6 +72,7 @@ void add_pictures(Collection& out);  ///< JPEG, WebP, HDR, KTX2; environments; t
 void add_exr(Collection& out);
 void add_obj(Collection& out);  ///< with MTL
 void add_ply_and_stl(Collection& out);
+void add_printed(Collection& out);  ///< 3MF and AMF
 void add_foreign(Collection& out);  ///< what the library assimp reads
 
 }  // namespace zoneplate::appetite

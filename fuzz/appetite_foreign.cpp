@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files of the formats that the library assimp reads.
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include "appetite.h"
 
@@ -13,47 +12,6 @@ void append(Bytes& out, std::uint64_t value, int size) {
 }
 
 void append(Bytes& out, std::string_view text) { out.insert(out.end(), text.begin(), text.end()); }
-
-/// A ZIP archive of members that are stored as they are.
-Bytes zip(const std::vector<std::pair<std::string, std::string>>& members) {
-  Bytes out, directory;
-  for (const auto& [name, text] : members) {
-    const std::size_t at = out.size();
-    Bytes entry;  // what the member's own header and its line in the directory have in common
-    append(entry, 20, 2), append(entry, 0, 2), append(entry, 0, 2), append(entry, 0x21 << 16, 4);
-    append(entry, ::crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()), 4);
-    append(entry, text.size(), 4), append(entry, text.size(), 4), append(entry, name.size(), 2), append(entry, 0, 2);
-    append(out, 0x04034b50, 4), out.insert(out.end(), entry.begin(), entry.end());
-    append(out, name), append(out, text);
-    append(directory, 0x02014b50, 4), append(directory, 20, 2);
-    directory.insert(directory.end(), entry.begin(), entry.end());
-    append(directory, 0, 10), append(directory, at, 4), append(directory, name);
-  }
-  const std::size_t at = out.size();
-  out.insert(out.end(), directory.begin(), directory.end());
-  append(out, 0x06054b50, 4), append(out, 0, 4);
-  append(out, members.size(), 2), append(out, members.size(), 2);
-  append(out, directory.size(), 4), append(out, at, 4), append(out, 0, 2);
-  return out;
-}
-
-/// Each object is ten times the one before it.
-Bytes components_3mf(int levels) {
-  std::string objects =
-      R"(<object id="1" type="model"><mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/></vertices><triangles><triangle v1="0" v2="1" v3="2"/></triangles></mesh></object>)";
-  for (int i = 2; i <= levels; ++i)
-    objects += fmt::format(R"(<object id="{}" type="model"><components>{}</components></object>)", i,
-                           repeated(fmt::format(R"(<component objectid="{}"/>)", i - 1), 10));
-  const std::string model = fmt::format(
-      R"(<?xml version="1.0"?><model unit="millimeter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources>{}</resources><build><item objectid="{}"/></build></model>)",
-      objects, levels);
-  return zip(
-      {{"[Content_Types].xml",
-        R"(<?xml version="1.0"?><Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/><Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>)"},
-       {"_rels/.rels",
-        R"(<?xml version="1.0"?><Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel" Target="/3D/3dmodel.model"/></Relationships>)"},
-       {"3D/3dmodel.model", model}});
-}
 
 /// Each node has the one before it ten times.
 std::string nodes_dae(int levels) {
@@ -84,8 +42,6 @@ std::string blocks_dxf(int levels) {
 }
 
 void add_exponential(Collection& out) {
-  out.add("3mf", "foreign-components.3mf", components_3mf(9), within_limits);
-  out.add("3mf", "foreign-components-4.3mf", components_3mf(5), within_limits);
   out.add("dae", "foreign-nodes.dae", nodes_dae(9), within_limits);
   out.add("dxf", "foreign-blocks.dxf", blocks_dxf(9), within_limits);
   out.add(
@@ -133,9 +89,6 @@ void add_foreign_claims(Collection& out) {
       "MD5Version 10\ncommandline \"\"\nnumJoints 1\nnumMeshes 1\njoints {\n\"a\" -1 ( 0 0 0 ) ( 0 0 0 )\n}\nmesh "
       "{\nshader \"a\"\nnumverts 1000000000\nvert 999999999 ( 0 0 ) 0 1\nnumtris 1000000000\nnumweights "
       "1000000000\n}\n");
-  add("amf", "foreign-objects.amf",
-      "<?xml version=\"1.0\"?><amf>" + repeated("<object id=\"1\"><mesh><vertices/></mesh></object>", 60000) +
-          "</amf>");
   add("x3d", "foreign-nested.x3d",
       "<?xml version=\"1.0\"?><X3D><Scene>" + repeated("<Group>", 200000) + repeated("</Group>", 200000) +
           "</Scene></X3D>");

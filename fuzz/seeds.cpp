@@ -11,6 +11,7 @@
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/webp_still.h"
+#include "zoneplate/formats/3mf/maker_for_test.h"
 #include "zoneplate/formats/gltf/gltf.h"
 #include "zoneplate/formats/gltf/sample_for_test.h"
 #include "zoneplate/formats/import/mesh_samples_for_test.h"
@@ -206,6 +207,53 @@ void write_shapes(const std::string& root) {
           {"stroke":"\u0023fff","width":2.5,"shape":{"shrink":[1,{"regular-polygon":[9,9,8,5]}]}}]})"));
 }
 
+/// Packages of few bytes, stored, so that a fuzzer reaches their XML; and AMF.
+void write_printed(const std::string& root) {
+  using namespace maker_3mf;
+  const std::string mesh =
+      R"(<mesh><vertices><vertex x="0" y="0" z="0"/><vertex x="1" y="0" z="0"/><vertex x="0" y="1" z="0"/>)"
+      R"(</vertices><triangles><triangle v1="0" v2="1" v3="2" pid="3" p1="0" p2="1"/></triangles></mesh>)";
+  const std::string groups =
+      R"(<basematerials id="2"><base name="a" displaycolor="#FF0000"/></basematerials>)"
+      R"(<m:colorgroup id="3"><m:color color="#FF0000"/><m:color color="#00FF0080"/></m:colorgroup>)"
+      R"(<m:texture2d id="4" path="/t.png" contenttype="image/png" tilestyleu="mirror"/>)"
+      R"(<m:texture2dgroup id="5" texid="4"><m:tex2coord u="0" v="0.5"/></m:texture2dgroup>)"
+      R"(<m:compositematerials id="6" matid="2" matindices="0 0"><m:composite values="1 2"/>)"
+      R"(</m:compositematerials>)"
+      R"(<m:multiproperties id="7" pids="2 3 5" blendmethods="mix multiply">)"
+      R"(<m:multi pindices="0 1 0"/></m:multiproperties>)";
+  const auto stored = [](const std::string& text, const std::vector<ZipMember>& more = {}) {
+    std::vector<ZipMember> members = {{"_rels/.rels", relationships({{model_type, "/a.model"}})}, {"a.model", text}};
+    members.insert(members.end(), more.begin(), more.end());
+    return zip_of(members);
+  };
+  const std::vector<std::uint8_t> image = encode_png(Rgba8Image(1, 1, {9, 8, 7, 6}));
+  write(root + "/3mf", "core.3mf", stored(model(object(1, mesh), item(1, R"(transform="1 0 0 0 1 0 0 0 1 3 0 0")"))));
+  for (int pid = 2; pid <= 7; ++pid) {
+    std::string text = mesh;
+    text.replace(text.find("pid=\"3\""), 7, "pid=\"" + std::to_string(pid) + "\"");
+    write(root + "/3mf", "group" + std::to_string(pid) + ".3mf",
+          stored(model(groups + object(1, text, R"(pid="3" pindex="0")"), item(1)),
+                 {{"t.png", {image.begin(), image.end()}}}));
+  }
+  const std::string parts =
+      R"(<components><component objectid="1" p:path="/b.model"/><component objectid="3"/></components>)";
+  write(root + "/3mf", "parts.3mf",
+        stored(model(object(2, parts) + object(3, R"(<components><component objectid="2"/>)"
+                                                  R"(</components>)"),
+                     item(2)),
+               {{"b.model", model(object(1, mesh), ""), true}}));
+  write(root + "/amf", "all.amf",
+        bytes_of(
+            "<?xml version=\"1.0\"?><amf unit=\"inch\"><object id=\"1\"><metadata type=\"name\">a</metadata><color>"
+            "<r>1</r><g>0</g><b>.5</b><a>1</a></color><mesh><vertices><vertex><coordinates><x>0</x><y>0</y><z>0</z>"
+            "</coordinates><color><r>1</r></color></vertex><vertex><coordinates><x>1</x><y>0</y><z>0</z></coordinates>"
+            "</vertex><vertex><coordinates><x>0</x><y>1</y><z>0</z></coordinates></vertex></vertices><volume "
+            "materialid=\"2\"><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume></mesh></object><material "
+            "id=\"2\"><color><r>1</r></color></material><constellation id=\"3\"><instance objectid=\"1\">"
+            "<deltax>1</deltax><rz>30</rz></instance></constellation></amf>"));
+}
+
 }  // namespace
 
 int main(int, char** argv) {
@@ -222,6 +270,7 @@ int main(int, char** argv) {
   write(root + "/ply", "big.ply", binary_ply(true));
   write(root + "/stl", "ascii.stl", bytes_of(ascii_stl));
   write(root + "/stl", "binary.stl", binary_stl());
+  write_printed(root);
   write_images(root);
   write_light(root);
   write_answers(root);
