@@ -26,7 +26,7 @@ struct Stream {
   static uLong read(void* data, void*, void* out, uLong size) {
     Stream& s = of(data);
     const uLong count = std::min<uLong>(size, s.bytes.size() - s.at);
-    std::memcpy(out, s.bytes.data() + s.at, count);
+    std::copy_n(s.bytes.begin() + static_cast<std::ptrdiff_t>(s.at), count, static_cast<std::uint8_t*>(out));
     s.at += count;
     if (!s.has_zeros) return count;
     std::memset(static_cast<std::uint8_t*>(out) + count, 0, size - count);
