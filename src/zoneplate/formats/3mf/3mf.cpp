@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/formats/3mf/flaws.h"
 #include "zoneplate/formats/3mf/model.h"
 #include "zoneplate/formats/3mf/package.h"
@@ -65,7 +66,7 @@ class Import {
     auto model = std::make_unique<Model>();
     model->part = part;
     ModelParser3mf handler(*model, flaws_, budget_);
-    XmlParser parser(handler, budget_.file() + ": " + package_.name(*number), budget_);
+    XmlParser parser(handler, budget_.file() + ": " + printable(package_.name(*number)), budget_);
     const bool is_intact = package_.read(*number, [&](std::span<const std::uint8_t> piece) { parser.feed(piece); });
     parser.finish();
     if (!is_intact) flaws_.add(Flaw::Checksum, [&] { return package_.name(*number) + ": its checksum is wrong"; });
@@ -99,8 +100,9 @@ Scene load_3mf(const std::string& path, const LoadLimits& limits) {
   if (!is_zip(file.bytes())) throw Error(ErrorKind::Input, budget.file() + ": is no 3MF package: no ZIP archive");
   Import(file.bytes(), budget, scene).run();
   if (scene.instances.empty())
-    throw Error(ErrorKind::Input, scene.warnings.empty() ? budget.file() + ": holds nothing to draw"
-                                                         : scene.warnings.front() + "; nothing is left to draw");
+    throw Error(ErrorKind::Input, scene.warnings.empty()
+                                      ? budget.file() + ": holds nothing to draw"
+                                      : printable(scene.warnings.front()) + "; nothing is left to draw");
   return scene;
 }
 

@@ -349,6 +349,8 @@ TEST(Load3mf, RefusalsNameTheCause) {
   EXPECT_EQ(refusal(package("<!DOCTYPE a><model/>")),
             "3D/3dmodel.model: line 1: has a document type declaration, which is not read");
   EXPECT_EQ(refusal(package(model("", ""))), "holds nothing to draw");
+  EXPECT_EQ(refusal(package(model("", item(1, R"(p:path="/a&#10;b.model")")))),
+            "model a?b.model is not in the package: its objects are left out; nothing is left to draw");
 }
 
 TEST(Load3mf, ABombIsRefused) {

@@ -2,6 +2,7 @@
 #include "zoneplate/formats/3mf/package.h"
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/formats/import/model_path.h"
 #include "zoneplate/formats/xml/xml.h"
 
@@ -80,7 +81,7 @@ std::string Package::target_of_type(std::string_view type) {
   const auto part = find("_rels/.rels");
   if (!part) return "";
   Relationships relationships(type);
-  XmlParser parser(relationships, budget_.file() + ": " + name(*part), budget_);
+  XmlParser parser(relationships, budget_.file() + ": " + printable(name(*part)), budget_);
   archive_.read(*part, [&](std::span<const std::uint8_t> piece) { parser.feed(piece); });
   parser.finish();
   return relationships.target;

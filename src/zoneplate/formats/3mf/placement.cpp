@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/formats/3mf/package.h"
 
 namespace zoneplate {
@@ -80,8 +81,8 @@ bool ObjectPlacer::has_triangles(Model& model, Object& object, int depth) {
 
 void ObjectPlacer::check_depth(const Object& object, int depth) const {
   if (depth > budget_.limits().node_depth)
-    throw Error(ErrorKind::Input, fmt::format("{}: {}: components deeper than {}", budget_.file(), object.name,
-                                              budget_.limits().node_depth));
+    throw Error(ErrorKind::Input, fmt::format("{}: {}: components deeper than {}", budget_.file(),
+                                              printable(object.name), budget_.limits().node_depth));
 }
 
 void ObjectPlacer::place(Model& from, const Placement& placement, const float4x4& world_from_parent, int depth) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/formats/3mf/flaws.h"
 #include "zoneplate/formats/3mf/placement.h"
 #include "zoneplate/formats/amf/parse.h"
@@ -28,7 +29,7 @@ void parse(std::span<const std::uint8_t> bytes, AmfParser& handler, FlawList& fl
   if (names.empty()) throw Error(ErrorKind::Input, budget.file() + ": is an archive without files");
   const auto found = std::find_if(names.begin(), names.end(), [](const std::string& n) { return n.ends_with(".amf"); });
   const auto file = static_cast<std::size_t>(found == names.end() ? 0 : found - names.begin());
-  XmlParser parser(handler, budget.file() + ": " + names[file], budget);
+  XmlParser parser(handler, budget.file() + ": " + printable(names[file]), budget);
   const bool is_intact = archive.read(file, [&](std::span<const std::uint8_t> piece) { parser.feed(piece); });
   parser.finish();
   if (!is_intact) flaws.add(Flaw::Checksum, [&] { return names[file] + ": its checksum is wrong"; });
@@ -53,8 +54,9 @@ Scene load_amf(const std::string& path, const LoadLimits& limits) {
   flaws.report();
   for (const std::string& note : model.notes) scene.warnings.push_back(budget.file() + ": " + note);
   if (scene.instances.empty())
-    throw Error(ErrorKind::Input, scene.warnings.empty() ? budget.file() + ": holds nothing to draw"
-                                                         : scene.warnings.front() + "; nothing is left to draw");
+    throw Error(ErrorKind::Input, scene.warnings.empty()
+                                      ? budget.file() + ": holds nothing to draw"
+                                      : printable(scene.warnings.front()) + "; nothing is left to draw");
   return scene;
 }
 

@@ -11,6 +11,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/size_text.h"
+#include "zoneplate/base/utf8.h"
 
 namespace zoneplate {
 namespace {
@@ -117,7 +118,7 @@ ZipArchive::~ZipArchive() = default;
 bool ZipArchive::read(std::size_t file, const std::function<void(std::span<const std::uint8_t>)>& sink) {
   State& s = *state_;
   const auto wrong = [&](std::string_view cause) {
-    return Error(ErrorKind::Input, fmt::format("{}: {}: {}", s.budget.file(), names_[file], cause));
+    return Error(ErrorKind::Input, fmt::format("{}: {}: {}", s.budget.file(), printable(names_[file]), cause));
   };
   unz_file_info64 info{};
   s.stream.has_zeros = false;

@@ -57,6 +57,7 @@ TEST(Zip, RefusalsNameTheFile) {
             "file: a: is packed by method 12, expected stored or deflated");
   EXPECT_EQ(refusal({{.name = "a", .text = "text that is not deflated", .method = 8}}),
             "file: a: its packed bytes are damaged");
+  EXPECT_EQ(refusal({{.name = "a\nb", .text = "text", .flags = 1}}), "file: a?b: is encrypted");
 }
 
 TEST(Zip, WhatUnpacksToMoreThanTheMemoryIsRefused) {
