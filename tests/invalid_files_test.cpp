@@ -28,6 +28,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// How much longer the program may take than without a sanitizer.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int slower = 20;
+#else
+constexpr int slower = 1;
+#endif
+
 struct Result {
   int code = -1;
   std::string err;
@@ -52,7 +59,7 @@ Result run(std::vector<std::string> words, const fs::path& err) {
   int status = 0;
   rusage usage{};
   while (::wait4(child, &status, WNOHANG, &usage) == 0) {
-    if (seconds() > 20) ::kill(child, SIGKILL);
+    if (seconds() > 20 * slower) ::kill(child, SIGKILL);
     std::this_thread::sleep_for(std::chrono::milliseconds(2));
   }
   std::stringstream text;
@@ -318,7 +325,7 @@ class InvalidFiles : public testing::Test {
     if (r.code == 3) {
       EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << about;
     }
-    EXPECT_LT(r.seconds, 5) << about;
+    EXPECT_LT(r.seconds, 5 * slower) << about;
     EXPECT_LT(r.megabytes, 1024) << about;
     fs::remove(out);
     EXPECT_TRUE(fs::is_empty(folder / "out")) << about;
@@ -329,7 +336,8 @@ class InvalidFiles : public testing::Test {
     for (const zoneplate::FileCommand& command : is_image ? zoneplate::image_commands() : zoneplate::model_commands()) {
       const fs::path out = folder / "out" / "image.png";
       std::vector<std::string> words = command.with(file.string(), out.string());
-      words.insert(words.end(), {"--max-memory", "200M", "--max-import-seconds", "2", "--max-seconds", "10"});
+      words.insert(words.end(), {"--max-memory", "200M", "--max-import-seconds", std::to_string(2 * slower),
+                                 "--max-seconds", std::to_string(10 * slower)});
       const Result r = run(words, folder / "err");
       const std::string about = command.name + ' ' + file.string() + ": " + r.err;
       const int refused = command.writes_always ? 5 : 3;
@@ -338,7 +346,7 @@ class InvalidFiles : public testing::Test {
       for (std::size_t at = 0; (at = r.err.find("zoneplate: error: ", at)) != std::string::npos; ++at) ++errors;
       EXPECT_EQ(errors, r.code == 0 ? 0u : command.writes_always ? 2u : 1u) << about;  // one of the sheet itself
       EXPECT_EQ(r.err.find("crashed"), std::string::npos) << about;
-      EXPECT_LT(r.seconds, 15) << about;
+      EXPECT_LT(r.seconds, 15 * slower) << about;
       EXPECT_EQ(fs::exists(out), command.name != "info" && r.code != 3) << about;
       fs::remove_all(out);
       EXPECT_TRUE(fs::is_empty(folder / "out")) << about;
