@@ -112,12 +112,18 @@ TEST_F(RestrictedSystem, NoSandboxGivesNoWarning) {
 }
 
 TEST_F(RestrictedSystem, FewDescriptorsAreAWarning) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer looks at memory through pipes";
+#endif
   const ProgramAnswer answer =
       run(arguments("plain.obj", "a.png"), "sh -c 'exec 3>&- 4>&-; ulimit -n 5; exec \"$@\"' sh");
   expect_one_warning(answer, {"Too many open files", "--no-sandbox"}, "plain.obj");
 }
 
 TEST_F(RestrictedSystem, FilesBesideTheModelAreReadWithoutProc) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer needs /proc";
+#endif
   const std::string command = "unshare -m sh -c 'umount -l /proc && exec \"$@\"' sh";
   if (std::system((command + " true 2>/dev/null").c_str()) != 0) GTEST_SKIP() << "/proc cannot be unmounted here";
   for (const std::string model : {"tri.obj", "tri.gltf"}) {
