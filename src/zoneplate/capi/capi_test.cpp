@@ -327,7 +327,7 @@ TEST(Capi, ListsItsCatalogues) {
 }
 
 /// A pyramid of float64 positions around a place, as an instance of a mesh in those coordinates or one that moves
-/// there, with a light, from a camera beside it.
+/// there, with a light, from a camera next to it.
 struct FarPyramid {
   SceneHandle scene;
   ImageHandle image;

@@ -26,6 +26,7 @@ const Words bt709_tags = {"-colorspace", "bt709",        "-color_primaries", "bt
 struct Codec {
   std::string_view extension;
   Words words;
+  bool is_opaque = false;  ///< H.264: without alpha, of even sides
 };
 
 // Options of ffmpeg: one thread and no time stamps, so that the same version of ffmpeg writes the same bytes. MP4 and
@@ -41,9 +42,9 @@ const std::vector<Codec>& codecs() {
     };
     const Words fragments = {"-movflags", "+frag_keyframe+empty_moov+write_colr"};
     return std::vector<Codec>{
-        {".mp4", together({h264, bt709_tags, fragments, {"-f", "mp4"}})},
-        {".mov", together({h264, bt709_tags, fragments, {"-f", "mov"}})},
-        {".mkv", together({h264, bt709_tags, {"-f", "matroska"}})},
+        {".mp4", together({h264, bt709_tags, fragments, {"-f", "mp4"}}), true},
+        {".mov", together({h264, bt709_tags, fragments, {"-f", "mov"}}), true},
+        {".mkv", together({h264, bt709_tags, {"-f", "matroska"}}), true},
         {".webm", together({vp9, bt709_tags, {"-f", "webm"}})},
         {".gif",
          {"-vf",
@@ -106,8 +107,8 @@ AnimationFormat film_format(double rate) {
 bool is_encoded_by_ffmpeg(const std::string& output) { return find_codec(output) != nullptr; }
 
 bool is_opaque_video(const std::string& output) {
-  const std::string extension = std::filesystem::path(output).extension().string();
-  return extension == ".mp4" || extension == ".mov" || extension == ".mkv";
+  const Codec* const codec = find_codec(output);
+  return codec != nullptr && codec->is_opaque;
 }
 
 std::unique_ptr<AnimationEncoder> make_film_encoder(const std::string& output, const AnimationFormat& format) {

@@ -60,7 +60,8 @@ void convert_materials(const RenderArgs& args, Scene& scene);
 /// Sets those of `args.options` that the user leaves to the scene: `point_size` and `anisotropy`.
 void set_usual_options(RenderArgs& args, const Scene& scene);
 
-/// Sets those and the view's up axis, and chooses the camera: that of a built-in scene is its own.
+/// Sets these options and the view's up axis, and chooses the camera of a picture: a built-in scene's own if it has
+/// one.
 Camera choose_own_camera(RenderArgs& args, const Scene& scene);
 
 /// Changes the materials and the lighting of a loaded scene according to the arguments. The tone curve for it.
