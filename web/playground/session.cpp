@@ -271,7 +271,9 @@ Json::Object Session::about() const {
   std::uint64_t triangles = 0;
   for (const Instance& instance : scene().instances)
     triangles += scene().meshes[static_cast<std::size_t>(instance.mesh)].index.size() / 3;
-  const AutoFit fit;
+  AutoFit fit;
+  const View view = facing_front(scene(), {.up = scene().up}, 4 / 3.0f);
+  fit.azimuth = view.azimuth.value_or(fit.azimuth), fit.elevation = view.elevation.value_or(fit.elevation);
   constexpr float degrees = 180 / 3.14159265f;
   return {{"name", name_},
           {"has_own_camera", has_own_camera_},

@@ -20,6 +20,10 @@ struct View {
   float3 up{0, 1, 0};                       ///< the scene's upward axis
 };
 
+/// The view with the azimuth and elevation that choose_camera takes where a whole-scene view of no given direction
+/// would see nothing but back faces; else the same view.
+View facing_front(const Scene& scene, const View& view, float aspect);
+
 /// The camera for an image of the given aspect ratio (width / height).
 ///
 /// The base is camera `index` of the scene, or without an index a whole-scene view, three-quarter from above; where

@@ -365,6 +365,24 @@ FarPyramid far_pyramid(double3 at, bool is_moved) {
   return out;
 }
 
+TEST(Capi, AFarMeshThatIsMovedBackKeepsItsShape) {
+  constexpr double3 at{500000.125, 5200000.25, 300.5};
+  zoneplate_scene* made = nullptr;
+  ASSERT_EQ(zoneplate_scene_new(&made), ZONEPLATE_OK);
+  const SceneHandle scene(made);
+  const double positions[] = {at.x, at.y, at.z, at.x + 1, at.y, at.z, at.x, at.y + 0.7, at.z};
+  zoneplate_mesh mesh = {.size = sizeof mesh};
+  mesh.positions = capi::array_of(positions, ZONEPLATE_FLOAT64, {3, 3});
+  ASSERT_EQ(zoneplate_scene_add_mesh(made, &mesh, nullptr), ZONEPLATE_OK) << zoneplate_error_text();
+  const double back[] = {1, 0, 0, -at.x, 0, 1, 0, -at.y, 0, 0, 1, -at.z, 0, 0, 0, 1};
+  ASSERT_EQ(zoneplate_scene_add_instance(made, 0, back, nullptr, nullptr), ZONEPLATE_OK);
+  double low[3], high[3];
+  ASSERT_EQ(zoneplate_scene_bounds(made, low, high), ZONEPLATE_OK);
+  EXPECT_NEAR(low[1], 0, 1e-6);
+  EXPECT_NEAR(high[0], 1, 1e-6);
+  EXPECT_NEAR(high[1], 0.7, 1e-6);
+}
+
 TEST(Capi, ScenesFarFromTheOriginLookAsNearIt) {
   constexpr double3 at{500000.125, 5200000.25, 300.5};
   const FarPyramid near = far_pyramid({}, false);

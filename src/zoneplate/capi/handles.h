@@ -44,13 +44,9 @@ struct zoneplate_scene {
   bool uses_own_camera = false;                 ///< a built-in scene with a camera, which is its default view
   std::optional<zoneplate::float4> background;  ///< of built-in scenes that are defined on one
 
-  /// What a scene far from the origin of its coordinates needs while it is built (Scene::origin): by their indices,
-  /// meshes that lie far from their own origin, relative to a centre, and the positions of lights.
-  struct FarMesh {
-    zoneplate::double3 centre;
-    zoneplate::Mesh mesh;  ///< empty once it has replaced the scene's
-  };
-  std::map<std::int32_t, FarMesh> far_meshes;
+  /// What a scene far from the origin of its coordinates needs while it is built (Scene::origin), by their indices: the
+  /// centres that the positions of meshes far from their own origin are relative to, and the positions of lights.
+  std::map<std::int32_t, zoneplate::double3> mesh_centres;
   std::map<std::size_t, zoneplate::double3> light_places;
 
   zoneplate_scene() : scene_(std::in_place) {}

@@ -31,7 +31,13 @@ std::optional<double3> optional_place(const double* v) {
   return v == nullptr ? std::nullopt : std::optional(double3{v[0], v[1], v[2]});
 }
 
-Camera find_camera(const zoneplate_scene& scene, const zoneplate_view* given, float aspect) {
+/// A camera, and the place of its eye in the coordinates of the file.
+struct PlacedCamera {
+  Camera camera;
+  double3 eye;
+};
+
+PlacedCamera find_camera(const zoneplate_scene& scene, const zoneplate_view* given, float aspect) {
   const auto v = completed(given, "zoneplate_view");
   View view{.index = optional_of<int>(v.index),
             .position = optional_place(v.position),
@@ -44,7 +50,8 @@ Camera find_camera(const zoneplate_scene& scene, const zoneplate_view* given, fl
   if (scene.uses_own_camera && !view.index && !view.position) view.index = 0;
   return scene.read([&](const Scene& s) {
     view.up = s.up;
-    return choose_camera(s, view, aspect);
+    const Camera camera = choose_camera(s, view, aspect);
+    return PlacedCamera{camera, s.in_file(xyz(camera.world_from_camera.column[3]))};
   });
 }
 
@@ -183,7 +190,8 @@ std::unique_ptr<zoneplate_image> render_image(zoneplate_scene& scene, const zone
   settings.options.display.mapping = tone_mapping.value_or(light.tone_mapping);
   Renderer renderer(prepared.lit(light), std::move(method));
   RenderedImage image = renderer.render_still(
-      camera != nullptr ? camera_of(camera, prepared.scene().origin) : find_camera(scene, nullptr, aspect), settings);
+      camera != nullptr ? camera_of(camera, prepared.scene().origin) : find_camera(scene, nullptr, aspect).camera,
+      settings);
 
   const bool has_alpha = options.display.is_transparent || options.display.background.w < 1;
   std::unique_ptr<zoneplate_image> out;
@@ -208,9 +216,7 @@ zoneplate_status zoneplate_scene_camera(const zoneplate_scene* scene, const zone
                                         zoneplate_camera* camera) {
   return guarded([&] {
     if (!(aspect > 0 && aspect < 1e6)) throw Error(ErrorKind::Usage, fmt::format("aspect: is {}", aspect));
-    const Camera found = find_camera(required(scene, "scene"), view, static_cast<float>(aspect));
-    const float3 eye = xyz(found.world_from_camera.column[3]);
-    const double3 place = scene->read([&](const Scene& s) { return s.in_file(eye); });
+    const auto [found, place] = find_camera(required(scene, "scene"), view, static_cast<float>(aspect));
     zoneplate_camera out{};
     out.size = sizeof out;
     for (std::size_t c = 0; c < 4; ++c) {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
-#include <utility>
 
 #include "zoneplate/capi/arrays.h"
 #include "zoneplate/capi/handles.h"
@@ -111,6 +110,19 @@ std::vector<float4> colors_of(const zoneplate_array& array, std::size_t count) {
   return out;
 }
 
+/// The positions of a mesh relative to `centre`, which is not 0 if they lie far from their own origin.
+std::vector<float3> centered_positions(const zoneplate_array& given, double3& centre) {
+  std::vector<float3> out = vectors_of<float3>(given, "positions", 0);
+  OriginChoice choice;
+  choice.add(out);
+  centre = choice.origin();
+  if (centre == double3{}) return out;
+  const std::vector<double> places = doubles_of(given, "positions", 3);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = narrowed(double3{places[3 * i], places[3 * i + 1], places[3 * i + 2]} - centre);
+  return out;
+}
+
 /// The mesh with these positions in place of the given ones.
 Mesh mesh_of(const zoneplate_mesh& m, std::vector<float3> positions, const Scene& scene) {
   constexpr Topology topologies[] = {Topology::Triangles, Topology::Lines, Topology::Points};
@@ -143,23 +155,7 @@ Mesh mesh_of(const zoneplate_mesh& m, std::vector<float3> positions, const Scene
   return out;
 }
 
-/// A mesh that lies far from its own origin, with positions relative to a centre; nothing for others.
-std::optional<zoneplate_scene::FarMesh> far_mesh_of(const zoneplate_mesh& m, const Mesh& mesh, const Scene& scene) {
-  OriginChoice choice;
-  choice.add(mesh.position);
-  const double3 centre = choice.origin();
-  if (centre == double3{}) return std::nullopt;
-  const std::vector<double> places = doubles_of(m.positions, "positions", 3);
-  std::vector<float3> positions;
-  for (std::size_t i = 0; i + 2 < places.size(); i += 3)
-    positions.push_back(narrowed(double3{places[i], places[i + 1], places[i + 2]} - centre));
-  zoneplate_scene::FarMesh out{centre, mesh_of(m, std::move(positions), scene)};
-  drop_not_finite(out.mesh);
-  return out;
-}
-
-/// Chooses the scene's origin by its first instance: the place of a mesh whose positions are relative to a centre.
-/// Lights that were added before move with it.
+/// Chooses the scene's origin by its first instance. Lights that were added before move with it.
 void choose_origin(zoneplate_scene& building, Scene& scene, const Mesh& mesh, const Affine& placed) {
   OriginChoice choice;
   constexpr std::size_t positions_per_check = 64;
@@ -170,16 +166,13 @@ void choose_origin(zoneplate_scene& building, Scene& scene, const Mesh& mesh, co
     if (!scene.lights[light].is_in_camera_space) scene.lights[light].position = scene.in_world(place);
 }
 
-/// The transform of a further instance of a mesh, which gets its form for a far scene if this is one.
-float4x4 place_instance(zoneplate_scene& building, Scene& scene, std::int32_t number, const Affine& world_from_object) {
-  const auto far = building.far_meshes.find(number);
-  const bool is_far_mesh = far != building.far_meshes.end();
-  Mesh& mesh = scene.meshes[static_cast<std::size_t>(number)];
-  const Affine centered = is_far_mesh ? world_from_object * Affine{.move = far->second.centre} : world_from_object;
-  if (scene.instances.empty()) choose_origin(building, scene, is_far_mesh ? far->second.mesh : mesh, centered);
-  if (scene.origin == double3{} || !is_far_mesh) return narrowed(world_from_object, scene.origin);
-  if (Mesh& form = far->second.mesh; !form.position.empty()) mesh = std::exchange(form, {});
-  return narrowed(centered, scene.origin);
+/// The transform of a further instance of a mesh.
+float4x4 place_instance(zoneplate_scene& building, Scene& scene, std::int32_t mesh, const Affine& world_from_object) {
+  const auto centre = building.mesh_centres.find(mesh);
+  const Affine placed =
+      centre == building.mesh_centres.end() ? world_from_object : world_from_object * Affine{.move = centre->second};
+  if (scene.instances.empty()) choose_origin(building, scene, scene.meshes[static_cast<std::size_t>(mesh)], placed);
+  return narrowed(placed, scene.origin);
 }
 
 Affine affine_of(const double* m) {
@@ -325,9 +318,9 @@ zoneplate_status zoneplate_scene_add_mesh(zoneplate_scene* scene, const zoneplat
   return guarded([&] {
     required(scene, "scene").change([&](Scene& s) {
       const auto given = completed(&required(mesh, "mesh"), "zoneplate_mesh");
-      Mesh added = mesh_of(given, vectors_of<float3>(given.positions, "positions", 0), s);
-      if (auto far = far_mesh_of(given, added, s))
-        scene->far_meshes.emplace(static_cast<std::int32_t>(s.meshes.size()), std::move(*far));
+      double3 centre;
+      Mesh added = mesh_of(given, centered_positions(given.positions, centre), s);
+      if (centre != double3{}) scene->mesh_centres.emplace(static_cast<std::int32_t>(s.meshes.size()), centre);
       const NotFinite lost = drop_not_finite(added);
       if (lost.dropped > 0)
         s.warnings.push_back(fmt::format("mesh {}: {} primitives have a vertex that is not finite and are dropped",

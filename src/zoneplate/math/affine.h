@@ -34,7 +34,7 @@ constexpr Affine widened(const float4x4& m) {
 }
 
 /// The transform followed by a move by -origin, in floats. The move is subtracted before rounding.
-constexpr float4x4 narrowed(const Affine& a, double3 origin = {}) {
+constexpr float4x4 narrowed(const Affine& a, double3 origin) {
   const float3 x = narrowed(a.x), y = narrowed(a.y), z = narrowed(a.z), t = narrowed(a.move - origin);
   return {{float4{x.x, x.y, x.z, 0}, float4{y.x, y.y, y.z, 0}, float4{z.x, z.y, z.z, 0}, float4{t.x, t.y, t.z, 1}}};
 }

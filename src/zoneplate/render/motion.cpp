@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/math/affine.h"
 #include "zoneplate/raster/fragment/interpolate.h"
 #include "zoneplate/raster/geometry/triangle_facing.h"
 #include "zoneplate/ray/trace.h"
@@ -57,13 +58,6 @@ class Seen {
   const Scene& rendered_;
   std::vector<std::uint32_t> counterpart_;
 };
-
-double3 transformed(const float4x4& m, double3 p) {
-  const auto& c = m.column;
-  return {((c[0].x * p.x + c[1].x * p.y) + c[2].x * p.z) + c[3].x,
-          ((c[0].y * p.x + c[1].y * p.y) + c[2].y * p.z) + c[3].y,
-          ((c[0].z * p.x + c[1].z * p.y) + c[2].z * p.z) + c[3].z};
-}
 
 /// The position on the screen in pixels; nothing for a point behind the eye.
 std::optional<Place> on_screen(const float4x4& clip_from_world, double3 p, Viewport viewport) {
@@ -174,7 +168,7 @@ std::optional<double3> place_of(const Mixture& point, std::uint32_t instance, co
     const double weight = point.weight[k];
     sum = {sum.x + weight * p.x, sum.y + weight * p.y, sum.z + weight * p.z};
   }
-  return transformed(placed->world_from_object, sum);
+  return transform_point(widened(placed->world_from_object), sum);
 }
 
 /// The way in texture coordinates, before any map, from a point at one moment to the point that has the same texel at

@@ -105,8 +105,11 @@ void Sequence::set_view(const View& view, float aspect) {
   Scene all = !loader_.load ? scene_->scene() : follows ? loader_.load_shape(timing_.start) : all_poses();
   const Box bounds = all.bounds();
   centre_ = bounds.empty() ? float3{} : bounds.centre();
-  if (is_seen_from_all_sides()) add_turns(all);
-  still_ = choose_camera(all, view, aspect);
+  if (is_seen_from_all_sides()) {
+    view_ = facing_front(all, view, aspect);  // of its first frame: some of the turns are always seen from the front
+    add_turns(all);
+  }
+  still_ = choose_camera(all, view_, aspect);
 }
 
 const PreparedScene& Sequence::scene(double frame) {

@@ -202,6 +202,23 @@ TEST(Sequence, ATurntableTurnsTheCameraAboutTheCentre) {
   EXPECT_EQ(&sequence.scene(3).scene(), &scene.scene());
 }
 
+TEST(Sequence, ATurntableOfASingleSidedSurfaceBeginsInFrontOfIt) {
+  Scene plane;
+  Mesh& mesh = plane.meshes.emplace_back();
+  mesh.position = {{-1, -1, 0}, {1, -1, 0}, {0, 1, 0}};
+  mesh.normal.assign(3, {0, 0, -1});
+  mesh.index = {0, 2, 1};
+  plane.materials.emplace_back();
+  plane.objects.push_back("plane");
+  plane.instances.emplace_back();
+  Sequence sequence(PreparedScene(plane), {.turntable = 4});
+  sequence.set_view({}, 1);
+  EXPECT_LT(xyz(sequence.view(0).camera.world_from_camera.column[3]).z, 0);
+  EXPECT_GT(xyz(sequence.view(2).camera.world_from_camera.column[3]).z, 0);
+  sequence.set_view({.azimuth = 0.0f}, 1);
+  EXPECT_GT(xyz(sequence.view(0).camera.world_from_camera.column[3]).z, 0);
+}
+
 TEST(Sequence, ShutterTimesAreTheMiddlesOfEqualParts) {
   EXPECT_DOUBLE_EQ(shutter_time(7, 0.5, 0, 4), 7.0625);
   EXPECT_DOUBLE_EQ(shutter_time(7, 0.5, 3, 4), 7.4375);

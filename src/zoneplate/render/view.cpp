@@ -73,33 +73,42 @@ void enclose(Camera& camera, const Box& box) {
     enclose(camera, AxisRange{nearest, farthest});
 }
 
-// The view from another side, behind or below, that sees a front face; nothing if there is none.
-std::optional<Camera> front_camera(const Scene& scene, float aspect, const AutoFit& fit) {
+AutoFit fit_of(const View& view) {
+  AutoFit fit;
+  fit.up = view.up;
+  fit.is_orthographic = view.is_orthographic;
+  if (view.view_angle) fit.vertical_fov = *view.view_angle;
+  if (!view.position) {
+    if (view.azimuth) fit.azimuth = *view.azimuth;
+    if (view.elevation) fit.elevation = *view.elevation;
+  }
+  return fit;
+}
+
+// Whether nothing but the scene decides the direction.
+bool is_free(const View& view) {
+  return !view.index && !view.position && !view.focal_point && !view.view_up && !view.azimuth && !view.elevation;
+}
+
+// From behind or from below, where that sees a front face.
+View turned_to_front(const Scene& scene, const View& view, float aspect) {
   constexpr float half_turn = 3.14159265f;
+  const AutoFit fit = fit_of(view);
   for (const auto& [azimuth, elevation] :
        {std::pair{fit.azimuth + half_turn, fit.elevation}, std::pair{fit.azimuth, -fit.elevation},
         std::pair{fit.azimuth + half_turn, -fit.elevation}}) {
-    AutoFit other = fit;
+    View other = view;
     other.azimuth = azimuth, other.elevation = elevation;
-    const Camera camera = fit_camera(scene, aspect, other);
-    if (!sees_backs_alone(scene, camera)) return camera;
+    if (!sees_backs_alone(scene, fit_camera(scene, aspect, fit_of(other)))) return other;
   }
-  return std::nullopt;
+  return view;
 }
 
 Camera base_camera(const Scene& scene, const View& view, float aspect) {
   if (!view.index) {
-    AutoFit fit;
-    fit.up = view.up;
-    fit.is_orthographic = view.is_orthographic;
-    if (view.view_angle) fit.vertical_fov = *view.view_angle;
-    if (!view.position) {
-      if (view.azimuth) fit.azimuth = *view.azimuth;
-      if (view.elevation) fit.elevation = *view.elevation;
-    }
-    const Camera camera = fit_camera(scene, aspect, fit);
-    const bool is_free = !view.position && !view.focal_point && !view.view_up && !view.azimuth && !view.elevation;
-    return is_free && sees_backs_alone(scene, camera) ? front_camera(scene, aspect, fit).value_or(camera) : camera;
+    const Camera camera = fit_camera(scene, aspect, fit_of(view));
+    if (!is_free(view) || !sees_backs_alone(scene, camera)) return camera;
+    return fit_camera(scene, aspect, fit_of(turned_to_front(scene, view, aspect)));
   }
   const int count = static_cast<int>(scene.cameras.size());
   if (*view.index >= count)
@@ -110,6 +119,11 @@ Camera base_camera(const Scene& scene, const View& view, float aspect) {
 }
 
 }  // namespace
+
+View facing_front(const Scene& scene, const View& view, float aspect) {
+  if (!is_free(view) || !sees_backs_alone(scene, fit_camera(scene, aspect, fit_of(view)))) return view;
+  return turned_to_front(scene, view, aspect);
+}
 
 Camera choose_camera(const Scene& scene, const View& view, float aspect) {
   Camera camera = base_camera(scene, view, aspect);

@@ -288,12 +288,6 @@ bool SceneReader::is_near(std::size_t mesh, const float4x4& world_from_object) {
   return zoneplate::is_near(*part.used, world_from_object);
 }
 
-/// Whether a transform has the scale 0, by which animations hide a node: its one point is not part of the bounds.
-bool is_hidden(const float4x4& world_from_object) {
-  const auto& axis = world_from_object.column;
-  return xyz(axis[0]) == float3{} && xyz(axis[1]) == float3{} && xyz(axis[2]) == float3{};
-}
-
 void SceneReader::add_instance(const GltfNode& node, std::size_t mesh, int object, const float4x4& world_from_object) {
   if (is_hidden(world_from_object)) return;
   if (!is_near(mesh, world_from_object)) {

@@ -362,6 +362,20 @@ TEST(Gltf, FarMeshesInstancesCamerasAndLightsShareOneWorld) {
   expect_place(s.in_file(s.lights.at(0).position), {500000.3, 5200000.1, 309.7});
 }
 
+// Nodes that draw nothing do not decide whether a scene is far, unless all are hidden.
+TEST(Gltf, HiddenNodesDoNotChooseTheOrigin) {
+  GltfMaker m = far_maker();
+  const double3 origin = load(m).origin;
+  const std::string hidden = R"("extensions":{"KHR_node_visibility":{"visible":false}})";
+  m.scene_nodes = "0,1";
+  for (const std::string& node : {R"({"mesh":0,)" + hidden + "}", std::string(R"({"mesh":0,"scale":[0,0,0]})")}) {
+    m.nodes = R"({"mesh":0,"translation":[500000.1,5200000.2,300.3]},)" + node;
+    EXPECT_EQ(load(m).origin, origin) << node;
+  }
+  m.nodes = R"({"mesh":0,"translation":[500000.1,5200000.2,300.3],)" + hidden + R"(},{"scale":[0,0,0]})";
+  EXPECT_EQ(load(m).origin, origin);
+}
+
 TEST(Gltf, NodesNearTheOriginKeepTheirBits) {
   GltfMaker m = far_maker();
   m.nodes = R"({"translation":[12.3,-40.7,0.1],"rotation":[0.1,0.2,0.3,0.9],"children":[1]},

@@ -168,12 +168,14 @@ std::vector<float4x4> GltfNodes::joints(const GltfNode& node) const {
               std::to_string(numbers.size()));
   out.resize(numbers.size());
   for (std::size_t j = 0; j < numbers.size(); ++j) {
-    if (place_[numbers[j]] == none)
+    if (place_[numbers[j]] == none) {
       file_.warn(skin.place() + ": joint " + std::to_string(numbers[j]) + " is not in the scene, taken at the origin");
-    else if (is_far())
+      if (is_far()) out[j] = narrowed(widened(out[j]), origin_);
+    } else if (is_far()) {
       out[j] = place(nodes_[place_[numbers[j]]], out[j], {});
-    else
+    } else {
       out[j] = nodes_[place_[numbers[j]]].world_from_node * out[j];
+    }
   }
   return out;
 }
@@ -215,18 +217,25 @@ class OriginFinder {
   OriginFinder(GltfFile& file, const GltfNodes& nodes) : file_(file), nodes_(nodes) {}
 
   double3 find() {
+    add_nodes([](const GltfNode& node) { return node.is_visible && !is_hidden(node.world_from_node); });
+    if (choice_.is_empty()) add_nodes([](const GltfNode&) { return true; });  // an animation may show them later
+    return choice_.origin();
+  }
+
+ private:
+  template <class Counts>
+  void add_nodes(const Counts& counts) {
     for (const GltfNode& node : nodes_.in_scene()) {
       if (choice_.is_near()) break;
       file_.budget().check_time();
+      if (!counts(node)) continue;
       try {
         add(node);
       } catch (const Error&) {  // the reader of the invalid part reports it, if anything uses it
       }
     }
-    return choice_.origin();
   }
 
- private:
   void add(const GltfNode& node) {
     const auto mesh = node.json.find_index("mesh", file_.count("meshes"));
     if (!mesh) return;
@@ -269,6 +278,11 @@ class OriginFinder {
 };
 
 }  // namespace
+
+bool is_hidden(const float4x4& world_from_object) {
+  const auto& axis = world_from_object.column;
+  return xyz(axis[0]) == float3{} && xyz(axis[1]) == float3{} && xyz(axis[2]) == float3{};
+}
 
 double3 find_origin(GltfFile& file, const GltfNodes& nodes) { return OriginFinder(file, nodes).find(); }
 

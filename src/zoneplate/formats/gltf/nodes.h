@@ -67,8 +67,12 @@ class GltfNodes {
   std::vector<Affine> placed_;  ///< of nodes_, relative to the file's origin; empty unless is_far
 };
 
-/// Scene::origin of the nodes of a scene, as OriginChoice decides, from the bounds that the file states for the
-/// positions of its meshes, and its joints. Meshes without bounds do not count; wrong bounds cost precision only.
+/// Whether a transform has the scale 0, by which animations hide a node: its one point is not part of the bounds.
+bool is_hidden(const float4x4& world_from_object);
+
+/// Scene::origin of the nodes of a scene that are drawn, or of all if none is, as OriginChoice decides, from the bounds
+/// that the file states for the positions of its meshes, and its joints. Meshes without bounds do not count; wrong
+/// bounds cost precision only.
 double3 find_origin(GltfFile& file, const GltfNodes& nodes);
 
 }  // namespace zoneplate

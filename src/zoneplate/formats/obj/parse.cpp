@@ -115,15 +115,24 @@ std::vector<ObjCounts> read_parts(const std::vector<std::string_view>& texts, ch
   return before;
 }
 
-/// The origin of the vertices that an element uses; of all, in a file without elements.
+/// The origin of the vertices that an element uses; of all, in a file without elements. Stops at a near part of a
+/// chunk.
 double3 choose_origin(const ObjFile& file) {
+  constexpr std::size_t some = 64;
+  std::vector<OriginChoice> parts(file.chunks.size());
+  const auto add = [&](std::size_t chunk, std::size_t most) {
+    const auto& corners = file.chunks[chunk].corners;
+    for (std::size_t i = 0; i < std::min<std::size_t>(corners.size(), most); ++i)
+      parts[chunk].add(file.positions[corners.position(i)]);
+  };
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    add(k, some);
+    if (parts[k].is_near()) return {};
+  }
+  parallel_for(parts.size(), [&](std::size_t k) { add(k, file.chunks[k].corners.size()); });
   OriginChoice choice;
-  constexpr std::size_t corners_per_check = 64;
-  bool has_corners = false;
-  for (const ObjChunk& chunk : file.chunks)
-    for (std::size_t i = 0; i < chunk.corners.size() && (i % corners_per_check != 0 || !choice.is_near()); ++i)
-      choice.add(file.positions[chunk.corners.position(i)]), has_corners = true;
-  if (!has_corners) choice.add(file.positions);
+  for (const OriginChoice& part : parts) choice.add(part);
+  if (choice.is_empty()) choice.add(file.positions);
   return choice.origin();
 }
 

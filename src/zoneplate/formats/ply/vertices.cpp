@@ -66,22 +66,21 @@ double3 place_of(const PlyRows& rows, const Columns& position, std::span<const P
   return {value(position[0]), value(position[1]), value(position[2])};
 }
 
+/// Stops at the first near part of the rows; rows that are far are all looked at, by all threads.
 double3 choose_origin(const PlyRows& rows, const Columns& position) {
-  OriginChoice choice;
-  if (rows.stride == 0) {
-    for (std::size_t begin = 0; begin < rows.count() && !choice.is_near(); begin += PlyRows::block)
-      for_ply_rows(
-          rows, begin, std::min(begin + PlyRows::block, rows.count()),
-          [&](std::size_t, std::span<const PlyPlace> places) { choice.add(place_of(rows, position, places)); });
-    return choice.origin();
-  }
-  std::vector<PlyPlace> places = rows.count() > 0 ? first_ply_row(rows) : std::vector<PlyPlace>();
-  constexpr std::size_t rows_per_check = 64;
-  for (std::size_t i = 0; i < rows.count() && (i % rows_per_check != 0 || !choice.is_near()); ++i) {
-    choice.add(place_of(rows, position, places));
-    for (const std::size_t property : position) places[property].at += rows.stride;
-  }
-  return choice.origin();
+  const auto add = [&](std::size_t begin, std::size_t end, OriginChoice& choice) {
+    for_ply_rows(rows, begin, end,
+                 [&](std::size_t, std::span<const PlyPlace> places) { choice.add(place_of(rows, position, places)); });
+  };
+  constexpr std::size_t some = 64;
+  OriginChoice first;
+  if (rows.count() > 0) add(0, std::min(rows.count(), some), first);
+  if (first.is_near()) return {};
+  std::vector<OriginChoice> parts((rows.count() + PlyRows::block - 1) / PlyRows::block);
+  parallel_ranges(rows.count(), PlyRows::block,
+                  [&](std::size_t begin, std::size_t end) { add(begin, end, parts[begin / PlyRows::block]); });
+  for (const OriginChoice& part : parts) first.add(part);
+  return first.origin();
 }
 
 /// Reads positions relative to `origin`, which is subtracted before they are rounded to floats.
@@ -135,9 +134,7 @@ void decode_colors(const PlyElement& element, const std::array<std::size_t, 4>& 
   });
 }
 
-using Three = std::array<std::size_t, 3>;
-
-std::optional<Three> find_harmonics(const PlyElement& e) {
+std::optional<Columns> find_harmonics(const PlyElement& e) {
   return find_all<3>(e, {Names{"f_dc_0"}, {"f_dc_1"}, {"f_dc_2"}});
 }
 
@@ -145,7 +142,7 @@ std::optional<Three> find_harmonics(const PlyElement& e) {
 ///
 /// Source    Kerbl et al., 3D Gaussian Splatting for Real-Time Radiance Field Rendering, 2023: the code is 0.5 plus the
 ///           coefficient times the harmonic of degree 0, 1 / (2 sqrt(pi)).
-void read_splat_colors(const PlyRows& rows, const Three& harmonics, std::vector<float4>& colors) {
+void read_splat_colors(const PlyRows& rows, const Columns& harmonics, std::vector<float4>& colors) {
   const std::array<std::size_t, 4> all{harmonics[0], harmonics[1], harmonics[2], harmonics[0]};
   read_columns(rows, all, colors);
   const auto linear = [](float coefficient) {

@@ -26,7 +26,10 @@ class OriginChoice {
   void add(float3 place) { add(widened(place)); }
   /// Adds positions until the scene is near.
   void add(std::span<const float3> positions);
+  /// Adds the places of another choice.
+  void add(const OriginChoice& other) { add(other.low_), add(other.high_); }
 
+  bool is_empty() const { return low_.x > high_.x; }
   /// True once a part of the scene is near.
   bool is_near() const { return !is_empty() && reach() <= farthest_near * extent(); }
 
@@ -36,7 +39,6 @@ class OriginChoice {
 
  private:
   static constexpr double farthest_near = 64;
-  bool is_empty() const { return low_.x > high_.x; }
   double reach() const;   ///< the greatest absolute coordinate
   double extent() const;  ///< the longest side; 1 for a single place, which the whole-scene view shows from 1 away
 
