@@ -229,6 +229,9 @@ void write_printed(const std::string& root) {
   };
   const std::vector<std::uint8_t> image = encode_png(Rgba8Image(1, 1, {9, 8, 7, 6}));
   write(root + "/3mf", "core.3mf", stored(model(object(1, mesh), item(1, R"(transform="1 0 0 0 1 0 0 0 1 3 0 0")"))));
+  std::string stray = mesh;
+  stray.replace(stray.find("v3=\"2\""), 6, "v3=\"60\"");
+  write(root + "/3mf", "nested.3mf", stored(model(object(1, stray + object(2, mesh) + mesh), item(1))));
   for (int pid = 2; pid <= 7; ++pid) {
     std::string text = mesh;
     text.replace(text.find("pid=\"3\""), 7, "pid=\"" + std::to_string(pid) + "\"");
@@ -252,6 +255,10 @@ void write_printed(const std::string& root) {
             "materialid=\"2\"><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume></mesh></object><material "
             "id=\"2\"><color><r>1</r></color></material><constellation id=\"3\"><instance objectid=\"1\">"
             "<deltax>1</deltax><rz>30</rz></instance></constellation></amf>"));
+  write(root + "/amf", "nested.amf",
+        bytes_of("<amf><object id=\"1\"><mesh><vertices><vertex><coordinates><x>0</x><y>0</y><z>0</z></coordinates>"
+                 "</vertex></vertices><volume><triangle><v1>0</v1><v2>9</v2><v3>0</v3></triangle></volume></mesh>"
+                 "<constellation id=\"2\"><instance objectid=\"1\"/></constellation></object></amf>"));
 }
 
 }  // namespace

@@ -69,6 +69,7 @@ class Import {
     XmlParser parser(handler, budget_.file() + ": " + printable(package_.name(*number)), budget_);
     const bool is_intact = package_.read(*number, [&](std::span<const std::uint8_t> piece) { parser.feed(piece); });
     parser.finish();
+    handler.finish();
     if (!is_intact) flaws_.add(Flaw::Checksum, [&] { return package_.name(*number) + ": its checksum is wrong"; });
     entry->second = std::move(model);
     return entry->second.get();

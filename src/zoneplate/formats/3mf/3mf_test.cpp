@@ -307,6 +307,19 @@ TEST(Load3mf, OneFlawDoesNotCostTheModel) {
   }
 }
 
+TEST(Load3mf, AnObjectInsideAnotherOneIsSafe) {
+  std::string mesh = tower();
+  mesh.insert(mesh.find("</triangles>"), R"(<triangle v1="60" v2="1" v3="2"/>)");
+  for (const auto& [inner, flaw] : {std::pair(2, " (and 1 more)"), std::pair(1, " (and 2 more)")}) {
+    const Scene s = load(package(model(object(1, mesh + object(inner, "") + tower()), item(1) + item(7))));
+    EXPECT_EQ(warnings_of(s),
+              (Texts{fmt::format("object {} is inside object 1: what follows it there is left out{}", inner, flaw),
+                     "object 1, triangle 12 uses vertex 60, there are 8: it is dropped"}));
+    EXPECT_EQ(s.meshes.at(0).primitives(), 12u);
+    EXPECT_EQ(s.bounds().high, (float3{10, 10, 30}));
+  }
+}
+
 TEST(Load3mf, WhatIsNotDrawnIsNamed) {
   std::string mesh = tower();
   mesh.insert(mesh.find("</mesh>"),

@@ -53,9 +53,7 @@ std::string no_property(std::uint32_t group, std::uint32_t index) {
   return fmt::format("property {} of group {} is not there: it is left out", index, group);
 }
 
-}  // namespace
-
-void model_3mf::drop_invalid_triangles(Object& object, std::uint32_t id, FlawList& flaws, ImportBudget& budget) {
+void drop_invalid(Object& object, std::uint32_t id, FlawList& flaws, ImportBudget& budget) {
   std::vector<std::uint32_t>& triangles = object.triangles;
   const std::size_t count = triangles.size() / 3;
   std::size_t kept = 0;
@@ -87,6 +85,16 @@ void model_3mf::drop_invalid_triangles(Object& object, std::uint32_t id, FlawLis
     if (!is_finite(p)) p = {0, 0, 0};  // no triangle has it
 }
 
+}  // namespace
+
+void model_3mf::drop_invalid_triangles(Model& model, FlawList& flaws, ImportBudget& budget) {
+  for (auto& [id, object] : model.objects) drop_invalid(object, id, flaws, budget);
+}
+
+std::string model_3mf::rest_is_left_out(std::uint32_t inner, const Object& outer) {
+  return fmt::format("object {} is inside {}: what follows it there is left out", inner, outer.name);
+}
+
 ModelParser3mf::ModelParser3mf(Model& model, FlawList& flaws, ImportBudget& budget)
     : model_(model), flaws_(flaws), budget_(budget) {}
 
@@ -108,7 +116,6 @@ void ModelParser3mf::begin(const XmlElement& element) {
 
 void ModelParser3mf::end(const XmlName& name) {
   if (name.space != core_space && name.space != material_space && !name.space.empty()) return;
-  if (name.local == "object" && object_ != nullptr) drop_invalid_triangles(*object_, object_id_, flaws_, budget_);
   if (name.local == "object") object_ = nullptr;
   if (name.local == "colorgroup" || name.local == "basematerials" || name.local == "texture2dgroup" ||
       name.local == "compositematerials" || name.local == "multiproperties")
@@ -204,15 +211,16 @@ Placement ModelParser3mf::placement_of(const XmlElement& element) {
 }
 
 void ModelParser3mf::begin_object(const XmlElement& element) {
-  object_id_ = index_of(element, "id");
+  const std::uint32_t id = index_of(element, "id");
+  if (object_ != nullptr) flaws_.add(Flaw::Reference, [&] { return rest_is_left_out(id, *object_); });
   const std::string_view name = element.find("name").value_or("");
   budget_.take(2 * sizeof(Object) + name.size());
-  const auto [entry, is_new] = model_.objects.try_emplace(object_id_);
+  const auto [entry, is_new] = model_.objects.try_emplace(id);
   object_ = is_new ? &entry->second : nullptr;
   if (!is_new)
     return flaws_.add(Flaw::Reference,
-                      [&] { return fmt::format("object {} is there twice: the first one counts", object_id_); });
-  object_->name = name.empty() ? fmt::format("object {}", object_id_) : std::string(name);
+                      [&] { return fmt::format("object {} is there twice: the first one counts", id); });
+  object_->name = name.empty() ? fmt::format("object {}", id) : std::string(name);
   object_->is_other = element.find("type") == "other";
   object_->group = index_of(element, "pid");
   object_->index = index_of(element, "pindex");

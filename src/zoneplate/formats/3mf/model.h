@@ -43,7 +43,7 @@ struct Object {
   bool is_other = false;  ///< of the type "other": not a part of what is built
   std::uint32_t group = none, index = none;
   std::vector<float3> position;              ///< in millimetres
-  std::vector<std::uint32_t> triangles;      ///< three indices each; after parsing all are valid
+  std::vector<std::uint32_t> triangles;      ///< three indices each; all are valid after drop_invalid_triangles
   std::vector<TriangleProperty> properties;  ///< one for each triangle, or none if no triangle has its own
   std::vector<Placement> components;
 };
@@ -77,8 +77,12 @@ struct Model {
   std::set<std::string> notes;  ///< what is not drawn as the part states it, a sentence each
 };
 
-/// Leaves out the triangles with a vertex that is not there or not finite, which are flaws. `id` is that of the object.
-void drop_invalid_triangles(Object& object, std::uint32_t id, FlawList& flaws, ImportBudget& budget);
+/// Leaves out the triangles of all objects with a vertex that is not there or not finite, which are flaws. It is called
+/// once for each model, after its whole document.
+void drop_invalid_triangles(Model& model, FlawList& flaws, ImportBudget& budget);
+
+/// What to say of an object inside another one, which ends there.
+std::string rest_is_left_out(std::uint32_t inner, const Object& outer);
 
 }  // namespace model_3mf
 
@@ -93,6 +97,8 @@ class ModelParser3mf : public XmlHandler {
   void begin(const XmlElement& element) override;
   void end(const XmlName& name) override;
   void declare(std::string_view prefix, std::string_view uri) override;
+  /// Leaves out what is invalid, after the whole document.
+  void finish() { model_3mf::drop_invalid_triangles(model_, flaws_, budget_); }
 
  private:
   using Object = model_3mf::Object;
@@ -134,7 +140,6 @@ class ModelParser3mf : public XmlHandler {
   float unit_ = 1;  ///< millimetres
   std::map<std::string, std::string, std::less<>> spaces_;
   Object* object_ = nullptr;
-  std::uint32_t object_id_ = model_3mf::none;
   PropertyGroup* group_ = nullptr;
   GroupKind group_kind_ = GroupKind::Base;
   std::uint32_t materials_ = model_3mf::none;  ///< of the composite materials

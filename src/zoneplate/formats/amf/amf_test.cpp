@@ -147,6 +147,19 @@ TEST(LoadAmf, OneFlawDoesNotCostTheModel) {
   EXPECT_EQ(refusal(cases[0].first, {.is_strict = true}), cases[0].second);
 }
 
+TEST(LoadAmf, AnObjectInsideAnotherOneIsSafe) {
+  for (const std::string inner : {"<object id=\"2\"/>", "<object id=\"0\"/>", "<constellation id=\"2\"/>"}) {
+    std::string outer = object(0, square(), volume(triangle(0, 1, 2) + triangle(60, 1, 2)));
+    outer.insert(outer.find("</object>"), inner);
+    const Scene s = load(amf(outer));
+    EXPECT_EQ(s.warnings.size(), 2u) << inner;
+    EXPECT_TRUE(warnings_of(s).at(0).ends_with("is inside object 0: what follows it there is left out") ||
+                warnings_of(s).at(0).ends_with("is inside object 0: what follows it there is left out (and 1 more)"));
+    EXPECT_EQ(warnings_of(s).at(1), "object 0, triangle 1 uses vertex 60, there are 4: it is dropped");
+    EXPECT_EQ(s.meshes.at(0).primitives(), 1u);
+  }
+}
+
 TEST(LoadAmf, RefusalsNameTheCause) {
   EXPECT_EQ(refusal("<amf><object>"), "line 1: is not well-formed XML: no element found");
   EXPECT_EQ(refusal(amf("")), "holds nothing to draw");

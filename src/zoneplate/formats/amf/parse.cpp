@@ -157,17 +157,17 @@ void AmfParser::set_name(Owner owner) {
 }
 
 void AmfParser::begin_object(const XmlElement& element) {
-  object_id_ = index_of(element, "id");
+  const std::uint32_t id = index_of(element, "id");
+  if (object_ != nullptr) flaws_.add(Flaw::Reference, [&] { return rest_is_left_out(id, *object_); });
   object_color_ = volume_color_ = volume_material_ = none;
   vertex_colors_.clear();
   budget_.take(2 * sizeof(Object));
-  const auto [entry, is_new] = model_.objects.try_emplace(object_id_);
+  const auto [entry, is_new] = model_.objects.try_emplace(id);
   object_ = is_new ? &entry->second : nullptr;
   if (is_new)
-    object_->name = fmt::format("object {}", object_id_);
+    object_->name = fmt::format("object {}", id);
   else
-    flaws_.add(Flaw::Reference,
-               [&] { return fmt::format("object {} is there twice: the first one counts", object_id_); });
+    flaws_.add(Flaw::Reference, [&] { return fmt::format("object {} is there twice: the first one counts", id); });
 }
 
 void AmfParser::end_owner(Owner owner) {
@@ -181,7 +181,6 @@ void AmfParser::end_owner(Owner owner) {
   } else if (owner == Owner::Triangle) {
     add_triangle();
   } else if (owner == Owner::Object) {
-    drop_invalid_triangles(*object_, object_id_, flaws_, budget_);
     object_ = nullptr;
   }
 }
@@ -237,6 +236,7 @@ void AmfParser::add_instance() {
 }
 
 void AmfParser::finish() {
+  drop_invalid_triangles(model_, flaws_, budget_);
   for (auto& [id, object] : model_.objects) {
     budget_.check_time();
     for (TriangleProperty& property : object.properties) {

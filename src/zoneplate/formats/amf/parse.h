@@ -23,7 +23,7 @@ class AmfParser : public XmlHandler {
   void begin(const XmlElement& element) override;
   void end(const XmlName& name) override;
   void text(std::string_view text) override;
-  /// Finds the materials of the triangles, after the whole document.
+  /// Leaves out what is invalid and finds the materials of the triangles, after the whole document.
   void finish();
 
  private:
@@ -53,7 +53,7 @@ class AmfParser : public XmlHandler {
   std::array<float, 4> color_{};  ///< red, green, blue, alpha of the current colour, sRGB-encoded
 
   model_3mf::Object* object_ = nullptr;
-  std::uint32_t object_id_ = model_3mf::none, material_id_ = model_3mf::none;
+  std::uint32_t material_id_ = model_3mf::none;
   std::uint32_t object_color_ = model_3mf::none, volume_color_ = model_3mf::none, volume_material_ = model_3mf::none;
   std::uint32_t triangle_color_ = model_3mf::none, vertex_color_ = model_3mf::none;
   std::string material_name_;
