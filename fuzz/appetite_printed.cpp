@@ -20,8 +20,8 @@ std::string components(int id, int count) {
 }
 
 /// Each object has the one before it `count` times.
-Bytes nested(const std::string& mesh, int levels, int count) {
-  std::string objects = object(1, mesh);
+Bytes nested(const std::string& mesh, int levels, int count, const std::string& type = "model") {
+  std::string objects = fmt::format(R"(<object id="1" type="{}">{}</object>)", type, mesh);
   for (int i = 2; i <= levels; ++i) objects += object(i, components(i - 1, count));
   return package(model(objects, item(levels)));
 }
@@ -39,6 +39,7 @@ void add_instances(Collection& out) {
   add("3mf-components.3mf", nested(triangle, 9, 10));
   add("3mf-components-4.3mf", nested(triangle, 5, 10));
   add("3mf-nothing.3mf", nested("<mesh><vertices/></mesh>", 60, 10));
+  add("3mf-other.3mf", nested(triangle, 60, 10, "other"));
   add("3mf-deep.3mf", nested(triangle, 100000, 1));
   add("3mf-items.3mf", package(model(object(1, triangle), repeated(item(1), 1000000))));
   add("3mf-ring.3mf", package(model(object(1, components(2, 1000)) + object(2, components(1, 1000)), item(1))));

@@ -266,12 +266,34 @@ TEST(Load3mf, ComponentsAreAsDeepAsTheLimit) {
 }
 
 TEST(Load3mf, EmptyObjectsAreNotVisitedTwice) {
-  std::string objects = object(1, "<mesh><vertices/><triangles/></mesh>");
+  std::string objects;
   for (int i = 2; i <= 60; ++i)
     objects += object(i, fmt::format(R"(<components><component objectid="{0}"/><component objectid="{0}"/>)"
                                      R"(</components>)",
                                      i - 1));
-  EXPECT_EQ(refusal(package(model(objects, item(60))), {.seconds = 5}), "holds nothing to draw");
+  EXPECT_EQ(
+      refusal(package(model(object(1, "<mesh><vertices/><triangles/></mesh>") + objects, item(60))), {.seconds = 5}),
+      "holds nothing to draw");
+  const std::string other = R"(<object id="1" type="other">)" + tower() + "</object>";
+  EXPECT_EQ(refusal(package(model(other + objects, item(60) + item(60))), {.seconds = 5}),
+            "object 1 is of the type \"other\", which is not built: it is left out; nothing is left to draw");
+}
+
+// An object that nothing but a ring contains is drawn once.
+TEST(Load3mf, ARingWithoutABuildDoesNotCostTheModel) {
+  const auto part = [](int id, const std::string& components) {
+    std::string text = "<components>";
+    for (const char c : components) text += fmt::format(R"(<component objectid="{}"/>)", c);
+    return object(id, text + "</components>");
+  };
+  for (const std::string& rings : {part(2, "12"), part(2, "3") + part(3, "21"), part(2, "2") + part(3, "21")}) {
+    const Scene s = load(package(model(object(1, tower()) + rings, "")));
+    EXPECT_EQ(s.instances.size(), 1u) << rings;
+    const Texts warnings = warnings_of(s);
+    ASSERT_EQ(warnings.size(), 2u) << rings;
+    EXPECT_EQ(warnings[0], "object 2 contains itself: the component is left out") << rings;
+    EXPECT_EQ(warnings[1], "its build has no items: the objects that are no components are drawn") << rings;
+  }
 }
 
 TEST(Load3mf, OneFlawDoesNotCostTheModel) {

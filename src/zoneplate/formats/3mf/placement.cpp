@@ -20,16 +20,63 @@ bool is_finite(const float4x4& m) {
                      [](const float4& c) { return is_finite(xyz(c)) && std::isfinite(c.w); });
 }
 
+/// Visits objects of one model with all that they contain, depth first, each once.
+class ComponentWalk {
+ public:
+  struct Step {
+    std::uint32_t id;
+    const Object* object;
+    std::size_t next = 0;  ///< the number of the next component
+  };
+
+  ComponentWalk(const Model& model, const ImportBudget& budget) : model_(model), budget_(budget) {}
+
+  /// Returns false if the object has been visited; otherwise calls `end(id)` for each object after what it contains.
+  template <class End>
+  bool walk(std::uint32_t id, const End& end) {
+    if (!enter(id)) return false;
+    budget_.check_time();
+    while (!open_.empty()) {
+      Step& step = open_.back();
+      if (step.next < step.object->components.size()) {
+        const Placement& component = step.object->components[step.next++];
+        if (component.path.empty()) enter(component.object);
+      } else {
+        end(step.id);
+        open_.pop_back();
+      }
+    }
+    return true;
+  }
+
+ private:
+  bool enter(std::uint32_t id) {
+    const auto found = model_.objects.find(id);
+    if (found == model_.objects.end() || !seen_.insert(id).second) return false;
+    open_.push_back({id, &found->second});
+    return true;
+  }
+
+  const Model& model_;
+  const ImportBudget& budget_;
+  std::vector<Step> open_;
+  std::set<std::uint32_t> seen_;
+};
+
 }  // namespace
 
 std::vector<Placement> top_objects(const Model& model, ImportBudget& budget) {
-  std::set<std::uint32_t> inner;
-  for (const auto& [id, object] : model.objects)
-    for (const Placement& component : object.components)
-      if (component.path.empty() && inner.insert(component.object).second) budget.take(64);
+  budget.take(model.objects.size() * (2 * sizeof(ComponentWalk::Step) + 3 * sizeof(std::uint32_t) + 128));
+  std::vector<std::uint32_t> ended, tops;
+  ComponentWalk all(model, budget);
+  for (const auto& [id, object] : model.objects) all.walk(id, [&](std::uint32_t end) { ended.push_back(end); });
+  // No object that is not yet walked from contains the last one that ended, unless that contains it, too.
+  ComponentWalk rest(model, budget);
+  for (auto id = ended.rbegin(); id != ended.rend(); ++id)
+    if (rest.walk(*id, [](std::uint32_t) {})) tops.push_back(*id);
+  std::sort(tops.begin(), tops.end());
   std::vector<Placement> items;
-  for (const auto& [id, object] : model.objects)
-    if (!inner.contains(id)) append_charged(items, Placement{id, "", {}}, budget);
+  for (const std::uint32_t id : tops) append_charged(items, Placement{id, "", {}}, budget);
   return items;
 }
 
@@ -52,13 +99,20 @@ ObjectPlacer::Target ObjectPlacer::find_target(Model& from, const Placement& pla
   return {};
 }
 
-/// Whether there is a triangle in an object or its components. Those that contain themselves are looked for, too.
+/// Whether there is a triangle to be built in an object or its components. What is not built, and those that contain
+/// themselves, are left out, once for each object.
 bool ObjectPlacer::has_triangles(Model& model, Object& object, int depth) {
   const auto [entry, is_new] = contents_.try_emplace(&object, Content::Open);
   if (!is_new) return entry->second == Content::Triangles;
   check_depth(object, depth);
   budget_.take(64);
   budget_.check_time();
+  if (object.is_other && !object.triangles.empty()) {
+    flaws_.add(Flaw::Build, [&] {
+      return fmt::format("{} is of the type \"other\", which is not built: it is left out", object.name);
+    });
+    object.triangles.clear();
+  }
   bool has_any = !object.triangles.empty();
   std::vector<Placement> kept;
   for (Placement& component : object.components) {
@@ -91,12 +145,6 @@ void ObjectPlacer::place(Model& from, const Placement& placement, const float4x4
   Object& object = *target.object;
   check_depth(object, depth);
   if (depth == 0 && !has_triangles(*target.model, object, 0)) return;
-  if (object.is_other && object.components.empty()) {
-    flaws_.add(Flaw::Build, [&] {
-      return fmt::format("{} is of the type \"other\", which is not built: it is left out", object.name);
-    });
-    return;
-  }
   const float4x4 world = world_from_parent * placement.to_from_object;
   add_instances(*target.model, object, world);
   for (const Placement& component : object.components) place(*target.model, component, world, depth + 1);

@@ -13,7 +13,8 @@
 
 namespace zoneplate {
 
-/// The objects of a model that are no components of others, placed where they are.
+/// The objects of a model that are no components of others, placed where they are; and of objects that contain each
+/// other and that nothing else contains, one, so that all objects are in one of those that are returned.
 std::vector<model_3mf::Placement> top_objects(const model_3mf::Model& model, ImportBudget& budget);
 
 /// Places objects and their components in the scene. Each placed mesh is an object of the scene.
