@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/formats/3mf/maker_for_test.h"
 #include "zoneplate/formats/gltf/maker_for_test.h"
@@ -211,6 +212,17 @@ TEST(Load3mf, LayersOfMultiproperties) {
   text.replace(text.find("p3=\"2\""), 6, "p3=\"1\"");
   const Scene s = load(package(text, {png(Rgba8Image(2, 1, {0, 255, 0, 0}))}));
   EXPECT_EQ(s.images.at(0).pixels.as<Rgba8>()(0, 0), (Rgba8{255, 0, 0, 255}));
+  // So does one of 16 bits, and one of floats.
+  const auto on_red = [&](const Bytes& image) {
+    return load(package(text, {{"3D/Textures/a.png", {image.begin(), image.end()}}})).images.at(0).pixels;
+  };
+  const TexelImage wide = on_red(encode_png(Rgba16Image(2, 1, {0, 65535, 0, 0})));
+  EXPECT_EQ(wide.as<Rgba16>()(1, 0), (Rgba16{65535, 0, 0, 65535}));
+  const TexelImage half = on_red(encode_png(Rgba16Image(2, 1, {0, 65535, 0, 32768})));
+  EXPECT_NEAR(decode_srgb(static_cast<float>(half.as<Rgba16>()(0, 0).r) / 65535), 0.5f, 1e-4f);
+  const LinearImage premultiplied(2, 1, {0, 0.125f, 0, 0.25f});
+  const TexelImage light = on_red(encode_exr(2, 1, rgba_channels(premultiplied)));
+  EXPECT_EQ(light.as<float4>()(0, 0), (float4{0.75f, 0.125f, 0, 1}));
 }
 
 TEST(Load3mf, GroupsTakeTheirOwnElementsOnly) {

@@ -17,19 +17,38 @@ namespace {
 
 using namespace model_3mf;
 
+float4 light_of(Rgba8 p) {
+  return {decode_srgb8(p.r), decode_srgb8(p.g), decode_srgb8(p.b), static_cast<float>(p.a) / 255};
+}
+float4 light_of(Rgba16 p) {
+  constexpr float most = 65535;
+  return {decode_srgb(static_cast<float>(p.r) / most), decode_srgb(static_cast<float>(p.g) / most),
+          decode_srgb(static_cast<float>(p.b) / most), static_cast<float>(p.a) / most};
+}
+float4 light_of(float4 p) { return p; }
+
+void set_light(Rgba8& p, float3 light) {
+  p = {encode_srgb8(light.x), encode_srgb8(light.y), encode_srgb8(light.z), 255};
+}
+void set_light(Rgba16& p, float3 light) {
+  const auto code = [](float linear) { return static_cast<std::uint16_t>(encode_srgb(linear) * 65535 + 0.5f); };
+  p = {code(light.x), code(light.y), code(light.z), 65535};
+}
+void set_light(float4& p, float3 light) { p = {light.x, light.y, light.z, 1}; }
+
 /// Lays the texels of an image with alpha over a colour, in linear light.
-Rgba8Image laid_over(Rgba8Image image, float3 below) {
-  std::array<float, 256> linear{};
-  for (std::size_t i = 0; i < linear.size(); ++i) linear[i] = decode_srgb8(static_cast<std::uint8_t>(i));
-  for (Rgba8& texel : image.values()) {
-    if (texel.a == 255) continue;
-    const float alpha = static_cast<float>(texel.a) / 255;
-    texel.r = encode_srgb8(linear[texel.r] * alpha + below.x * (1 - alpha));
-    texel.g = encode_srgb8(linear[texel.g] * alpha + below.y * (1 - alpha));
-    texel.b = encode_srgb8(linear[texel.b] * alpha + below.z * (1 - alpha));
-    texel.a = 255;
-  }
-  return image;
+TexelImage laid_over(const TexelImage& image, float3 below, const ImportBudget& budget) {
+  return image.visit([&](auto texels) -> TexelImage {
+    for (int y = 0; y < texels.height(); ++y) {
+      budget.check_time();
+      for (auto& texel : texels.row(y)) {
+        const float4 light = light_of(texel);
+        if (light.w >= 1) continue;
+        set_light(texel, light.w > 0 ? xyz(light) * light.w + below * (1 - light.w) : below);
+      }
+    }
+    return texels;
+  });
 }
 
 }  // namespace
@@ -77,7 +96,10 @@ int MeshMaker3mf::image_of(const Model& model, const PropertyGroup& group) {
   budget_.give_back(bytes->size());
   if (image >= 0 && below.w > 0) {
     TexelImage& pixels = scene_.images[static_cast<std::size_t>(image)].pixels;
-    if (pixels.kind() == TexelKind::Codes8) pixels = laid_over(pixels.as<Rgba8>(), xyz(below));
+    const std::uint64_t of_a_copy = pixels.visit([](const auto& texels) { return texels.values().size_bytes(); });
+    budget_.take(of_a_copy);
+    pixels = laid_over(pixels, xyz(below), budget_);
+    budget_.give_back(of_a_copy);
   }
   return entry->second = image;
 }
