@@ -102,7 +102,7 @@ TEST(LoadAmf, ColoursOfMaterialsObjectsVolumesVerticesAndTriangles) {
     }
     ++colored;
     EXPECT_EQ(mesh.color[mesh.index[0]], (float4{0, 1, 0, 1}));
-    EXPECT_EQ(mesh.color[mesh.index[1]], (float4{1, 1, 1, 1}));
+    EXPECT_EQ(mesh.color[mesh.index[1]], (float4{1, 0, 0, 1})) << "that of the material below";
     EXPECT_EQ(mesh.color[mesh.index[3]], (float4{0, 0, 1, 1}));
   }
   EXPECT_EQ(colored, 1u);
@@ -112,6 +112,26 @@ TEST(LoadAmf, ColoursOfMaterialsObjectsVolumesVerticesAndTriangles) {
   EXPECT_EQ(part.color[part.index[0]], (float4{grey, grey, grey, 1}))
       << "that of the object before that of the material";
   EXPECT_EQ(part.color[part.index[3]], (float4{1, 1, 0, 1}));
+}
+
+TEST(LoadAmf, VerticesWithoutAColourAreThoseBelowAndAreShared) {
+  constexpr int n = 20;
+  std::string vertices, triangles;
+  for (int i = 0; i < n * n; ++i) vertices += vertex(i % n, i / n, 0, i % 2 != 0 ? color(1, 0, 0) : "");
+  for (int y = 0; y + 1 < n; ++y)
+    for (int a = y * n; a + 1 < (y + 1) * n; ++a)
+      triangles += triangle(a, a + 1, a + n) + triangle(a + 1, a + n + 1, a + n);
+  const std::string material = "<material id=\"2\">" + color(0, 0, 1) + "</material>";
+  const std::pair<std::string, float4> cases[] = {{"materialid=\"2\"", {0, 0, 1, 1}},
+                                                  {"materialid=\"3\"", plain_material("").base_color},
+                                                  {"", plain_material("").base_color}};
+  for (const auto& [attribute, below] : cases) {
+    const Scene s = load(amf(object(0, vertices, volume(triangles, attribute)) + material));
+    const Mesh& mesh = s.meshes.at(0);
+    EXPECT_EQ(mesh.position.size(), std::size_t{n * n});
+    for (std::size_t i = 0; i < mesh.position.size(); ++i)
+      EXPECT_EQ(mesh.color.at(i), static_cast<int>(mesh.position[i].x) % 2 != 0 ? (float4{1, 0, 0, 1}) : below);
+  }
 }
 
 TEST(LoadAmf, ConstellationsPlaceObjects) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "zoneplate/formats/3mf/values.h"
+#include "zoneplate/formats/import/model_folder.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/angle.h"
 
@@ -185,6 +186,14 @@ void AmfParser::end_owner(Owner owner) {
   }
 }
 
+/// The number in colors_ of the colour of the volume's material, which finish() finds.
+std::uint32_t AmfParser::color_below() {
+  const auto [entry, is_new] =
+      color_below_.try_emplace(volume_material_, static_cast<std::uint32_t>(colors_.color.size()));
+  if (is_new) budget_.take(64), append_charged(colors_.color, float4{}, budget_);
+  return entry->second;
+}
+
 /// The colours of the vertices count if the triangle has none of its own; where one has none, it is what is below.
 TriangleProperty AmfParser::property_of_triangle() {
   const std::uint32_t whole = triangle_color_ != none ? triangle_color_
@@ -196,9 +205,7 @@ TriangleProperty AmfParser::property_of_triangle() {
     property.group = colors_group;
     for (std::size_t c = 0; c < 3; ++c) {
       if (has_color(corner_[c])) property.index[c] = vertex_colors_[corner_[c]];
-      if (property.index[c] != none) continue;
-      property.index[c] = static_cast<std::uint32_t>(colors_.color.size());
-      append_charged(colors_.color, float4{1, 1, 1, 1}, budget_);
+      if (property.index[c] == none) property.index[c] = color_below();
     }
   }
   if (property.group == none && volume_material_ != none)
@@ -237,6 +244,11 @@ void AmfParser::add_instance() {
 
 void AmfParser::finish() {
   drop_invalid_triangles(model_, flaws_, budget_);
+  for (const auto& [material, color] : color_below_) {
+    const auto found = material == none ? material_of_id_.end() : material_of_id_.find(material);
+    colors_.color[color] =
+        found != material_of_id_.end() ? materials_.color[found->second] : plain_material("").base_color;
+  }
   for (auto& [id, object] : model_.objects) {
     budget_.check_time();
     for (TriangleProperty& property : object.properties) {

@@ -38,6 +38,7 @@ class AmfParser : public XmlHandler {
   void add_triangle();
   void add_instance();
   model_3mf::TriangleProperty property_of_triangle();
+  std::uint32_t color_below();
 
   model_3mf::Model& model_;
   FlawList& flaws_;
@@ -45,7 +46,8 @@ class AmfParser : public XmlHandler {
   model_3mf::PropertyGroup& colors_;     ///< of everything but materials
   model_3mf::PropertyGroup& materials_;  ///< those that have a colour
   std::map<std::uint32_t, std::uint32_t> material_of_id_;
-  float unit_ = 1;  ///< millimetres
+  std::map<std::uint32_t, std::uint32_t> color_below_;  ///< the number in colors_ of a material's colour
+  float unit_ = 1;                                      ///< millimetres
 
   std::vector<Owner> owners_;
   std::string text_;              ///< of the innermost element
