@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/formats/3mf/values.h"
 
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "zoneplate/formats/import/text_scan.h"
+#include "zoneplate/image/hex_color.h"
 #include "zoneplate/image/transfer.h"
 
 namespace zoneplate {
@@ -62,15 +62,10 @@ std::vector<std::string_view> words_of(std::string_view list) {
 
 std::optional<float4> find_hex_color(std::string_view text) {
   text = trimmed(text);
-  if ((text.size() != 7 && text.size() != 9) || text.front() != '#') return std::nullopt;
-  std::array<std::uint8_t, 4> channel{0, 0, 0, 255};
-  for (std::size_t i = 0; 2 * i + 2 < text.size(); ++i) {
-    const char* const at = text.data() + 1 + 2 * i;
-    const auto [stop, trouble] = std::from_chars(at, at + 2, channel[i], 16);
-    if (trouble != std::errc{} || stop != at + 2) return std::nullopt;
-  }
-  return float4{decode_srgb8(channel[0]), decode_srgb8(channel[1]), decode_srgb8(channel[2]),
-                static_cast<float>(channel[3]) / 255};
+  const auto color = text.size() == 7 || text.size() == 9 ? parse_hex_color(text) : std::nullopt;
+  if (!color) return std::nullopt;
+  return float4{decode_srgb8(color->r), decode_srgb8(color->g), decode_srgb8(color->b),
+                static_cast<float>(color->a) / 255};
 }
 
 std::optional<float4x4> find_matrix(std::string_view text, float unit) {

@@ -170,8 +170,6 @@ XmlParser::~XmlParser() {
   XML_ParserFree(state_->parser);
 }
 
-std::uint64_t XmlParser::line() const { return XML_GetCurrentLineNumber(state_->parser); }
-
 void XmlParser::parse(std::span<const std::uint8_t> bytes, bool is_last) {
   // expat parses an unfinished tag again with each piece.
   constexpr std::uint64_t most_of_a_tag = std::uint64_t{4} << 20;

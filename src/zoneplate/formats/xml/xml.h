@@ -65,8 +65,6 @@ class XmlParser {
   void feed(std::span<const std::uint8_t> bytes) { parse(bytes, false); }
   /// Ends the document.
   void finish() { parse({}, true); }
-  /// The number of the current line, for messages.
-  std::uint64_t line() const;
 
  private:
   struct State;
