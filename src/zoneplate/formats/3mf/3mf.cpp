@@ -4,7 +4,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "zoneplate/base/error.h"
@@ -38,10 +37,6 @@ class Import {
     ObjectPlacer placer([&](const std::string& part) { return find_model(part); }, contents, files, flaws_);
     placer.place_all(*model, items_of(*model));
     flaws_.report();
-    std::set<std::string> notes;
-    for (const auto& [part, other] : models_)
-      if (other != nullptr) notes.insert(other->notes.begin(), other->notes.end());
-    for (const std::string& note : notes) scene_.warnings.push_back(budget_.file() + ": " + note);
   }
 
  private:
@@ -100,10 +95,7 @@ Scene load_3mf(const std::string& path, const LoadLimits& limits) {
   scene.up = {0, 0, 1};
   if (!is_zip(file.bytes())) throw Error(ErrorKind::Input, budget.file() + ": is no 3MF package: no ZIP archive");
   Import(file.bytes(), budget, scene).run();
-  if (scene.instances.empty())
-    throw Error(ErrorKind::Input, scene.warnings.empty()
-                                      ? budget.file() + ": holds nothing to draw"
-                                      : printable(scene.warnings.front()) + "; nothing is left to draw");
+  if (scene.instances.empty()) throw budget.nothing_to_draw(scene.warnings, "holds nothing to draw");
   return scene;
 }
 

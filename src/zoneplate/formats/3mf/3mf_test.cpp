@@ -341,6 +341,21 @@ TEST(Load3mf, OneFlawDoesNotCostTheModel) {
   }
 }
 
+TEST(Load3mf, NamesOfTheFileStayOnOneLine) {
+  const std::string named = R"(name="a&#10;b" pid="5" pindex="0")";
+  const Bytes flawed = package(model(object(1, tower(), named), item(1)));
+  EXPECT_EQ(refusal(flawed, {.is_strict = true}), "a?b has property 0 of group 5, which has 0: it is left out");
+  EXPECT_EQ(warnings_of(load(flawed)),
+            Texts{"a?b has property 0 of group 5, which has 0: it is left out (and 11 more)"});
+  const std::string image = texture("");
+  std::string text = model(image, item(1));
+  text.replace(text.find("a.png"), 5, "a&#10;b.png");
+  EXPECT_EQ(refusal(package(text), {.is_strict = true}), "texture 3d/textures/a?b.png is not in the package");
+  const Bytes corrupt = package(text, {{"3D/Textures/a\nb.png", "GIF89a"}});
+  EXPECT_EQ(refusal(corrupt, {.is_strict = true}).find('\n'), std::string::npos);
+  EXPECT_EQ(load(corrupt).warnings.at(0).find('\n'), std::string::npos);
+}
+
 TEST(Load3mf, AnObjectInsideAnotherOneIsSafe) {
   std::string mesh = tower();
   mesh.insert(mesh.find("</triangles>"), R"(<triangle v1="60" v2="1" v3="2"/>)");

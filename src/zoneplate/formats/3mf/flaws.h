@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/formats/import/import_budget.h"
 
 namespace zoneplate {
@@ -28,29 +30,32 @@ enum class Flaw {
   Build,         ///< items that are missing or that must not be built
 };
 
-/// Collects flaws: the first of each kind, and the number of the others.
+/// Collects flaws, the first of each kind and the number of the others, and notes.
 class FlawList {
  public:
   FlawList(const ImportBudget& budget, std::vector<std::string>& warnings) : budget_(budget), warnings_(warnings) {}
 
-  /// Adds a flaw; `text()` describes the first of its kind.
+  /// Adds a flaw; `text()` describes the first of its kind, with names as the file has them.
   ///
   /// Errors    ErrorKind::Input with that text if the limits are strict.
   template <class Text>
   void add(Flaw flaw, const Text& text) {
-    Entry& entry = entries_[static_cast<std::size_t>(flaw)];
+    Entry& entry = entries_[flaw];
     if (entry.count++ > 0) return;
-    entry.text = budget_.file() + ": " + text();
+    entry.text = budget_.file() + ": " + printable(text());
     if (budget_.limits().is_strict) budget_.warn_of_flaw(warnings_, entry.text);
   }
 
-  /// Adds the warnings, one for each kind.
+  /// Adds a note on what is not drawn as the file states it, a sentence.
+  void add_note(std::string text) { notes_.insert(std::move(text)); }
+
+  /// Adds the warnings: one for each kind of flaw, then each note once.
   void report() {
-    for (Entry& entry : entries_)
-      if (entry.count > 0)
-        budget_.warn_of_flaw(
-            warnings_, std::move(entry.text) + (entry.count > 1 ? fmt::format(" (and {} more)", entry.count - 1) : ""));
-    entries_ = {};
+    for (auto& [flaw, entry] : entries_)
+      budget_.warn_of_flaw(
+          warnings_, std::move(entry.text) + (entry.count > 1 ? fmt::format(" (and {} more)", entry.count - 1) : ""));
+    for (const std::string& note : notes_) warnings_.push_back(budget_.file() + ": " + note);
+    entries_.clear(), notes_.clear();
   }
 
  private:
@@ -60,19 +65,8 @@ class FlawList {
   };
   const ImportBudget& budget_;
   std::vector<std::string>& warnings_;
-  std::array<Entry, 11> entries_{};
+  std::map<Flaw, Entry> entries_;
+  std::set<std::string> notes_;
 };
-
-/// Appends to an array whose memory is charged to the budget.
-template <class T>
-void append_charged(std::vector<T>& values, T value, ImportBudget& budget) {
-  if (values.size() == values.capacity()) {
-    const std::size_t old = values.capacity(), grown = old < 8 ? 16 : 2 * old;
-    budget.take(grown * sizeof(T));
-    values.reserve(grown);
-    budget.give_back(old * sizeof(T));
-  }
-  values.push_back(std::move(value));
-}
 
 }  // namespace zoneplate

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/utf8.h"
 #include "zoneplate/formats/3mf/package.h"
 #include "zoneplate/formats/import/image_file.h"
 #include "zoneplate/image/transfer.h"
@@ -91,7 +92,7 @@ int MeshMaker3mf::image_of(const Model& model, const PropertyGroup& group) {
     });
     return -1;
   }
-  const std::string names[] = {part};
+  const std::string names[] = {printable(part)};
   const int image = files_.embed(names, *bytes);
   budget_.give_back(bytes->size());
   if (image >= 0 && below.w > 0) {
@@ -242,15 +243,15 @@ std::vector<int> MeshMaker3mf::make(const Model& model, Object& object) {
   }
   std::vector<std::uint32_t> order(count);
   std::iota(order.begin(), order.end(), 0u);
-  const auto material_of = [&](std::uint32_t t) { return std::pair(found[t].material, found[t].group); };
+  const auto material_of = [&](std::uint32_t t) { return found[t].material; };
   std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return found[a].material < found[b].material; });
+                   [&](std::uint32_t a, std::uint32_t b) { return material_of(a) < material_of(b); });
   std::vector<int> meshes;
   for (std::size_t begin = 0, end = 0; begin < count; begin = end) {
     while (end < count && material_of(order[end]) == material_of(order[begin])) ++end;
     budget_.check_time();
     meshes.push_back(add_mesh(part_of(mesh, found, std::span(order).subspan(begin, end - begin)), object,
-                              found[order[begin]].material));
+                              material_of(order[begin])));
   }
   return meshes;
 }

@@ -167,7 +167,7 @@ void ModelParser3mf::begin_material(const XmlElement& element) {
   } else if (name == "multi") {
     add_multi(element);
   } else if (name.ends_with("displayproperties")) {
-    model_.notes.insert("display properties (of the materials extension) are not drawn");
+    flaws_.add_note("display properties (of the materials extension) are not drawn");
   }
 }
 
@@ -190,7 +190,7 @@ void ModelParser3mf::begin_model(const XmlElement& element) {
 void ModelParser3mf::ignore_extension(const XmlName& name) {
   for (const Ignored& extension : ignored_extensions)
     if (name.local == extension.element && name.space.find(extension.space) != std::string_view::npos)
-      model_.notes.emplace(extension.text);
+      flaws_.add_note(std::string(extension.text));
 }
 
 Placement ModelParser3mf::placement_of(const XmlElement& element) {
@@ -292,7 +292,7 @@ void ModelParser3mf::add_base(const XmlElement& element) {
   append_charged(group_->names, std::string(name), budget_);
   float4 color = color_of(element, "displaycolor");
   if (color.w == 0) {  // some programs do not use alpha
-    model_.notes.insert("the alpha of a base material is 0, taken as 1");
+    flaws_.add_note("the alpha of a base material is 0, taken as 1");
     color.w = 1;
   }
   append_charged(group_->color, color, budget_);
@@ -393,7 +393,7 @@ void ModelParser3mf::add_multi(const XmlElement& element) {
     if (is_first) group_->texture = all.texture, group_->below = all.below_texture;
   }
   if (all.is_approximate)
-    model_.notes.insert("layers of colours and textures (of multiproperties) are approximated by one texture");
+    flaws_.add_note("layers of colours and textures (of multiproperties) are approximated by one texture");
   append_charged(group_->color, all.color, budget_);
   if (group_->texture == none) return;
   while (group_->uv.size() < group_->color.size()) append_charged(group_->uv, all.uv.value_or(float2{0, 0}), budget_);

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -74,7 +73,6 @@ struct Model {
   std::map<std::uint32_t, PropertyGroup> groups;
   std::map<std::uint32_t, Texture> textures;
   std::vector<Placement> items;
-  std::set<std::string> notes;  ///< what is not drawn as the part states it, a sentence each
 };
 
 /// Leaves out the triangles of all objects with a vertex that is not there or not finite, which are flaws. It is called

@@ -52,11 +52,7 @@ Scene load_amf(const std::string& path, const LoadLimits& limits) {
   ObjectPlacer placer([&](const std::string&) { return &model; }, no_parts, files, flaws);
   placer.place_all(model, top_objects(model, budget));
   flaws.report();
-  for (const std::string& note : model.notes) scene.warnings.push_back(budget.file() + ": " + note);
-  if (scene.instances.empty())
-    throw Error(ErrorKind::Input, scene.warnings.empty()
-                                      ? budget.file() + ": holds nothing to draw"
-                                      : printable(scene.warnings.front()) + "; nothing is left to draw");
+  if (scene.instances.empty()) throw budget.nothing_to_draw(scene.warnings, "holds nothing to draw");
   return scene;
 }
 

@@ -87,7 +87,7 @@ void AmfParser::begin(const XmlElement& element) {
   } else if (name == "metadata") {
     is_name_ = element.find("type") == "name";
   } else if (name == "texture" || name == "texmap") {
-    model_.notes.insert("textures of AMF are not drawn");
+    flaws_.add_note("textures of AMF are not drawn");
   } else if (name == "amf") {
     const std::string_view unit = element.find("unit").value_or("millimeter");
     if (const auto millimetres = find_unit(unit))

@@ -58,6 +58,11 @@ class ImportBudget {
     warnings.push_back(std::move(text));
   }
 
+  /// The error about a file of which nothing is left to draw: its first warning, or `cause`, as "holds no vertices".
+  Error nothing_to_draw(const std::vector<std::string>& warnings, const std::string& cause) const {
+    return {ErrorKind::Input, warnings.empty() ? file_ + ": " + cause : warnings.front() + "; nothing is left to draw"};
+  }
+
  private:
   std::string file_;
   LoadLimits limits_;
@@ -65,5 +70,17 @@ class ImportBudget {
   bool is_spent_ = false;
   Stopwatch clock_;
 };
+
+/// Appends to an array whose memory is charged to the budget.
+template <class T>
+void append_charged(std::vector<T>& values, T value, ImportBudget& budget) {
+  if (values.size() == values.capacity()) {
+    const std::size_t old = values.capacity(), grown = old < 8 ? 16 : 2 * old;
+    budget.take(grown * sizeof(T));
+    values.reserve(grown);
+    budget.give_back(old * sizeof(T));
+  }
+  values.push_back(std::move(value));
+}
 
 }  // namespace zoneplate

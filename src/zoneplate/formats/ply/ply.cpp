@@ -228,9 +228,7 @@ Scene load_ply(const std::string& path, const LoadLimits& limits) {
   }
   drop_not_finite(mesh);
   warn(scene, budget, primitives - mesh.primitives(), "primitives have a vertex that is not finite and are dropped");
-  if (mesh.index.empty())
-    throw Error(ErrorKind::Input, scene.warnings.empty() ? budget.file() + ": holds no vertices"
-                                                         : scene.warnings.front() + "; nothing is left to draw");
+  if (mesh.index.empty()) throw budget.nothing_to_draw(scene.warnings, "holds no vertices");
   if (mesh.primitives() != primitives && !faces.texture.empty()) {
     faces.texture.clear();
     scene.warnings.push_back(budget.file() + ": triangles are dropped, the others have the first texture");

@@ -230,9 +230,7 @@ Scene load_stl(const std::string& path, const LoadLimits& limits) {
     read_text(file.bytes(), name, scene, budget);
   else
     read_binary(file.bytes(), name, scene, budget);
-  if (scene.meshes.empty())
-    throw Error(ErrorKind::Input, scene.warnings.empty() ? budget.file() + ": holds no triangles"
-                                                         : scene.warnings.front() + "; nothing is left to draw");
+  if (scene.meshes.empty()) throw budget.nothing_to_draw(scene.warnings, "holds no triangles");
   return scene;
 }
 
