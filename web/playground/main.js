@@ -140,9 +140,9 @@ async function chooseScene(scene) {
 /// Displays a model: the first of the files that is one.
 async function chooseFiles(list) {
   const files = await Promise.all([...list].map(async (file) => ({ path: file.webkitRelativePath || file.name, bytes: new Uint8Array(await file.arrayBuffer()) })));
-  const first = files.findIndex(({ path }) => /\.(glb|gltf|obj|ply|stl)$/i.test(path)), light = files.find(({ path }) => /\.hdr$/i.test(path));
+  const first = files.findIndex(({ path }) => /\.(glb|gltf|vrm|obj|ply|stl)$/i.test(path)), light = files.find(({ path }) => /\.hdr$/i.test(path));
   if (first < 0 && light) return chooseEnvironment(light);
-  if (first < 0) return fail('None of these files is a model or an environment: the page reads .glb, .gltf, .obj, .ply and .stl, with the files that belong to them, and .hdr.');
+  if (first < 0) return fail('None of these files is a model or an environment: the page reads .glb, .gltf, .vrm, .obj, .ply and .stl, with the files that belong to them, and .hdr.');
   const last = model;
   model = { name: files[first].path, files: [files[first], ...files.filter((_, i) => i !== first)] };
   if (await load(model.name)) return set({ scene: model.name, azimuth: '', elevation: '', angle: '', frame: '', pixel: '' });
@@ -273,7 +273,7 @@ function setTheme(theme) {
 }
 setTheme('auto');
 
-const files = element('input', { type: 'file', multiple: true, hidden: true, 'aria-label': 'Files of a model, or an environment', accept: '.glb,.gltf,.obj,.ply,.stl,.mtl,.bin,.ktx2,.hdr,.tga,image/*',
+const files = element('input', { type: 'file', multiple: true, hidden: true, 'aria-label': 'Files of a model, or an environment', accept: '.glb,.gltf,.vrm,.obj,.ply,.stl,.mtl,.bin,.ktx2,.hdr,.tga,image/*',
   onchange: () => chooseFiles(files.files) });
 for (const type of ['dragover', 'dragleave', 'drop']) {
   document.addEventListener(type, (event) => {

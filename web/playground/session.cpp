@@ -17,6 +17,7 @@
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/lower_case.h"
 #include "zoneplate/codec/hdr.h"
 #include "zoneplate/formats/gltf/gltf.h"
 #include "zoneplate/formats/import/image_file.h"
@@ -211,11 +212,10 @@ void Session::set_builtin(const std::string& text) {
 /// Takes a model of the working directory of the module's memory.
 void Session::set_model(const std::string& file) {
   const LoadLimits limits = page_limits();
-  std::string extension = file.substr(std::min(file.rfind('.'), file.size()));
-  for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  const std::string extension = lower_case(file.substr(std::min(file.rfind('.'), file.size())));
   Scene made;
   std::optional<SceneLoader> loader;
-  if (extension == ".glb" || extension == ".gltf") {
+  if (extension == ".glb" || extension == ".gltf" || extension == ".vrm") {
     const auto model = on_one_thread([&] { return std::make_shared<GltfModel>(file, limits); });
     const auto scene_at = [model](const SceneChoice& choice, GltfModel::Images images) {
       return on_one_thread([&] { return model->scene(choice, images); });
@@ -236,7 +236,7 @@ void Session::set_model(const std::string& file) {
   } else if (extension == ".stl") {
     made = on_one_thread([&] { return load_stl(file, limits); });
   } else {
-    throw Error(ErrorKind::Usage, file + ": the page reads .glb, .gltf, .obj, .ply and .stl");
+    throw Error(ErrorKind::Usage, file + ": the page reads .glb, .gltf, .vrm, .obj, .ply and .stl");
   }
   is_builtin_ = false, has_own_camera_ = false;
   set_scene(std::move(made), file, std::move(loader));

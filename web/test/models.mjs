@@ -39,13 +39,14 @@ export function writeModels(folder) {
   writePng(at('face.png'), 16, 16, (x, y) => [16 * x, 16 * y, (x ^ y) & 1 ? 255 : 40]);
   const gltf = gltfOf(fs.readFileSync(at('face.png')));
   write('square.glb', glbOf(gltf));
+  write('square.vrm', glbOf(gltf));
   write('square.bin', gltf.bin);
   write('square.gltf', JSON.stringify({ ...gltf.json, buffers: [{ byteLength: gltf.bin.length, uri: 'square.bin' }], images: [{ uri: 'face.png' }] }));
   write('square.obj', `mtllib square.mtl\nusemtl face\n${corners.map((corner) => `v ${corner.join(' ')}`).join('\n')}\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3 4/4\n`);
   write('square.mtl', 'newmtl face\nKd 1 1 1\nmap_Kd face.png\n');
   write('square.ply', `ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n${flat(corners)}\n${flat(faces.map((face) => [3, ...face]))}\n`);
   write('square.stl', `solid square\n${faces.map((face) => `facet normal 0 0 0\nouter loop\n${face.map((i) => `vertex ${corners[i].join(' ')}`).join('\n')}\nendloop\nendfacet`).join('\n')}\nendsolid\n`);
-  return [['square.glb'], ['square.gltf', 'square.bin', 'face.png'], ['square.obj', 'square.mtl', 'face.png'], ['square.ply'], ['square.stl']];
+  return [['square.glb'], ['square.vrm'], ['square.gltf', 'square.bin', 'face.png'], ['square.obj', 'square.mtl', 'face.png'], ['square.ply'], ['square.stl']];
 }
 
 /// A KTX 2 file of the tests of its decoder, by the name of its array.

@@ -39,11 +39,13 @@ struct Report {
   std::longjmp(report->place, 1);
 }
 
-/// libjpeg conceals damage and warns. The first warning is kept, unless it concerns neither pixels nor the file's end.
+/// libjpeg conceals damage and warns. The first warning is kept, unless it concerns neither pixels nor the file's end:
+/// bytes too many before a marker are skipped, and no pixel is missing.
 void keep_warning(j_common_ptr jpeg, int level) {
   auto* report = reinterpret_cast<Report*>(jpeg->err);
   const int code = jpeg->err->msg_code;
-  const bool is_harmless = level >= 0 || code == JWRN_ADOBE_XFORM || code == JWRN_BOGUS_ICC;
+  const bool is_harmless =
+      level >= 0 || code == JWRN_EXTRANEOUS_DATA || code == JWRN_ADOBE_XFORM || code == JWRN_BOGUS_ICC;
   if (!is_harmless && report->warning[0] == '\0') jpeg->err->format_message(jpeg, report->warning.data());
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/lower_case.h"
 #include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/pfm.h"
@@ -14,10 +15,7 @@
 
 namespace zoneplate {
 std::string extension_of(const std::string& path) {
-  std::string extension = std::filesystem::path(path).extension().string();
-  for (char& c : extension)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return extension;
+  return lower_case(std::filesystem::path(path).extension().string());
 }
 
 std::vector<std::uint8_t> encode_image(const std::string& path, const Rgba8Image& image) {

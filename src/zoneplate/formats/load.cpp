@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/lower_case.h"
 #include "zoneplate/formats/3mf/3mf.h"
 #include "zoneplate/formats/amf/amf.h"
 #include "zoneplate/formats/assimp/assimp.h"
@@ -35,10 +36,12 @@ constexpr SceneFormat formats[] = {
 Scene read_gltf(const std::string& path, const LoadOptions& o) { return load_gltf(path, o.limits, o.choice); }
 
 /// Returns the limits; throws if the options choose a scene, variant or animation, which only glTF files have.
-const LoadLimits& limits_of(const LoadOptions& o) {
-  const SceneChoice& c = o.choice;
+void refuse_choice(const SceneChoice& c) {
   if (c.scene || c.animation || !c.animation_name.empty() || !c.variant.empty())
     throw Error(ErrorKind::Usage, "only glTF files have scenes, variants and animations to choose from");
+}
+const LoadLimits& limits_of(const LoadOptions& o) {
+  refuse_choice(o.choice);
   return o.limits;
 }
 Scene read_obj(const std::string& path, const LoadOptions& o) { return load_obj(path, limits_of(o)); }
@@ -50,48 +53,52 @@ using Loader = Scene (*)(const std::string&, const LoadOptions&);
 constexpr Loader loaders[] = {read_gltf, read_gltf, read_gltf, read_obj, read_ply, read_stl, read_3mf, read_amf};
 static_assert(std::size(loaders) == std::size(formats));
 
-std::string lower_case(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
+/// The reader of the formats with this extension; null if there is none.
+Loader loader_of(const std::string& extension) {
+  const SceneFormat* const found = std::ranges::find(formats, extension, &SceneFormat::extension);
+  return found == std::end(formats) ? nullptr : loaders[found - std::begin(formats)];
 }
 
-/// The extension that selects the reader.
+/// The extension by which a format is chosen, or that of the name.
 std::string extension_of(const std::string& name, const std::string& format) {
   if (format.empty()) return lower_case(std::filesystem::path(name).extension().string());
   return lower_case((format.starts_with('.') ? "" : ".") + format);
 }
 
-bool has(std::span<const SceneFormat> all, const std::string& extension) {
-  return std::any_of(all.begin(), all.end(), [&](const SceneFormat& f) { return f.extension == extension; });
+bool is_assimp_format(const std::string& extension) {
+  return std::ranges::find(assimp_formats(), extension, &SceneFormat::extension) != assimp_formats().end();
 }
 
-/// How a file is read: the extension of its format, and whether assimp reads it.
-struct Reader {
-  std::string extension;
-  bool is_assimp = false;
-};
-
-/// The reader by the extension. Where that is not known, binary glTF and ZIP archives, which are taken as 3MF, are
-/// known by their first bytes. glTF 1.0 is left to assimp.
-///
-/// Errors    those of FileBytes.
-Reader reader_of(const std::string& name, const LoadOptions& options) {
-  std::string extension = extension_of(name, options.format);
-  if (has(assimp_formats(), extension)) return {std::move(extension), true};
+/// Whether the file can be opened a second time and then has the same bytes.
+bool is_repeatable(const std::string& name) {
   std::error_code ignored;
-  const bool is_known = has(formats, extension);
-  const bool is_gltf = extension == ".gltf" || extension == ".glb" || extension == ".vrm";
-  if ((is_known && !is_gltf) || name == "-" || !std::filesystem::is_regular_file(name, ignored))
-    return {std::move(extension)};
-  const MappedFileWatch watch;
-  const FileBytes file(name, options.limits.memory);
-  if (!is_known && options.format.empty())
-    extension = is_binary_gltf(file.bytes()) ? ".glb" : is_zip(file.bytes()) ? ".3mf" : extension;
-  const bool is_assimp = (is_gltf || extension == ".glb") && is_gltf_1(file.bytes());
-  if (is_assimp) extension = is_binary_gltf(file.bytes()) ? ".glb" : ".gltf";
-  watch.check(name);
-  return {std::move(extension), is_assimp};
+  return name != "-" && std::filesystem::is_regular_file(name, ignored);
+}
+
+/// The same extension; where that of the name is not known, binary glTF and ZIP archives, which are taken as 3MF, are
+/// known by their first bytes.
+///
+/// Errors    those of read_parts.
+std::string extension_by_contents(const std::string& name, const std::string& format) {
+  std::string extension = extension_of(name, format);
+  const bool is_known = loader_of(extension) != nullptr || is_assimp_format(extension);
+  if (is_known || !format.empty() || !is_repeatable(name)) return extension;
+  read_parts(name, [&](std::span<const std::uint8_t> begin) {
+    extension = is_binary_gltf(begin) ? ".glb" : is_zip(begin) ? ".3mf" : extension;
+    return false;
+  });
+  return extension;
+}
+
+/// The result of `read`, which reads a glTF file; nothing if the file is glTF 1.0, which assimp can read.
+template <class Read>
+auto unless_gltf_1(const std::string& name, const Read& read) -> std::optional<decltype(read())> {
+  try {
+    return read();
+  } catch (const Gltf1Error&) {
+    if (!is_repeatable(name)) throw;
+    return std::nullopt;
+  }
 }
 
 }  // namespace
@@ -106,16 +113,18 @@ bool is_builtin_scene(std::string_view name) {
 
 namespace {
 
-/// Reads a file of a supported format, or throws an error with the cause.
-Scene read_file(const std::string& name, const Reader& reader, const LoadOptions& options) {
+bool is_builtin(const std::string& name, const LoadOptions& options) {
+  return options.format.empty() && is_builtin_scene(name);
+}
+
+/// Reads a file by the reader of its format, or throws an error with the cause. Nothing if it is glTF 1.0.
+std::optional<Scene> read_file(const std::string& name, const LoadOptions& options) {
   std::string readable;
   for (const SceneFormat& format : formats) readable.append(readable.empty() ? "" : ", ").append(format.extension);
   if (name == "-" && options.format.empty())
     throw Error(ErrorKind::Usage, "standard input requires --format (" + readable + ")");
-  const auto& [extension, is_assimp] = reader;
-  if (is_assimp) return load_by_assimp(name, extension, limits_of(options));
-  for (std::size_t i = 0; i < std::size(formats); ++i)
-    if (extension == formats[i].extension) return loaders[i](name, options);
+  const std::string extension = extension_by_contents(name, options.format);
+  if (const Loader loader = loader_of(extension)) return unless_gltf_1(name, [&] { return loader(name, options); });
 
   readable += " and others, see zoneplate list formats";
   if (!options.format.empty())
@@ -129,28 +138,41 @@ Scene read_file(const std::string& name, const Reader& reader, const LoadOptions
                                        : name + ": no such file, and no built-in scene of that name");
 }
 
-Scene read_watched(const std::string& name, const Reader& reader, const LoadOptions& options) {
+/// The result of `read`, unless a mapped file has lost bytes meanwhile.
+template <class Read>
+auto watched(const std::string& name, const Read& read) {
   const MappedFileWatch watch;
-  Scene scene = read_file(name, reader, options);
+  auto result = read();
   watch.check(name);
-  return scene;
+  return result;
 }
 
-/// Calls read_watched in a child process with limits of its resources.
-Scene read_in_child(const std::string& name, const Reader& reader, const LoadOptions& options) {
-  ImportBudget budget(name == "-" ? "standard input" : name, options.limits);
+/// Calls read_file in a child process with limits of its resources.
+std::optional<Scene> read_in_child(const std::string& name, const LoadOptions& options, ImportBudget& budget) {
   LimitedChild child(
       budget.file(), child_limits(budget),
       [&](ChildAnswer& answer) {
-        const Scene scene = read_watched(name, reader, options);
-        write_scene(scene, [&](const void* data, std::size_t size) { answer.write(data, size); });
+        const std::optional<Scene> scene = watched(name, [&] { return read_file(name, options); });
+        const std::uint8_t has_scene = scene ? 1 : 0;
+        answer.write(&has_scene, 1);
+        if (scene) write_scene(*scene, [&](const void* data, std::size_t size) { answer.write(data, size); });
       },
       [] {
         open_library(Library::OpenExr);
         open_library(Library::Meshoptimizer);
         open_library(Library::Zstd);
       });
+  std::uint8_t has_scene = 0;
+  child.read(&has_scene, 1);
+  if (has_scene == 0) return std::nullopt;
   return read_scene([&](void* out, std::size_t size) { child.read(out, size); }, budget);
+}
+
+/// Reads a file in this process or in a child. Nothing if assimp has to read it.
+std::optional<Scene> read_without_assimp(const std::string& name, const LoadOptions& options, ImportBudget& budget) {
+  if (is_assimp_format(extension_of(name, options.format))) return std::nullopt;
+  return options.is_sandboxed ? read_in_child(name, options, budget)
+                              : watched(name, [&] { return read_file(name, options); });
 }
 
 /// A built-in scene that moves, at the chosen time, in microseconds.
@@ -169,13 +191,15 @@ Scene load_scene(const std::string& name, const LoadOptions& options) {
       return options.choice.animation && !scene->animations.empty() ? moment_of_builtin(name, options.choice)
                                                                     : std::move(*scene);
     }
-  const Reader reader = reader_of(name, options);
-  const bool has_child = options.is_sandboxed && !reader.is_assimp;
-  return has_child ? read_in_child(name, reader, options) : read_watched(name, reader, options);
+  ImportBudget budget(name == "-" ? "standard input" : name, options.limits);
+  if (std::optional<Scene> scene = read_without_assimp(name, options, budget)) return std::move(*scene);
+  refuse_choice(options.choice);
+  const std::string extension = extension_of(name, options.format);
+  return watched(name, [&] { return load_by_assimp(name, is_assimp_format(extension) ? extension : ".gltf", budget); });
 }
 
 std::vector<std::string> readable_paths(const std::string& name, const LoadOptions& options) {
-  if (options.format.empty() && is_builtin_scene(name)) return {};
+  if (is_builtin(name, options)) return {};
   return model_paths(name, options.limits);
 }
 
@@ -186,10 +210,11 @@ struct SceneSource::OpenFile {
 
 SceneSource::SceneSource(std::string name, LoadOptions options) : name_(std::move(name)), options_(std::move(options)) {
   auto file = std::make_unique<OpenFile>();
-  const auto [extension, is_assimp] = reader_of(name_, options_);
-  const bool is_gltf = extension == ".gltf" || extension == ".glb" || extension == ".vrm";
-  if (is_gltf && !is_assimp && !options_.is_sandboxed && (name_ != "-" || !options_.format.empty()))
-    file->gltf = std::make_unique<GltfModel>(name_, options_.limits);
+  // A sandboxed file is read in the process of each load alone.
+  const bool can_stay_open = !options_.is_sandboxed && !is_builtin(name_, options_);
+  if (can_stay_open && loader_of(extension_by_contents(name_, options_.format)) == read_gltf)
+    file->gltf =
+        unless_gltf_1(name_, [&] { return std::make_unique<GltfModel>(name_, options_.limits); }).value_or(nullptr);
   file->watch.check(name_);
   file_ = std::move(file);
 }

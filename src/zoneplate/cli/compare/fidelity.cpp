@@ -244,7 +244,7 @@ std::vector<Scenario> confined_scenarios(const FidelityArgs& args, const std::st
 metrics::Picture load_image(const std::string& path, Delivery& out) {
   metrics::Picture picture;
   out.read(path, [&] { picture = metrics::load_picture(path, out.limits().pixels); });
-  if (!picture.flaw.empty()) out.warn(picture.flaw);
+  out.warn_of_flaw(picture.flaw);
   return picture;
 }
 

@@ -90,7 +90,7 @@ metrics::Picture load_still(const std::string& path, Delivery& out) {
     picture = metrics::decode_file(file, out.limits().pixels);
     frames = count_frames(file.bytes);
   });
-  if (!picture.flaw.empty()) out.warn(picture.flaw);
+  out.warn_of_flaw(picture.flaw);
   if (frames > 1)
     out.warn(fmt::format("{}: is an animation of {} frames, of which the first is filtered", path, frames));
   if (!picture.is_scene_linear) return picture;

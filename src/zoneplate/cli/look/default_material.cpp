@@ -18,9 +18,9 @@ TextureImage read_texture(const std::string& path, const LoadLimits& limits, std
   const MappedFileWatch watch;
   const FileBytes file(path, limits.memory);
   ImportBudget(path, limits).take(decoded_image_memory(file.bytes()) + image_working_memory(file.bytes()));
-  DecodedImage decoded = decode_image(file.bytes(), path, limits.pixels);
-  if (!decoded.flaw.empty() && !limits.is_strict) warnings.push_back(std::exchange(decoded.flaw, ""));
-  TextureImage image{path, std::move(decoded).whole()};
+  DecodedImage decoded = decode_image(file.bytes(), path, limits);
+  if (!decoded.flaw.empty()) warnings.push_back(std::move(decoded.flaw));
+  TextureImage image{path, std::move(decoded.texels)};
   watch.check(path);
   return image;
 }

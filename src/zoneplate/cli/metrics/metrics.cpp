@@ -188,7 +188,7 @@ metrics::PictureSet within_limits(metrics::PictureSet set, Delivery& out) {
   set.decode = [&out](const metrics::ImageFile& file) {
     metrics::Picture picture;
     out.read(file.name, [&] { picture = metrics::decode_file(file, out.limits().pixels); });
-    if (!picture.flaw.empty()) out.warn(picture.flaw);
+    out.warn_of_flaw(picture.flaw);
     return picture;
   };
   return set;

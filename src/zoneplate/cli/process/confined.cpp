@@ -96,6 +96,12 @@ Option allow_path_option(LoadLimits& load, const std::string& group) {
           group,          false,  [&](auto& text) { load.allowed_paths.push_back(text); }};
 }
 
+void Delivery::warn_of_flaw(const std::string& flaw) {
+  if (flaw.empty()) return;
+  if (limits_.is_strict) throw Error(ErrorKind::Input, flaw);
+  warn(flaw);
+}
+
 void Delivery::save(const std::string& path, std::string_view text) {
   save(path, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
 }

@@ -49,6 +49,10 @@ class Delivery {
     sender_.text(is_stdout_taken ? TextKind::Aside : TextKind::Report, text);
   }
   void warn(std::string_view message) { sender_.text(TextKind::Warning, message); }
+  /// Warns of damage of an image that its decoder passed over. An empty text means none.
+  ///
+  /// Errors    ErrorKind::Input with the text if the limits are strict.
+  void warn_of_flaw(const std::string& flaw);
   void progress(std::string_view stage, double done) { sender_.progress(stage, done); }
 
   /// Saves a file, whole or not at all.

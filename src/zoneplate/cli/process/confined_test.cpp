@@ -73,6 +73,19 @@ TEST_F(Confined, PrintsAndSavesInOrderAndReturnsTheResult) {
   EXPECT_EQ(text("out"), "file");
 }
 
+TEST_F(Confined, WarnsOfADamagedImageUnlessItsLimitsAreStrict) {
+  ConfinedRun run = small_run();
+  const auto read = [&](const std::string& flaw) {
+    return refusal(run, [&](Delivery& out) { out.warn_of_flaw(flaw); });
+  };
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(read("a.jpg: cut") + read(""), "");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "zoneplate: warning: a.jpg: cut\n");
+  run.limits.load.is_strict = true;
+  EXPECT_EQ(read("a.jpg: cut"), "2 a.jpg: cut");
+  EXPECT_EQ(read(""), "");
+}
+
 TEST_F(Confined, EndsAsTheWorkEnds) {
   EXPECT_THROW(run_confined(small_run(), [](Delivery&) { throw Difference("differs"); }), Difference);
   EXPECT_THROW(run_confined(small_run(), [](Delivery&) { throw PartialFailure("1 of 2"); }), PartialFailure);

@@ -95,7 +95,7 @@ LinearImage load_signal(const std::string& operand, bool uses_codes, std::uint64
 LinearImage load_signal(const std::string& operand, bool uses_codes, Delivery& out) {
   Loaded loaded;
   out.read(operand, [&] { loaded = load(operand, uses_codes, out.limits().pixels); });
-  if (!loaded.flaw.empty()) out.warn(loaded.flaw);
+  out.warn_of_flaw(loaded.flaw);
   return std::move(loaded.image);
 }
 

@@ -227,7 +227,7 @@ void run_texture_levels(std::span<const std::string> arguments) {
     TexelImage texels;
     out.read(input, [&] {
       DecodedImage image = load_texels(input, out.limits().pixels);
-      if (!image.flaw.empty()) out.warn(image.flaw);
+      out.warn_of_flaw(image.flaw);
       texels = std::move(image.texels);
     });
     const Texture texture(std::move(texels), args.meaning, args.options);

@@ -169,8 +169,8 @@ class Decoder {
       if (y < height && x < width) row(static_cast<int>(y), image)[x] = color(static_cast<std::size_t>(index));
       ++x;
     };
-    // Some programs leave out the end of the image.
-    while (at < pixels_.size() || y + (x >= width ? 1 : 0) < height) {
+    // Some programs leave out the end of the image, and other bytes may follow its last pixel.
+    while (y + (x >= width ? 1 : 0) < height) {
       const std::uint8_t count = take(), value = take();
       if (count > 0) {
         for (int i = 0; i < count; ++i) put(has_nibbles ? nibble(value, i) : value);

@@ -143,6 +143,13 @@ TEST(Bmp, RunLengths) {
   const Bytes all = {2, 1, 0, 0, 2, 1};
   Parts endless{.bits = 8, .compression = 1, .colors = 4, .palette = four_colors, .pixels = all};
   EXPECT_EQ(decoded(endless), Rgba8Image(2, 2, green));
+  // Whatever follows that pixel is not a run: padding, a colour profile, what would be a truncated run.
+  for (const Bytes& more : {Bytes{0}, Bytes{0, 0, 0, 3}, Bytes{0, 0, 9}, Bytes{'I', 'C', 'C'}}) {
+    endless.pixels = all;
+    endless.pixels.insert(endless.pixels.end(), more.begin(), more.end());
+    EXPECT_EQ(decoded(endless), Rgba8Image(2, 2, green));
+  }
+  endless.pixels = all;
   endless.pixels.resize(4);
   EXPECT_EQ(error_of(file_of(endless)), "a.bmp: BMP: truncated");
 }

@@ -86,8 +86,7 @@ Scene import(const AssimpLibrary& library, const std::string& path, std::string_
       library.import(files.model_name().c_str(), steps, files.io()), library.release);
   files.rethrow();
   if (!read && std::string_view(library.error()).find("bad_alloc") != std::string_view::npos) throw std::bad_alloc();
-  const bool is_gltf = extension == ".gltf" || extension == ".glb";
-  const std::string place = budget.file() + (is_gltf ? ": glTF 1.0: " : ": ");
+  const std::string place = budget.file() + (extension == ".gltf" ? ": glTF 1.0: " : ": ");
   if (!read) throw Error(ErrorKind::Input, place + one_line(library.error()));
   Scene scene;
   ModelFolder textures(folder, budget, scene);
@@ -114,8 +113,7 @@ Scene import(const AssimpLibrary&, const std::string&, std::string_view, ImportB
 
 std::span<const SceneFormat> assimp_formats() { return formats; }
 
-Scene load_by_assimp(const std::string& path, std::string_view extension, const LoadLimits& limits) {
-  ImportBudget budget(path == "-" ? "standard input" : path, limits);
+Scene load_by_assimp(const std::string& path, std::string_view extension, ImportBudget& budget) {
   if (is_limited_child()) return import(AssimpLibrary(budget.file()), path, extension, budget);
   std::optional<AssimpLibrary> library;
   LimitedChild child(

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "zoneplate/formats/import/import_budget.h"
 #include "zoneplate/formats/import/load_options.h"
 #include "zoneplate/scene/scene.h"
 
@@ -20,9 +21,9 @@ std::span<const SceneFormat> assimp_formats();
 /// are computed as for PLY.
 ///
 /// Inside a LimitedChild, which has limits already, the library runs in that process.
-/// Requires  `extension` is one of assimp_formats(), or ".gltf" or ".glb" of glTF 1.0.
+/// Requires  `extension` is one of assimp_formats(), or ".gltf" for glTF 1.0, text or binary; `budget` names the file.
 /// Errors    ErrorKind::Input with the library's own message if it rejects the file; also if it crashes or is not
 ///           installed.
-Scene load_by_assimp(const std::string& path, std::string_view extension, const LoadLimits& limits);
+Scene load_by_assimp(const std::string& path, std::string_view extension, ImportBudget& budget);
 
 }  // namespace zoneplate

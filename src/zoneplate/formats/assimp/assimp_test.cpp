@@ -380,13 +380,19 @@ TEST(Assimp, ReadsTheFirstVersionOfGltf) {
   for (const std::size_t word : {std::size_t{1}, 20 + json.size() + buffer.size(), json.size(), std::size_t{0}})
     mesh_samples::add<std::uint32_t>(glb, static_cast<std::uint32_t>(word));
   glb = joined(joined(std::move(glb), bytes_of(json)), buffer);
+  std::string profiled = gltf_1("\"1.0.1\"", uri);
+  profiled.insert(profiled.find("\"version\""), R"("profile":{"api":"WebGL","version":"2.0"},)");
   for (const std::string& path :
        {folder.write("text.gltf", gltf_1("\"1.0\"", uri)), folder.write("NUMBER.glTF", gltf_1("1.0", uri)),
-        folder.write("binary.GLB", glb), folder.write("binary.gltf", glb)})
+        folder.write("profile.gltf", profiled), folder.write("binary.GLB", glb), folder.write("binary.gltf", glb),
+        folder.write("binary.unknown", glb)})
     for (const bool is_sandboxed : {false, true}) {
-      const Scene s = load_scene(path, {.is_sandboxed = is_sandboxed});
-      EXPECT_EQ(area_of(s), 0.5) << path;
-      EXPECT_EQ(s.materials.at(0).base_color, (float4{1, 0, 0, 1})) << path;
+      const LoadOptions options{.limits = {.is_strict = true}, .is_sandboxed = is_sandboxed};
+      SceneSource source(path, options);
+      for (const Scene& s : {load_scene(path, options), source.load({})}) {
+        EXPECT_EQ(area_of(s), 0.5) << path;
+        EXPECT_EQ(s.materials.at(0).base_color, (float4{1, 0, 0, 1})) << path;
+      }
     }
   try {
     load_scene(folder.write("bad.gltf", std::string(R"({"asset":{"version":"1.0"},"meshes":{"m":3}})")));

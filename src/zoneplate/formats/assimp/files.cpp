@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/formats/gltf/gltf.h"
 
 namespace zoneplate {
 
@@ -53,9 +54,10 @@ AssimpFiles::AssimpFiles(const std::string& path, const std::string& folder, std
       budget_(budget),
       finder_(folder, budget.limits().allowed_paths),
       model_(path, budget.limits().memory) {
+  const bool is_binary_gltf_1 = extension == ".gltf" && is_binary_gltf(model_.bytes());
   model_name_ = (std::filesystem::path(folder) / (path == "-" ? "object" : std::filesystem::path(path).stem().string()))
                     .string() +
-                std::string(extension);
+                std::string(is_binary_gltf_1 ? ".glb" : extension);
   io_.OpenProc = open;
   io_.CloseProc = close;
   io_.UserData = reinterpret_cast<char*>(this);

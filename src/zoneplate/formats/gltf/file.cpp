@@ -39,24 +39,6 @@ bool is_binary_gltf(std::span<const std::uint8_t> bytes) {
   return bytes.size() >= 4 && read_u32(bytes, 0) == glb_magic;
 }
 
-bool is_gltf_1(std::span<const std::uint8_t> bytes) {
-  if (is_binary_gltf(bytes)) return bytes.size() >= 8 && read_u32(bytes, 4) == 1;
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  // The text behind a key and its colon; empty if there is no such key.
-  const auto value_of = [](std::string_view in, std::string_view key) {
-    for (std::size_t at = in.find(key); at != in.npos; at = in.find(key, at + 1)) {
-      const std::size_t colon = in.find_first_not_of(" \t\r\n", at + key.size());
-      if (colon == in.npos || in[colon] != ':') continue;
-      const std::size_t value = in.find_first_not_of(" \t\r\n", colon + 1);
-      return value == in.npos ? std::string_view() : in.substr(value);
-    }
-    return std::string_view();
-  };
-  const std::string_view asset = value_of(text, "\"asset\"");
-  const std::string_view version = value_of(asset.substr(0, asset.find('}')), "\"version\"");
-  return version.starts_with("1") || version.starts_with("\"1");
-}
-
 GltfFile::GltfFile(const std::string& path, const LoadLimits& limits)
     : path_(path),
       budget_(path, limits),
@@ -75,8 +57,9 @@ GltfFile::GltfFile(const std::string& path, const LoadLimits& limits)
 void GltfFile::read_chunks(std::span<const std::uint8_t> bytes) {
   const auto fail = [&](const std::string& cause) { throw Error(ErrorKind::Input, path_ + ": " + cause); };
   if (bytes.size() < 20) fail("GLB of " + bytes_text(bytes.size()) + ", expected at least 20");
-  if (const std::uint32_t version = read_u32(bytes, 4); version != 2)
-    fail("GLB version " + std::to_string(version) + ", expected 2");
+  const std::uint32_t version = read_u32(bytes, 4);
+  if (version == 1) throw Gltf1Error(ErrorKind::Input, path_ + ": GLB version 1, expected 2");
+  if (version != 2) fail("GLB version " + std::to_string(version) + ", expected 2");
   const std::uint32_t length = read_u32(bytes, 8);
   if (length > bytes.size())
     fail("GLB header states " + bytes_text(length) + ", the file has " + std::to_string(bytes.size()));
@@ -113,9 +96,11 @@ void GltfFile::leave_out(const Error& error) {
 void GltfFile::check_asset() {
   const auto major = [](const std::string& version) { return version.substr(0, version.find('.')); };
   const JsonView asset = root_->object("asset");
-  const bool is_number = asset.is_number("version") && !budget_.limits().is_strict;
-  if (is_number) warn(asset.place() + ": version is a number, expected a string");
+  const bool is_number = asset.is_number("version");
   const std::string version = is_number ? std::to_string(asset.number("version")) : asset.text("version");
+  if (major(version) == "1")
+    throw Gltf1Error(ErrorKind::Input, asset.place() + ": version is " + quoted(version) + ", expected 2.0");
+  if (is_number) budget_.warn_of_flaw(warnings_, asset.place() + ": version is a number, expected a string");
   const std::string least = asset.text("minVersion", "2.0");
   if (version.empty()) asset.fail("version is missing: not a glTF 2 file");
   if (major(version) != "2") asset.fail("version is " + quoted(version) + ", expected 2.0");

@@ -30,7 +30,8 @@ struct GltfBytes {
 /// Every returned range of bytes is within the buffer view and within the existing bytes.
 class GltfFile {
  public:
-  /// Errors    ErrorKind::Input: unreadable, neither JSON nor GLB 2, chunks that overrun the file, not glTF 2.
+  /// Errors    ErrorKind::Input: unreadable, neither JSON nor GLB 2, chunks that overrun the file, not glTF 2; Gltf1Error
+  ///           (gltf.h).
   GltfFile(const std::string& path, const LoadLimits& limits);
 
   const JsonView& root() const { return *root_; }

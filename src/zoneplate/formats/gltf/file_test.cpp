@@ -132,16 +132,27 @@ TEST(GltfFile, VersionMustBeTwo) {
   EXPECT_EQ(error(R"({"asset":{"version":"2.1"}})"), "no error");
   EXPECT_TRUE(has(error(R"({"asset":{"version":"1.0"}})"), "asset: version is '1.0', expected 2.0"));
   EXPECT_TRUE(has(error(R"({"asset":{"version":2}})"), "asset: version is a number, expected a string"));
-  const auto is_first = [](const std::string& text) {
-    return is_gltf_1({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  const auto is_first = [&](const std::string& text, bool is_strict) {
+    try {
+      load_gltf(folder.write("f.gltf", text), {.is_strict = is_strict});
+    } catch (const Gltf1Error&) {
+      return true;
+    } catch (const Error&) {
+    }
+    return false;
   };
-  for (const char* text : {R"({"asset":{"version":"1.0"}})",
-                           R"({"n":"asset","asset" : {"generator":"g", "version" : 1.0}})", R"({"asset":{"version":1)"})
-    EXPECT_TRUE(is_first(text)) << text;
-  for (const char* text :
-       {R"({"asset":{"version":"2.1"}})", R"({"asset":{},"version":"1.0"})", R"({"asset":)", "\"asset\"",
-        R"({"nodes":[{"name":"asset"}],"asset":{"version":"2.0","minVersion":"1.0"}})", ""})
-    EXPECT_FALSE(is_first(text)) << text;
+  for (const bool is_strict : {false, true}) {
+    for (const char* text :
+         {R"({"asset":{"version":"1.0"}})", R"({"n":"asset","asset" : {"generator":"g", "version" : 1.0}})",
+          R"({"asset":{"profile":{"api":"WebGL"},"version":"1.0.1"}})"})
+      EXPECT_TRUE(is_first(text, is_strict)) << text;
+    for (const char* text :
+         {R"({"asset":{"version":"2.1"}})", R"({"asset":{},"version":"1.0"})", R"({"asset":)", "\"asset\"",
+          R"({"nodes":[{"name":"asset"}],"asset":{"version":"2.0","minVersion":"1.0"}})", "",
+          R"({"asset":{"extras":{"version":"1.3"},"version":"2.0"}})",
+          R"({"extras":{"asset":{"version":"1.0"}},"asset":{"version":"2.0"}})", R"({"asset":{"version":1)"})
+      EXPECT_FALSE(is_first(text, is_strict)) << text;
+  }
   EXPECT_TRUE(has(error(R"({"asset":{"version":"2.1","minVersion":"2.1"}})"), "minVersion is '2.1'"));
   EXPECT_TRUE(has(error(R"({"asset":{}})"), "version is missing"));
   EXPECT_TRUE(has(error(R"({})"), "version is missing"));

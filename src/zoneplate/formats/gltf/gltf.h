@@ -7,10 +7,17 @@
 #include <string>
 #include <vector>
 
+#include "zoneplate/base/error.h"
 #include "zoneplate/formats/import/load_options.h"
 #include "zoneplate/scene/scene.h"
 
 namespace zoneplate {
+
+/// The error about a file of glTF 1.0, text or binary: its version begins with 1.
+class Gltf1Error : public Error {
+ public:
+  using Error::Error;
+};
 
 /// Loads a glTF 2.0 file, .gltf (with its buffers and images) or .glb: one scene of it, in one variant, at one time.
 ///
@@ -21,15 +28,11 @@ namespace zoneplate {
 /// Space     the transforms of cameras and lights have no scale and no mirroring.
 /// Errors    ErrorKind::Input, one line naming the file, the place and the cause; a required extension that is not
 ///           supported is named. An optional one gives a warning that names it. ErrorKind::Usage for a choice that the
-///           file does not have.
+///           file does not have. Gltf1Error.
 Scene load_gltf(const std::string& path, const LoadLimits& limits = {}, const SceneChoice& choice = {});
 
 /// Whether the bytes begin as a binary glTF file does, of any version.
 bool is_binary_gltf(std::span<const std::uint8_t> bytes);
-
-/// Whether the contents of a file are glTF 1.0, which load_gltf does not read: the version of its container, or of its
-/// first object `asset`, begins with 1. The JSON is searched, not parsed.
-bool is_gltf_1(std::span<const std::uint8_t> bytes);
 
 /// A glTF file that stays open, for loading at several times: its materials and images are read once.
 class GltfModel {

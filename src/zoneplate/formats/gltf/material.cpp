@@ -269,9 +269,9 @@ GltfMaterials load_materials(GltfFile& file) {
       const EncodedImage& e = encoded[first + i];
       if (!trouble[first + i].empty()) return;
       try {
-        DecodedImage decoded = decode_image(e.data.bytes, e.place, file.budget().limits().pixels);
-        if (!file.budget().limits().is_strict) flaws[first + i] = std::exchange(decoded.flaw, "");
-        images[first + i] = {e.name, std::move(decoded).whole()};
+        DecodedImage decoded = decode_image(e.data.bytes, e.place, file.budget().limits());
+        images[first + i] = {e.name, std::move(decoded.texels)};
+        flaws[first + i] = std::move(decoded.flaw);
       } catch (const Error& error) {
         trouble[first + i] = error.what();
       }

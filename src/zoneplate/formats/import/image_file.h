@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/formats/import/load_options.h"
 #include "zoneplate/math/vec.h"
 #include "zoneplate/scene/material.h"
 
@@ -48,6 +49,16 @@ struct DecodedImage {
 ///
 /// Errors    ErrorKind::Input with `name` in front: another format (named, if known), corrupt, more than `max_pixels`.
 DecodedImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
+
+/// The same within the limits of an import.
+///
+/// Errors    those of the function above; ErrorKind::Input with the flaw, if the limits are strict.
+inline DecodedImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name,
+                                 const LoadLimits& limits) {
+  DecodedImage image = decode_image(bytes, name, limits.pixels);
+  if (limits.is_strict) image = {.texels = std::move(image).whole()};
+  return image;
+}
 
 /// A warning, without the name of the model, if an image has more than TextureImage::most_side texels along a side.
 std::optional<std::string> size_warning(const TextureImage& image);

@@ -110,11 +110,10 @@ TextureImage ModelFolder::decode(const std::string& name, std::span<const std::u
   const std::uint64_t working = image_working_memory(bytes);
   budget_.take(name.size() + 2 * sizeof(TextureImage));
   budget_.take(working + decoded_image_memory(bytes));
-  DecodedImage decoded = decode_image(bytes, name, budget_.limits().pixels);
+  DecodedImage decoded = decode_image(bytes, name, budget_.limits());
   budget_.give_back(working);
-  if (!decoded.flaw.empty() && !budget_.limits().is_strict)
-    warn(fmt::format("{}: texture {}", budget_.file(), std::exchange(decoded.flaw, "")));
-  TextureImage image{name, std::move(decoded).whole()};
+  if (!decoded.flaw.empty()) warn(fmt::format("{}: texture {}", budget_.file(), decoded.flaw));
+  TextureImage image{name, std::move(decoded.texels)};
   if (const auto warning = size_warning(image)) scene_.warnings.push_back(budget_.file() + ": " + *warning);
   return image;
 }

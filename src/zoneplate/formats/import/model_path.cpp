@@ -15,6 +15,7 @@
 #include <system_error>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/lower_case.h"
 
 namespace zoneplate {
 namespace {
@@ -53,11 +54,6 @@ bool is_allowed(std::span<const std::string> allowed, const std::filesystem::pat
     const std::filesystem::path known = std::filesystem::weakly_canonical(path, trouble);
     return !trouble && (known == file || is_within(known, file));
   });
-}
-
-std::string lower_case(std::string text) {
-  for (char& c : text) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  return text;
 }
 
 struct Descriptor {

@@ -16,6 +16,7 @@
 #include "zoneplate/formats/import/image_file.h"
 #include "zoneplate/formats/import/model_path.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/math/elementary.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/scene/channel_image.h"
 #include "zoneplate/scene/material_layers.h"
@@ -32,8 +33,7 @@ TextureUse use_of(const MtlTexture& texture, int image) {
   use.image = image;
   if (texture.clamp) use.sampler.wrap_u = use.sampler.wrap_v = Wrap::Clamp;
   // uv_file = offset + rotation × scale × (u, 1 - v), and our v is 1 - v_file.
-  const float c = texture.rotation == 0 ? 1 : std::cos(texture.rotation);
-  const float s = texture.rotation == 0 ? 0 : std::sin(texture.rotation);
+  const float c = cos(texture.rotation), s = sin(texture.rotation);
   use.scale = texture.scale;
   use.rotation = texture.rotation;
   use.offset = {texture.offset.x - s * texture.scale.y, 1 - c * texture.scale.y - texture.offset.y};

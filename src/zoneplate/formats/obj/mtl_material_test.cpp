@@ -12,6 +12,7 @@
 #include "zoneplate/codec/png.h"
 #include "zoneplate/formats/obj/obj.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/math/elementary.h"
 #include "zoneplate/scene/material_layers.h"
 
 namespace zoneplate {
@@ -273,6 +274,22 @@ TEST_F(MtlScene, ImagesAreSharedScaledAndClamped) {
   // The file's (0.5, 1) is mapped to (0.25 + 2 × 0.5, 0.5 + 3 × 1), whose v from the top is 1 - 3.5.
   EXPECT_EQ(use.offset.x + use.scale.x * 0.5f, 1.25f);
   EXPECT_EQ(use.offset.y + use.scale.y * (1 - 1), 1 - 3.5f);
+}
+
+// MTL has no rotation; materials of other formats have. The C library's sine has other bits than ours for some angles.
+TEST_F(MtlScene, RotatesImagesByTheSameBitsEverywhere) {
+  write_png("model/a.png", {1, 2, 3, 255}, {4, 5, 6, 255});
+  ImportBudget budget("a.fbx", {});
+  Scene scene;
+  ModelFolder folder((folder_ / "model").string(), budget, scene);
+  for (int i = -200; i <= 200; ++i) {
+    const float angle = static_cast<float>(i) * 0.031f;
+    const Material m = make_material({.diffuse_map = {.file = "a.png", .rotation = angle}}, "", folder);
+    EXPECT_EQ(m.base_color_texture.offset, (float2{-sin(angle), 1 - cos(angle)})) << angle;
+    if (i == 0) {
+      EXPECT_EQ(m.base_color_texture.offset, (float2{0, 0}));
+    }
+  }
 }
 
 TEST_F(MtlScene, AmbientIsKdWhereThereIsNoKa) {
