@@ -222,7 +222,8 @@ TEST_F(Endings, AnimationsKeepAFrameAtMostTwice) {
   constexpr std::uint64_t frame = 256 * 256 * 4, more = 24;
   for (const char* output : {"a.apng", "a.webp"}) EXPECT_LT(peak(output, "32"), peak(output, "8") + more * frame * 2);
   if (std::system("command -v ffmpeg >/dev/null 2>&1") == 0) {
-    EXPECT_LT(peak("a.mp4", "32"), peak("a.mp4", "8") + more * frame / 4);
+    // No frame is kept: what threads take for themselves is far below a quarter of the frames.
+    EXPECT_LT(peak("a.mp4", "80"), peak("a.mp4", "8") + 72 * frame / 4);
   }
 }
 
