@@ -21,8 +21,8 @@ run_quietly() {
 wanted_packages() {
   awk -v purposes=" $* " '
     /^#/ || NF == 0 { next }
-    { purpose = $2 ~ /^\(.*\)$/ ? substr($2, 2, length($2) - 2) : "build" }
-    index(purposes, " " purpose " ") { print $1 }' "$root/packages.txt"
+    { count = split($2 ~ /^\(.*\)$/ ? substr($2, 2, length($2) - 2) : "build", of, ",") }
+    { for (i = 1; i <= count; ++i) if (index(purposes, " " of[i] " ")) { print $1; break } }' "$root/packages.txt"
 }
 
 # Installs what is missing of the packages for the given purposes.

@@ -1,29 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/scene/geometry/flat_normals.h"
 
-#include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <cstring>
-#include <numeric>
-#include <utility>
-
-#include "zoneplate/base/parallel.h"
 
 namespace zoneplate {
-namespace {
-
-template <class V>
-void unindex(std::vector<V>& values, const std::vector<std::uint32_t>& index) {
-  if (values.empty()) return;
-  std::vector<V> out(index.size());
-  for (std::size_t k = 0; k < index.size(); ++k) out[k] = values[index[k]];
-  values = std::move(out);
-}
-
-}  // namespace
-
 float3 flat_normal(float3 a, float3 b, float3 c) {
   const double ux = double{b.x} - a.x, uy = double{b.y} - a.y, uz = double{b.z} - a.z;
   const double vx = double{c.x} - a.x, vy = double{c.y} - a.y, vz = double{c.z} - a.z;
@@ -53,22 +35,5 @@ void make(const std::uint8_t* corners, std::size_t stride, std::size_t triangles
 
 template <>
 const FlatNormalKernels PerIsa<FlatNormalKernels>::scalar = {.make = scalar::make};
-
-void make_flat_normals(Mesh& mesh) {
-  assert(mesh.topology == Topology::Triangles);
-  mesh.normal.clear();
-  unindex(mesh.position, mesh.index);
-  unindex(mesh.tangent, mesh.index);
-  unindex(mesh.uv0, mesh.index);
-  unindex(mesh.uv1, mesh.index);
-  unindex(mesh.color, mesh.index);
-  std::iota(mesh.index.begin(), mesh.index.end(), 0u);
-  mesh.normal.resize(mesh.position.size());
-  constexpr std::size_t block = 4096;
-  parallel_ranges(mesh.position.size() / 3, block, [&](std::size_t begin, std::size_t end) {
-    const auto* const corners = reinterpret_cast<const std::uint8_t*>(&mesh.position[3 * begin]);
-    FlatNormalKernels::of().make(corners, 3 * sizeof(float3), end - begin, &mesh.normal[3 * begin].x);
-  });
-}
 
 }  // namespace zoneplate

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/shade/texture/area_filters.h"
 
-#include <cassert>
 #include <cmath>
 
 #include "zoneplate/math/lanes.h"
 #include "zoneplate/shade/texture/area_filters_lanes.h"
-#include "zoneplate/shade/texture/texture.h"
 
 namespace zoneplate {
 
@@ -119,32 +117,6 @@ void measure_footprints(const TextureView& t, const Footprint& from, float* mip_
     const area::Ellipse<F> e({at.dudx[i] * w, at.dvdx[i] * h, at.dudy[i] * w, at.dvdy[i] * h});
     const float square = e.longer.v / std::max(e.shorter.v, e.longer.v / (most * most));
     anisotropy[i] = square > 1 ? std::sqrt(square) : 1.0f;
-  }
-}
-
-void sample_area(const Texture& texture, const SamplerState& filtering, const Footprint& footprint, float* const out[4],
-                 int count) {
-  using Kind = TextureFilter::Kind;
-  const AreaFilterKernels& kernels = AreaFilterKernels::of();
-  switch (filtering.kind) {
-    case Kind::CatmullRom:
-    case Kind::BSpline:
-    case Kind::Mitchell:
-      return kernels.sample_cubic(texture.view(), filtering, footprint, out, count);
-    case Kind::Ripmap:
-      return kernels.sample_ripmap(texture.ripmap(), filtering, footprint, out, count);
-    case Kind::Ewa:
-      return kernels.sample_ellipse(texture.view(), filtering, footprint, out, count);
-    case Kind::Stochastic:
-      return kernels.sample_one(texture.view(), filtering, footprint, out, count);
-    case Kind::Sat:
-      return sample_sums(texture.sums(), filtering, footprint, out, count);
-    case Kind::BySampler:
-    case Kind::Nearest:
-    case Kind::Bilinear:
-    case Kind::Trilinear:
-    case Kind::Probes:
-      assert(false && "a filter of FilteringKernels");
   }
 }
 

@@ -2,11 +2,39 @@
 #include "zoneplate/shade/texture/sample.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "zoneplate/shade/texture/area_filters.h"
 #include "zoneplate/shade/texture/filtering.h"
+#include "zoneplate/shade/texture/texture.h"
 
 namespace zoneplate {
+
+void sample_area(const Texture& texture, const SamplerState& filtering, const Footprint& footprint, float* const out[4],
+                 int count) {
+  using Kind = TextureFilter::Kind;
+  const AreaFilterKernels& kernels = AreaFilterKernels::of();
+  switch (filtering.kind) {
+    case Kind::CatmullRom:
+    case Kind::BSpline:
+    case Kind::Mitchell:
+      return kernels.sample_cubic(texture.view(), filtering, footprint, out, count);
+    case Kind::Ripmap:
+      return kernels.sample_ripmap(texture.ripmap(), filtering, footprint, out, count);
+    case Kind::Ewa:
+      return kernels.sample_ellipse(texture.view(), filtering, footprint, out, count);
+    case Kind::Stochastic:
+      return kernels.sample_one(texture.view(), filtering, footprint, out, count);
+    case Kind::Sat:
+      return sample_sums(texture.sums(), filtering, footprint, out, count);
+    case Kind::BySampler:
+    case Kind::Nearest:
+    case Kind::Bilinear:
+    case Kind::Trilinear:
+    case Kind::Probes:
+      assert(false && "a filter of FilteringKernels");
+  }
+}
 
 float4 sample(const Texture& texture, const Sampler& sampler, float2 uv, float2 dx, float2 dy) {
   return sample(texture, sampler, {}, uv, dx, dy);
