@@ -11,6 +11,7 @@
 #include <fstream>
 
 #include "zoneplate/base/paths_for_test.h"
+#include "zoneplate/formats/3mf/maker_for_test.h"
 #include "zoneplate/math/vec.h"
 #include "zoneplate/os/file.h"
 
@@ -63,6 +64,67 @@ std::string gltf(double3 at) {
       at.x, at.y, at.z, digits);
 }
 
+std::string ascii_stl(double3 at) {
+  std::string text = "solid pyramid\n";
+  for (const auto& f : faces) {
+    text += "facet normal 0 0 0\nouter loop\n";
+    for (const int i : f) {
+      const double3 c = at + corners[static_cast<std::size_t>(i)];
+      text += fmt::format("vertex {:.3f} {:.3f} {:.3f}\n", c.x, c.y, c.z);
+    }
+    text += "endloop\nendfacet\n";
+  }
+  return text + "endsolid\n";
+}
+
+std::string mesh_3mf(double3 at) {
+  std::string text = "<mesh><vertices>";
+  for (const double3 c : corners)
+    text += fmt::format(R"(<vertex x="{:.3f}" y="{:.3f}" z="{:.3f}"/>)", at.x + c.x, at.y + c.y, at.z + c.z);
+  text += "</vertices><triangles>";
+  for (const auto& f : faces) text += fmt::format(R"(<triangle v1="{}" v2="{}" v3="{}"/>)", f[0], f[1], f[2]);
+  return text + "</triangles></mesh>";
+}
+std::string moved_by(double3 at) {
+  return fmt::format(R"(transform="1 0 0 0 1 0 0 0 1 {:.3f} {:.3f} {:.3f}")", at.x, at.y, at.z);
+}
+std::string package_3mf(const std::string& objects, const std::string& build) {
+  const std::vector<std::uint8_t> bytes = maker_3mf::package(maker_3mf::model(objects, build));
+  return {bytes.begin(), bytes.end()};
+}
+std::string far_vertices_3mf(double3 at) { return package_3mf(maker_3mf::object(1, mesh_3mf(at)), maker_3mf::item(1)); }
+/// The item moves an assembly by one part, which moves its component by the rest.
+std::string far_transforms_3mf(double3 at) {
+  const double3 item{at.x + 0.25, at.y - 1000, 7}, component = at - item;
+  return package_3mf(maker_3mf::object(1, mesh_3mf({})) +
+                         maker_3mf::object(2, fmt::format("<components><component objectid=\"1\" {}/></components>",
+                                                          moved_by(component))),
+                     maker_3mf::item(2, moved_by(item)));
+}
+/// Vertices far from the origin of an object that is moved back to that of the scene.
+std::string moved_back_3mf(double3 at) {
+  return package_3mf(maker_3mf::object(1, mesh_3mf(at)), maker_3mf::item(1, moved_by(double3{} - at)));
+}
+
+std::string object_amf(double3 at) {
+  std::string text = "<object id=\"1\"><mesh><vertices>";
+  for (const double3 c : corners)
+    text += fmt::format("<vertex><coordinates><x>{:.3f}</x><y>{:.3f}</y><z>{:.3f}</z></coordinates></vertex>",
+                        at.x + c.x, at.y + c.y, at.z + c.z);
+  text += "</vertices><volume>";
+  for (const auto& f : faces)
+    text += fmt::format("<triangle><v1>{}</v1><v2>{}</v2><v3>{}</v3></triangle>", f[0], f[1], f[2]);
+  return text + "</volume></mesh></object>";
+}
+std::string far_vertices_amf(double3 at) { return "<amf>" + object_amf(at) + "</amf>"; }
+std::string far_transform_amf(double3 at) {
+  return "<amf>" + object_amf({}) +
+         fmt::format(
+             "<constellation id=\"2\"><instance objectid=\"1\"><deltax>{:.3f}</deltax><deltay>{:.3f}</deltay>"
+             "<deltaz>{:.3f}</deltaz></instance></constellation></amf>",
+             at.x, at.y, at.z);
+}
+
 class FarScenes : public testing::Test {
  protected:
   FarScenes() : place_(fs::temp_directory_path() / ("zoneplate_far_" + std::to_string(::getpid()))) {
@@ -102,7 +164,15 @@ TEST_F(FarScenes, LookAsNearTheOrigin) {
     std::string extension;
     std::string (*text)(double3);
   };
-  for (const Format& format : {Format{".ply", ascii_ply}, {".obj", obj}, {".gltf", gltf}}) {
+  for (const Format& format : {Format{".ply", ascii_ply},
+                               {".obj", obj},
+                               {".gltf", gltf},
+                               {".stl", ascii_stl},
+                               {".3mf", far_vertices_3mf},
+                               {".3mf", far_transforms_3mf},
+                               {".3mf", moved_back_3mf},
+                               {".amf", far_vertices_amf},
+                               {".amf", far_transform_amf}}) {
     write("near" + format.extension, format.text({}));
     for (const double3 at : places) {
       write("far" + format.extension, format.text(at));

@@ -255,6 +255,45 @@ TEST(Load3mf, UnitsBecomeMillimetres) {
   EXPECT_EQ(load(package(text)).bounds().high, (float3{11 * 25.4f, 10 * 25.4f, 30 * 25.4f}));
 }
 
+/// The vertices of a strip of 4 mm x 1 mm, 300 columns of two, after others; all of them are in triangles.
+std::string strip(double3 at, const std::string& others = "") {
+  std::string vertices = others, triangles;
+  const auto first = std::count(others.begin(), others.end(), '<');
+  for (int i = 0; i < 600; ++i)
+    vertices += fmt::format(R"(<vertex x="{:.3f}" y="{:.3f}" z="{:.3f}"/>)", at.x + i / 2 * 0.01, at.y + i % 2, at.z);
+  for (auto i = first; i + 2 < first + 600; ++i)
+    triangles += fmt::format(R"(<triangle v1="{}" v2="{}" v3="{}"/>)", i, i + 1, i + 2);
+  return "<mesh><vertices>" + vertices + "</vertices><triangles>" + triangles + "</triangles></mesh>";
+}
+
+TEST(Load3mf, VerticesFarFromTheOriginLoseNothing) {
+  const double3 at{500000.125, 5200000.25, 300.5};
+  for (const char* transform : {"", R"(transform="1 0 0 0 1 0 0 0 1 -500000.125 -5200000.25 -300.5")"}) {
+    const Scene s = load(package(model(object(1, strip(at)), item(1, transform))));
+    const double3 low = *transform == 0 ? at : double3{};
+    EXPECT_EQ(s.origin == double3{}, *transform != 0);
+    for (const int column : {0, 1, 150, 299}) {
+      const auto vertex = static_cast<std::size_t>(2 * column);
+      const double3 found = s.in_file(transform_point(s.instances[0].world_from_object, s.meshes[0].position[vertex]));
+      EXPECT_NEAR(found.x, low.x + column * 0.01, 1e-6);
+      EXPECT_NEAR(found.y, low.y, 1e-6);
+      EXPECT_NEAR(found.z, low.z, 1e-6);
+    }
+  }
+}
+
+TEST(Load3mf, APartNearTheOriginKeepsTheFloatsOfAnObject) {
+  const std::string near = R"(<vertex x="0" y="0" z="0"/>)";
+  const double3 at{5000.1, 0, 0};
+  for (const Bytes& file : {package(model(object(1, strip(at, near)), item(1))),
+                            package(model(object(1, strip(at, near)) + object(2, strip(at)), item(1) + item(2)))}) {
+    const Scene s = load(file);
+    EXPECT_EQ(s.origin, double3{});
+    EXPECT_EQ(s.instances[0].world_from_object, float4x4{});
+    EXPECT_EQ(s.meshes[0].position[1], (float3{5000.1f, 0, 0}));
+  }
+}
+
 TEST(Load3mf, AnObjectThatContainsItselfIsLeftOutByName) {
   const Bytes bytes = package(model(object(1, tower()) +
                                         object(2,

@@ -53,6 +53,22 @@ std::string no_property(std::uint32_t group, std::uint32_t index) {
   return fmt::format("property {} of group {} is not there: it is left out", index, group);
 }
 
+void forget_places(Object& object, ImportBudget& budget) {
+  budget.give_back(object.far.place.capacity() * sizeof(double3));
+  object.far = {};
+}
+
+/// Rounds the vertices of an object far from its own origin again, relative to its centre.
+void center_far(Object& object, ImportBudget& budget) {
+  const double3 centre = object.far.choice.origin();
+  if (centre != double3{}) {
+    for (std::size_t i = 0; i < object.position.size(); ++i)
+      object.position[i] = narrowed(object.far.place[i] - centre);
+    object.centre = centre;
+  }
+  forget_places(object, budget);
+}
+
 void drop_invalid(Object& object, std::uint32_t id, FlawList& flaws, ImportBudget& budget) {
   std::vector<std::uint32_t>& triangles = object.triangles;
   const std::size_t count = triangles.size() / 3;
@@ -87,8 +103,25 @@ void drop_invalid(Object& object, std::uint32_t id, FlawList& flaws, ImportBudge
 
 }  // namespace
 
-void model_3mf::drop_invalid_triangles(Model& model, FlawList& flaws, ImportBudget& budget) {
-  for (auto& [id, object] : model.objects) drop_invalid(object, id, flaws, budget);
+void model_3mf::append_vertex(Object& object, const std::array<std::string_view, 3>& coordinates, double unit,
+                              ImportBudget& budget) {
+  constexpr std::size_t vertices_per_decision = 256;
+  const auto& [x, y, z] = coordinates;
+  append_charged(object.position, float3{number_of(x), number_of(y), number_of(z)} * static_cast<float>(unit), budget);
+  FarPlaces& far = object.far;
+  if (far.is_near) return;
+  append_charged(far.place, double3{double_of(x) * unit, double_of(y) * unit, double_of(z) * unit}, budget);
+  far.choice.add(far.place.back());
+  if (far.place.size() % vertices_per_decision != 0 || !far.choice.is_near()) return;
+  forget_places(object, budget);
+  far.is_near = true;
+}
+
+void model_3mf::finish_objects(Model& model, FlawList& flaws, ImportBudget& budget) {
+  for (auto& [id, object] : model.objects) {
+    center_far(object, budget);
+    drop_invalid(object, id, flaws, budget);
+  }
 }
 
 std::string model_3mf::rest_is_left_out(std::uint32_t inner, const Object& outer) {
@@ -174,7 +207,7 @@ void ModelParser3mf::begin_material(const XmlElement& element) {
 void ModelParser3mf::begin_model(const XmlElement& element) {
   const std::string_view unit = element.find("unit").value_or("millimeter");
   if (const auto millimetres = find_unit(unit))
-    unit_ = *millimetres;
+    model_.unit = *millimetres;
   else
     flaws_.add(Flaw::Transform, [&] { return fmt::format("unit \"{}\" is none of 3MF, taken as millimeter", unit); });
   for (const std::string_view prefix : words_of(element.find("requiredextensions").value_or(""))) {
@@ -200,7 +233,7 @@ Placement ModelParser3mf::placement_of(const XmlElement& element) {
   budget_.take(out.path.size());
   const auto text = element.find("transform");
   if (!text) return out;
-  if (const auto matrix = find_matrix(*text, unit_))
+  if (const auto matrix = find_matrix(*text, model_.unit))
     out.to_from_object = *matrix;
   else
     flaws_.add(Flaw::Transform, [&] {
@@ -228,14 +261,13 @@ void ModelParser3mf::begin_object(const XmlElement& element) {
 
 void ModelParser3mf::add_vertex(const XmlElement& element) {
   if (object_ == nullptr) return;
-  float3 position{number_of(""), number_of(""), number_of("")};
+  std::array<std::string_view, 3> coordinates;
   for (const XmlAttribute& a : element.attributes) {
     if (a.name.local.size() != 1 || !a.name.space.empty()) continue;
     const char axis = a.name.local.front();
-    float* const value = axis == 'x' ? &position.x : axis == 'y' ? &position.y : axis == 'z' ? &position.z : nullptr;
-    if (value != nullptr) *value = number_of(a.value) * unit_;
+    if (axis >= 'x' && axis <= 'z') coordinates[static_cast<std::size_t>(axis - 'x')] = a.value;
   }
-  append_charged(object_->position, position, budget_);
+  append_vertex(*object_, coordinates, model_.unit, budget_);
 }
 
 void ModelParser3mf::add_triangle(const XmlElement& element) {

@@ -12,7 +12,8 @@
 
 #include "zoneplate/formats/3mf/flaws.h"
 #include "zoneplate/formats/xml/xml.h"
-#include "zoneplate/math/vec.h"
+#include "zoneplate/math/affine.h"
+#include "zoneplate/scene/geometry/origin.h"
 #include "zoneplate/scene/material.h"
 
 namespace zoneplate {
@@ -26,8 +27,8 @@ inline constexpr std::uint32_t none = 0xffffffff;
 /// What places an object: an item of the build or a component of another object.
 struct Placement {
   std::uint32_t object = none;
-  std::string path;         ///< of the model part that has the object; empty: the same part
-  float4x4 to_from_object;  ///< millimetres in both spaces
+  std::string path;       ///< of the model part that has the object; empty: the same part
+  Affine to_from_object;  ///< millimetres in both spaces
 };
 
 /// The properties of a triangle; those that are none are those of the object, and p2 and p3 are then p1.
@@ -36,13 +37,22 @@ struct TriangleProperty {
   std::array<std::uint32_t, 3> index{none, none, none};
 };
 
+/// The places of vertices, in millimetres, until so many are known that they are near their origin.
+struct FarPlaces {
+  std::vector<double3> place;
+  OriginChoice choice;
+  bool is_near = false;  ///< then no places are kept
+};
+
 /// An object, which has a mesh or components.
 struct Object {
   std::string name;
   bool is_other = false;  ///< of the type "other": not a part of what is built
   std::uint32_t group = none, index = none;
-  std::vector<float3> position;              ///< in millimetres
-  std::vector<std::uint32_t> triangles;      ///< three indices each; all are valid after drop_invalid_triangles
+  std::vector<float3> position;              ///< in millimetres, relative to `centre`
+  double3 centre;                            ///< in millimetres; 0 for an object near its own origin
+  FarPlaces far;                             ///< of the vertices so far; empty after finish_objects
+  std::vector<std::uint32_t> triangles;      ///< three indices each; all are valid after finish_objects
   std::vector<TriangleProperty> properties;  ///< one for each triangle, or none if no triangle has its own
   std::vector<Placement> components;
 };
@@ -69,15 +79,21 @@ struct Texture {
 /// A model part.
 struct Model {
   std::string part;  ///< its name, as part_name returns it
+  double unit = 1;   ///< millimetres
   std::map<std::uint32_t, Object> objects;
   std::map<std::uint32_t, PropertyGroup> groups;
   std::map<std::uint32_t, Texture> textures;
   std::vector<Placement> items;
 };
 
-/// Leaves out the triangles of all objects with a vertex that is not there or not finite, which are flaws. It is called
-/// once for each model, after its whole document.
-void drop_invalid_triangles(Model& model, FlawList& flaws, ImportBudget& budget);
+/// Appends a vertex; a coordinate whose text is no number is NaN.
+void append_vertex(Object& object, const std::array<std::string_view, 3>& coordinates, double unit,
+                   ImportBudget& budget);
+
+/// Makes the vertices of objects far from their own origins relative to their centres, and leaves out the triangles of
+/// all objects with a vertex that is not there or not finite, which are flaws. It is called once for each model, after
+/// its whole document.
+void finish_objects(Model& model, FlawList& flaws, ImportBudget& budget);
 
 /// What to say of an object inside another one, which ends there.
 std::string rest_is_left_out(std::uint32_t inner, const Object& outer);
@@ -96,7 +112,7 @@ class ModelParser3mf : public XmlHandler {
   void end(const XmlName& name) override;
   void declare(std::string_view prefix, std::string_view uri) override;
   /// Leaves out what is invalid, after the whole document.
-  void finish() { model_3mf::drop_invalid_triangles(model_, flaws_, budget_); }
+  void finish() { model_3mf::finish_objects(model_, flaws_, budget_); }
 
  private:
   using Object = model_3mf::Object;
@@ -135,7 +151,6 @@ class ModelParser3mf : public XmlHandler {
   model_3mf::Model& model_;
   FlawList& flaws_;
   ImportBudget& budget_;
-  float unit_ = 1;  ///< millimetres
   std::map<std::string, std::string, std::less<>> spaces_;
   Object* object_ = nullptr;
   PropertyGroup* group_ = nullptr;

@@ -9,6 +9,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/utf8.h"
 #include "zoneplate/formats/3mf/package.h"
+#include "zoneplate/scene/geometry/origin.h"
 
 namespace zoneplate {
 namespace {
@@ -82,6 +83,7 @@ std::vector<Placement> top_objects(const Model& model, ImportBudget& budget) {
 
 void ObjectPlacer::place_all(Model& root, const std::vector<Placement>& items) {
   for (const Placement& item : items) place(root, item, {}, 0);
+  center_far_scene(scene_, placed_);
 }
 
 ObjectPlacer::Target ObjectPlacer::find_target(Model& from, const Placement& placement) {
@@ -139,33 +141,40 @@ void ObjectPlacer::check_depth(const Object& object, int depth) const {
                                               printable(object.name), budget_.limits().node_depth));
 }
 
-void ObjectPlacer::place(Model& from, const Placement& placement, const float4x4& world_from_parent, int depth) {
+void ObjectPlacer::place(Model& from, const Placement& placement, const World& parent, int depth) {
   const Target target = find_target(from, placement);
   if (target.object == nullptr) return;
   Object& object = *target.object;
   check_depth(object, depth);
   if (depth == 0 && !has_triangles(*target.model, object, 0)) return;
-  const float4x4 world = world_from_parent * placement.to_from_object;
+  const World world{parent.from_object * narrowed(placement.to_from_object, {}),
+                    parent.from_object_far * placement.to_from_object};
   add_instances(*target.model, object, world);
   for (const Placement& component : object.components) place(*target.model, component, world, depth + 1);
 }
 
-void ObjectPlacer::add_instances(const Model& model, Object& object, const float4x4& world) {
+void ObjectPlacer::add_instances(const Model& model, Object& object, const World& world) {
   budget_.check_time();
   const std::vector<int>& meshes = meshes_.meshes_of(model, object);
   if (meshes.empty()) return;
-  if (!is_finite(world))
+  Affine placed = world.from_object_far;
+  placed.move = transform_point(placed, object.centre);
+  const bool is_centred = object.centre != double3{};
+  const float4x4 world_from_object = is_centred ? narrowed(placed, {}) : world.from_object;
+  if (!is_finite(world_from_object))
     return flaws_.add(Flaw::Transform,
                       [&] { return fmt::format("{}: its transforms overflow: it is left out", object.name); });
-  budget_.take(meshes.size() * 2 * sizeof(Instance) + 2 * sizeof(std::uint32_t));
+  budget_.take(meshes.size() * 2 * (sizeof(Instance) + sizeof(Affine)) + 2 * sizeof(std::uint32_t));
   const auto number = static_cast<int>(scene_.objects.size());
   const auto [first, is_new] = names_.try_emplace(&object, scene_.objects.size());
   if (is_new)
     budget_.take(object.name.size() + 128), scene_.objects.push_back(object.name);
   else
     scene_.objects.share(first->second);
-  for (std::size_t part = 0; part < meshes.size(); ++part)
-    scene_.instances.push_back({meshes[part], number, world, static_cast<int>(part)});
+  for (std::size_t part = 0; part < meshes.size(); ++part) {
+    scene_.instances.push_back({meshes[part], number, world_from_object, static_cast<int>(part)});
+    placed_.push_back(placed);
+  }
 }
 
 }  // namespace zoneplate

@@ -33,6 +33,8 @@ class ObjectPlacer {
 
   /// Places objects of a model. Those that are not there, or that contain themselves, are flaws.
   ///
+  /// A scene far from the origin gets its Scene::origin: it is called once.
+  ///
   /// Errors    ErrorKind::Input: components deeper than LoadLimits::node_depth, limits of the budget exceeded.
   void place_all(model_3mf::Model& root, const std::vector<model_3mf::Placement>& items);
 
@@ -48,17 +50,24 @@ class ObjectPlacer {
   };
   enum class Content { Open, Nothing, Triangles };
 
+  /// A product of transforms, in floats for scenes near the origin and in doubles for others.
+  struct World {
+    float4x4 from_object;
+    Affine from_object_far;
+  };
+
   Target find_target(Model& from, const Placement& placement);
   bool has_triangles(Model& model, Object& object, int depth);
   void check_depth(const Object& object, int depth) const;
-  void place(Model& from, const Placement& placement, const float4x4& world_from_parent, int depth);
-  void add_instances(const Model& model, Object& object, const float4x4& world);
+  void place(Model& from, const Placement& placement, const World& parent, int depth);
+  void add_instances(const Model& model, Object& object, const World& world);
 
   FindModel find_model_;
   ImportBudget& budget_;
   Scene& scene_;
   FlawList& flaws_;
   MeshMaker3mf meshes_;
+  std::vector<Affine> placed_;                  ///< world from object of each instance
   std::map<const Object*, Content> contents_;   ///< of has_triangles
   std::map<const Object*, std::size_t> names_;  ///< the first item of Scene::objects of an object
 };

@@ -23,10 +23,10 @@ std::string_view trimmed(std::string_view text) {
 
 }  // namespace
 
-std::optional<float> find_unit(std::string_view name) {
-  constexpr std::pair<std::string_view, float> units[] = {
-      {"millimeter", 1.0f}, {"micron", 0.001f}, {"centimeter", 10.0f}, {"inch", 25.4f},
-      {"foot", 304.8f},     {"feet", 304.8f},   {"meter", 1000.0f}};
+std::optional<double> find_unit(std::string_view name) {
+  constexpr std::pair<std::string_view, double> units[] = {{"millimeter", 1}, {"micron", 0.001}, {"centimeter", 10},
+                                                           {"inch", 25.4},    {"foot", 304.8},   {"feet", 304.8},
+                                                           {"meter", 1000}};
   for (const auto& [unit, millimetres] : units)
     if (name == unit) return millimetres;
   return std::nullopt;
@@ -34,6 +34,10 @@ std::optional<float> find_unit(std::string_view name) {
 
 float number_of(std::string_view text) {
   return find_number(trimmed(text)).value_or(std::numeric_limits<float>::quiet_NaN());
+}
+
+double double_of(std::string_view text) {
+  return find_double(trimmed(text)).value_or(std::numeric_limits<double>::quiet_NaN());
 }
 
 std::uint32_t index_of(std::string_view text) {
@@ -68,15 +72,15 @@ std::optional<float4> find_hex_color(std::string_view text) {
                 static_cast<float>(color->a) / 255};
 }
 
-std::optional<float4x4> find_matrix(std::string_view text, float unit) {
+std::optional<Affine> find_matrix(std::string_view text, double unit) {
   const std::vector<std::string_view> words = words_of(text);
   if (words.size() != 12) return std::nullopt;
-  float4x4 matrix;
-  for (std::size_t row = 0; row < 4; ++row) {
-    const float scale = row == 3 ? unit : 1.0f;
-    const float3 v{number_of(words[3 * row]), number_of(words[3 * row + 1]), number_of(words[3 * row + 2])};
-    if (!is_finite(v * scale)) return std::nullopt;
-    matrix.column[row] = {v.x * scale, v.y * scale, v.z * scale, row == 3 ? 1.0f : 0.0f};
+  Affine matrix;
+  std::size_t word = 0;
+  for (double3* const v : {&matrix.x, &matrix.y, &matrix.z, &matrix.move}) {
+    const double scale = v == &matrix.move ? unit : 1;
+    for (double* const value : {&v->x, &v->y, &v->z}) *value = double_of(words[word++]) * scale;
+    if (!is_finite(narrowed(*v))) return std::nullopt;
   }
   return matrix;
 }

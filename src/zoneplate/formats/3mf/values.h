@@ -7,15 +7,16 @@
 #include <vector>
 
 #include "zoneplate/formats/xml/xml.h"
-#include "zoneplate/math/vec.h"
+#include "zoneplate/math/affine.h"
 
 namespace zoneplate {
 
 /// Millimetres of a unit of 3MF and AMF; nothing for another word.
-std::optional<float> find_unit(std::string_view name);
+std::optional<double> find_unit(std::string_view name);
 
 /// A number; NaN if the text is none.
 float number_of(std::string_view text);
+double double_of(std::string_view text);
 
 /// A whole number below 2^32 - 1; 2^32 - 1 if the text is none.
 std::uint32_t index_of(std::string_view text);
@@ -29,7 +30,7 @@ std::vector<std::string_view> words_of(std::string_view list);
 std::optional<float4> find_hex_color(std::string_view text);
 
 /// The matrix of twelve numbers, which multiply row vectors, row by row; nothing for another text, or if one of them is
-/// not finite. `unit` scales the translation.
-std::optional<float4x4> find_matrix(std::string_view text, float unit);
+/// a finite float. `unit` scales the translation.
+std::optional<Affine> find_matrix(std::string_view text, double unit);
 
 }  // namespace zoneplate

@@ -30,19 +30,11 @@ SineCosine of_degrees(double degrees) {
 }
 
 /// Rotations about x, then y, then z.
-float4x4 rotation(float3 degrees) {
-  struct Turn {
-    float sine, cosine;
-    explicit Turn(float angle) {
-      const SineCosine t = of_degrees(angle);
-      sine = static_cast<float>(t.sine), cosine = static_cast<float>(t.cosine);
-    }
-  };
-  const Turn x(degrees.x), y(degrees.y), z(degrees.z);
-  const float4 last{0, 0, 0, 1};
-  const float4x4 about_x{{float4{1, 0, 0, 0}, float4{0, x.cosine, x.sine, 0}, float4{0, -x.sine, x.cosine, 0}, last}};
-  const float4x4 about_y{{float4{y.cosine, 0, -y.sine, 0}, float4{0, 1, 0, 0}, float4{y.sine, 0, y.cosine, 0}, last}};
-  const float4x4 about_z{{float4{z.cosine, z.sine, 0, 0}, float4{-z.sine, z.cosine, 0, 0}, float4{0, 0, 1, 0}, last}};
+Affine rotation(double3 degrees) {
+  const SineCosine x = of_degrees(degrees.x), y = of_degrees(degrees.y), z = of_degrees(degrees.z);
+  const Affine about_x{.x = {1, 0, 0}, .y = {0, x.cosine, x.sine}, .z = {0, -x.sine, x.cosine}, .move = {}};
+  const Affine about_y{.x = {y.cosine, 0, -y.sine}, .y = {0, 1, 0}, .z = {y.sine, 0, y.cosine}, .move = {}};
+  const Affine about_z{.x = {z.cosine, z.sine, 0}, .y = {-z.sine, z.cosine, 0}, .z = {0, 0, 1}, .move = {}};
   return about_z * about_y * about_x;
 }
 
@@ -62,7 +54,7 @@ void AmfParser::begin(const XmlElement& element) {
   text_.clear();
   if (name == "vertex") {
     owners_.push_back(Owner::Vertex);
-    vertex_ = {number_of(""), number_of(""), number_of("")};
+    for (std::string& coordinate : vertex_) coordinate.clear();
     vertex_color_ = none;
   } else if (name == "triangle") {
     owners_.push_back(Owner::Triangle);
@@ -91,7 +83,7 @@ void AmfParser::begin(const XmlElement& element) {
   } else if (name == "amf") {
     const std::string_view unit = element.find("unit").value_or("millimeter");
     if (const auto millimetres = find_unit(unit))
-      unit_ = *millimetres;
+      model_.unit = *millimetres;
     else
       flaws_.add(Flaw::Transform, [&] { return fmt::format("unit \"{}\" is none of AMF, taken as millimeter", unit); });
   }
@@ -119,8 +111,13 @@ void AmfParser::set_value(std::string_view name) {
   const auto at = [&](std::string_view names) {
     return name.size() == 1 ? names.find(name[0]) : std::string_view::npos;
   };
-  const auto set_axis = [&](float3& v, char axis) { (axis == 'x' ? v.x : axis == 'y' ? v.y : v.z) = number_of(text_); };
-  if (at("xyz") != std::string_view::npos) return set_axis(vertex_, name[0]);
+  const auto set_axis = [&](double3& v, char axis) {
+    (axis == 'x' ? v.x : axis == 'y' ? v.y : v.z) = double_of(text_);
+  };
+  if (const std::size_t axis = at("xyz"); axis != std::string_view::npos) {
+    vertex_[axis] = text_;
+    return;
+  }
   if (const std::size_t channel = at("rgba"); channel != std::string_view::npos) {
     const float value = number_of(text_);
     if (!(value == value))
@@ -175,7 +172,7 @@ void AmfParser::end_owner(Owner owner) {
   if (!owners_.empty()) owners_.pop_back();
   if (object_ == nullptr) return;
   if (owner == Owner::Vertex) {
-    append_charged(object_->position, vertex_ * unit_, budget_);
+    append_vertex(*object_, {vertex_[0], vertex_[1], vertex_[2]}, model_.unit, budget_);
     if (vertex_color_ == none && vertex_colors_.empty()) return;
     while (vertex_colors_.size() + 1 < object_->position.size()) append_charged(vertex_colors_, none, budget_);
     append_charged(vertex_colors_, vertex_color_, budget_);
@@ -227,11 +224,10 @@ void AmfParser::add_triangle() {
 
 void AmfParser::add_instance() {
   if (object_ == nullptr) return;
-  float4x4 moved;
-  moved.column[3] = {shift_.x * unit_, shift_.y * unit_, shift_.z * unit_, 1};
-  constexpr float most_degrees = 1e6f;
+  const Affine moved{.move = {shift_.x * model_.unit, shift_.y * model_.unit, shift_.z * model_.unit}};
+  constexpr double most_degrees = 1e6;
   const bool is_valid = std::abs(turn_.x) <= most_degrees && std::abs(turn_.y) <= most_degrees &&
-                        std::abs(turn_.z) <= most_degrees && is_finite(xyz(moved.column[3]));
+                        std::abs(turn_.z) <= most_degrees && is_finite(narrowed(moved.move));
   if (is_valid)
     instance_.to_from_object = moved * rotation(turn_);
   else
@@ -243,7 +239,7 @@ void AmfParser::add_instance() {
 }
 
 void AmfParser::finish() {
-  drop_invalid_triangles(model_, flaws_, budget_);
+  finish_objects(model_, flaws_, budget_);
   for (const auto& [material, color] : color_below_) {
     const auto found = material == none ? material_of_id_.end() : material_of_id_.find(material);
     colors_.color[color] =

@@ -47,7 +47,6 @@ class AmfParser : public XmlHandler {
   model_3mf::PropertyGroup& materials_;  ///< those that have a colour
   std::map<std::uint32_t, std::uint32_t> material_of_id_;
   std::map<std::uint32_t, std::uint32_t> color_below_;  ///< the number in colors_ of a material's colour
-  float unit_ = 1;                                      ///< millimetres
 
   std::vector<Owner> owners_;
   std::string text_;              ///< of the innermost element
@@ -59,11 +58,11 @@ class AmfParser : public XmlHandler {
   std::uint32_t object_color_ = model_3mf::none, volume_color_ = model_3mf::none, volume_material_ = model_3mf::none;
   std::uint32_t triangle_color_ = model_3mf::none, vertex_color_ = model_3mf::none;
   std::string material_name_;
-  float3 vertex_;
+  std::array<std::string, 3> vertex_;  ///< the texts of its coordinates
   std::array<std::uint32_t, 3> corner_{};
   std::vector<std::uint32_t> vertex_colors_;  ///< of the object; empty if no vertex has one
   model_3mf::Placement instance_;
-  float3 shift_, turn_;  ///< of the instance; degrees about x, then y, then z
+  double3 shift_, turn_;  ///< of the instance; degrees about x, then y, then z
 };
 
 }  // namespace zoneplate

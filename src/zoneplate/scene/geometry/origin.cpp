@@ -48,24 +48,30 @@ double3 center_far_mesh(Mesh& mesh) {
 }
 
 void center_far_scene(Scene& scene) {
+  std::vector<Affine> placed;
+  placed.reserve(scene.instances.size());
+  for (const Instance& instance : scene.instances) placed.push_back(widened(instance.world_from_object));
+  center_far_scene(scene, placed);
+}
+
+void center_far_scene(Scene& scene, std::span<Affine> placed) {
   OriginChoice choice;
-  for (const Instance& instance : scene.instances) {
+  for (std::size_t n = 0; n < placed.size(); ++n) {
     if (choice.is_near()) return;
-    const Affine placed = widened(instance.world_from_object);
-    const std::vector<float3>& positions = scene.meshes[static_cast<std::size_t>(instance.mesh)].position;
+    const std::vector<float3>& positions = scene.meshes[static_cast<std::size_t>(scene.instances[n].mesh)].position;
     constexpr std::size_t block = 256;
     for (std::size_t i = 0; i < positions.size() && (i % block != 0 || !choice.is_near()); ++i)
-      choice.add(transform_point(placed, widened(positions[i])));
+      choice.add(transform_point(placed[n], widened(positions[i])));
   }
   scene.origin = choice.origin();
   if (scene.origin == double3{}) return;
 
   std::vector<double3> centres;
   for (Mesh& mesh : scene.meshes) centres.push_back(center_far_mesh(mesh));
-  for (Instance& instance : scene.instances) {
-    Affine placed = widened(instance.world_from_object);
-    placed.move = transform_point(placed, centres[static_cast<std::size_t>(instance.mesh)]);
-    instance.world_from_object = narrowed(placed, scene.origin);
+  for (std::size_t n = 0; n < placed.size(); ++n) {
+    Instance& instance = scene.instances[n];
+    placed[n].move = transform_point(placed[n], centres[static_cast<std::size_t>(instance.mesh)]);
+    instance.world_from_object = narrowed(placed[n], scene.origin);
   }
   for (Light& light : scene.lights)
     if (!light.is_in_camera_space) light.position = narrowed(widened(light.position) - scene.origin);

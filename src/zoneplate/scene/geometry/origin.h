@@ -55,5 +55,8 @@ double3 center_far_mesh(Mesh& mesh);
 /// Sets Scene::origin of a scene whose world has been the file's coordinates, in floats: of files that hold floats.
 /// Meshes, instances, lights and cameras become relative to it.
 void center_far_scene(Scene& scene);
+/// The same for a scene whose instances a reader has placed in doubles: `placed` has world from object of each, of
+/// which a near scene keeps the floats that it has.
+void center_far_scene(Scene& scene, std::span<Affine> placed);
 
 }  // namespace zoneplate

@@ -121,5 +121,23 @@ TEST(CenterFarScene, LeavesNearScenesAsTheyAre) {
   EXPECT_EQ(after.cameras[0].world_from_camera, before.cameras[0].world_from_camera);
 }
 
+TEST(CenterFarScene, TransformsOfDoublesLoseNothing) {
+  Scene scene = placed({0, 0, 0});
+  const std::vector<Instance> near = scene.instances;
+  std::vector<Affine> transforms = {widened(near[0].world_from_object), widened(near[1].world_from_object)};
+  for (Affine& t : transforms) t.move = t.move + double3{0.1, 0.2, 0.3};  // no floats
+  center_far_scene(scene, transforms);
+  EXPECT_EQ(scene.origin, double3{});
+  EXPECT_EQ(scene.instances[0].world_from_object, near[0].world_from_object);
+
+  const double3 far{500000.125, 5200000.25, 300.5};
+  for (Affine& t : transforms) t.move = t.move + far;
+  const Affine exact = transforms[1];
+  center_far_scene(scene, transforms);
+  EXPECT_LT(greatest(scene.origin - far), 4);
+  const double3 found = scene.in_file(transform_point(scene.instances[1].world_from_object, float3{0, 1, 0.25f}));
+  EXPECT_LT(greatest(found - transform_point(exact, {0, 1, 0.25})), 1e-6);
+}
+
 }  // namespace
 }  // namespace zoneplate
