@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Options of render that change files, materials and lights; configuration, dry runs, completions. Runs the built
 // program.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -184,12 +185,34 @@ TEST_F(Options, AContactSheetReportsItsModels) {
 
 TEST_F(Options, LightsOfAFileCanBeReplacedOrJoined) {
   write("bright.gltf", bright_gltf);
-  const ProgramAnswer answer = run("bright.gltf -o a.png --size 64");
+  const ProgramAnswer answer = run("bright.gltf -o a.png --size 64 --lights file");
   EXPECT_TRUE(contains(answer.out, " % of the surfaces are clipped to white; see --exposure auto")) << answer.out;
   EXPECT_EQ(middle(image("a.png")), (Rgba8{255, 255, 255, 255}));
   EXPECT_LT(middle(rendered("bright.gltf --lights default")).r, 255);
   EXPECT_EQ(middle(rendered("bright.gltf --lights both")), (Rgba8{255, 255, 255, 255}));
   EXPECT_EQ(middle(rendered("bright.gltf --lights default --environment black")), (Rgba8{0, 0, 0, 255}));
+}
+
+TEST_F(Options, LightsThatWouldClipASceneToWhiteAreDimmed) {
+  write("bright.gltf", bright_gltf);
+  const ProgramAnswer answer = run("bright.gltf -o a.png --size 64");
+  EXPECT_TRUE(contains(answer.out, "its lights would clip 100 % of the surfaces to white and are dimmed"))
+      << answer.out;
+  EXPECT_FALSE(contains(answer.out, "are clipped")) << answer.out;
+  const Rgba8 still = middle(image("a.png"));
+  EXPECT_GT(still.r, 200);
+  EXPECT_LT(still.r, 255);
+  // All frames of a sequence, and a contact sheet, have the same light.
+  ASSERT_EQ(run("bright.gltf -o t.##.png --size 64 --turntable 8 --frame-start 1 --frames 1").code, 0);
+  EXPECT_GT(middle(image("t.01.png")).r, 100);
+  EXPECT_LT(middle(image("t.01.png")).r, 255);
+  ASSERT_EQ(run("contact-sheet bright.gltf -o sheet.png --size 64").code, 0);
+  const Rgba8Image sheet = image("sheet.png");
+  EXPECT_TRUE(std::ranges::find(sheet.values(), still) != sheet.values().end());
+  // Options of brightness and linear images keep the file's units.
+  for (const char* options : {"--exposure 0", "--light-intensity 1"})
+    EXPECT_EQ(middle(rendered(fmt::format("bright.gltf {}", options))), (Rgba8{255, 255, 255, 255})) << options;
+  EXPECT_FALSE(contains(run("bright.gltf -o a.exr --size 64").out, "dimmed"));
 }
 
 TEST_F(Options, AutomaticExposureFitsTheBrightSurfaces) {

@@ -42,10 +42,9 @@ constexpr const char* notes =
     "Light: a scene without lights gets a studio made in code, which turns with the camera: soft boxes, which metals\n"
     "reflect, and a key light, displayed by the Neutral tone curve. (Blinn-)Phong materials get a key, a fill and a\n"
     "back light instead. --hdri-file and --environment replace them. A glTF file with lights of its own has\n"
-    "the studio's environment at 0.15 without these options, so that nothing is black; --lights file is its light "
-    "alone,\n"
-    "--lights default ignores its lights, --lights both adds the studio, and --exposure auto adapts to lights of any\n"
-    "strength.\n"
+    "the studio's environment at 0.15 without these options, so that nothing is black, and is dimmed if it would be\n"
+    "white; --lights file is its light alone, --lights default ignores its lights, --lights both adds the studio, and\n"
+    "--exposure auto adapts to lights of any strength.\n"
     "\n"
     "Sequences: frame F has the time F / rate seconds of the animation. OUT contains the frame number, as\n"
     "chair.####.png, chair.@@@@.png, chair.$F4.png, chair%04d.png or chair_{frame:04}.png, or is a video. GIF, MP4 and "
@@ -342,6 +341,7 @@ std::vector<Option> picture_options(RenderArgs& a) {
        group, false,
        [&](auto& text) {
          a.meters_exposure = text == "auto";
+         a.has_own_brightness = true;
          a.display.exposure = a.meters_exposure ? 1 : exp2(static_cast<float>(parse_number(text, -32, 32)));
        },
        Choices{"auto"}},
@@ -443,7 +443,10 @@ std::vector<Option> scene_options(RenderArgs& a) {
                       a.lighting.source = sources[i];
                     }),
       {"--light-intensity", "FACTOR", "Factor of all lights; default 1", group, false,
-       [&](auto& text) { a.lighting.intensity = static_cast<float>(parse_number(text, 0, 1e6)); }},
+       [&](auto& text) {
+         a.lighting.intensity = static_cast<float>(parse_number(text, 0, 1e6));
+         a.has_own_brightness = true;
+       }},
       {"--environment", "COLOR",
        "Constant environment light of this colour, instead of the default lights; or studio: the boxes of the default "
        "light, also for files with lights of their own",

@@ -84,6 +84,8 @@ struct RenderArgs {
   DisplayOptions display;                   ///< `mapping` is set from `tone_mapping`, by the scene's light
   std::optional<ToneMapping> tone_mapping;  ///< none: that of the light, see Lighting
   bool meters_exposure = false;             ///< --exposure auto: `display.exposure` is set by metered_exposure
+  bool has_own_brightness = false;          ///< --exposure or --light-intensity is given
+  float light_dimming = 1;                  ///< of the lights of a file; set by set_light_dimming
   std::optional<float4> background;         ///< sRGB code; none: the scene's own or the usual one
   float background_blur = 0;
   View view;

@@ -71,6 +71,8 @@ std::vector<std::uint8_t> render_cell(RenderArgs render, ItemSender& sender) {
   const Camera camera = choose_own_camera(render, scene);
   render.display.mapping = set_look(render, scene);
   Renderer renderer(PreparedScene(std::move(scene)), upscale::make_method(render.method));
+  set_light_dimming(render, renderer.scene(), camera, "");
+  renderer.set_scene(dimmed(render, renderer.scene()));
   if (render.meters_exposure) render.display.exposure = metered_exposure(renderer.scene(), camera, render);
   const Rgba8Image picture = renderer.render_still(camera, settings_of(render, "")).display;
   const auto* first = reinterpret_cast<const std::uint8_t*>(picture.values().data());

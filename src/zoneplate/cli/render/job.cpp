@@ -73,10 +73,14 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   out.progress("render", 0.1);
   check_passes(args, request_of(args, *method));
   RenderedImage image;
+  const Lighting lighting = make_lighting(scene, args.lighting);
+  args.display.mapping = args.tone_mapping.value_or(lighting.tone_mapping);
+  PreparedScene lit = scene_->lit(lighting);
+  if (std::string warning = set_light_dimming(args, lit, camera, args.named_output()); !warning.empty())
+    summary.warnings.push_back(std::move(warning));
+  lit = dimmed(args, std::move(lit));
   {
-    const Lighting lighting = make_lighting(scene, args.lighting);
-    args.display.mapping = args.tone_mapping.value_or(lighting.tone_mapping);
-    Renderer renderer(scene_->lit(lighting), std::move(method));
+    Renderer renderer(lit, std::move(method));
     if (args.meters_exposure) args.display.exposure = metered_exposure(renderer.scene(), camera, args);
     RenderSettings settings = settings_of(args, args.named_output());
     settings.options.progress = out.progress_of("render", 0.1, 0.9);
@@ -84,7 +88,7 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   }
   summary.exposure = args.display.exposure;
   const Rendered picture = finish_picture(args, std::move(image), scene, camera, args.named_output(), summary);
-  const auto metered = [&] { return metered_exposure(scene_->lit(make_lighting(scene, args.lighting)), camera, args); };
+  const auto metered = [&] { return metered_exposure(lit, camera, args); };
   if (std::string warning = clipping(args, picture, metered); !warning.empty())
     summary.warnings.push_back(std::move(warning));
   if (summary.counts.triangles_set_up == 0) summary.warnings.push_back(emptiness(args, summary.counts));

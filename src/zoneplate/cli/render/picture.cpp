@@ -180,7 +180,10 @@ RenderSettings settings_of(const RenderArgs& args, const std::string& output) {
   return settings;
 }
 
-float metered_exposure(const PreparedScene& scene, const Camera& camera, const RenderArgs& args) {
+namespace {
+
+/// The image that exposures are metered in.
+LinearImage metered_image(const PreparedScene& scene, const Camera& camera, const RenderArgs& args) {
   constexpr int most_side = 256;
   RenderSettings settings{.options = args.options, .form = ImageForm::Linear};
   RenderOptions& options = settings.options;
@@ -192,7 +195,50 @@ float metered_exposure(const PreparedScene& scene, const Camera& camera, const R
     options.height = std::max(1, options.height * most_side / longest);
   }
   Renderer renderer(scene, make_resolver(antialias::methods(), "none"));
-  return auto_exposure(renderer.render(camera, settings).linear);
+  return renderer.render(camera, settings).linear;
+}
+
+// At the metered exposure, the brightest surfaces' channel is metered_white. An image is clipped if it is well above
+// white, and if at least the part least_white of its surfaces is white.
+constexpr float metered_white = 0.8f, most_light = 1.25f;
+constexpr double least_white = 0.25;
+
+bool is_well_above_white(float exposure, float metered) { return exposure * metered_white > most_light * metered; }
+
+}  // namespace
+
+float metered_exposure(const PreparedScene& scene, const Camera& camera, const RenderArgs& args) {
+  return auto_exposure(metered_image(scene, camera, args));
+}
+
+std::string set_light_dimming(RenderArgs& args, const PreparedScene& scene, const Camera& camera,
+                              const std::string& output) {
+  args.light_dimming = 1;
+  const bool is_usual = args.lighting.source == LightSource::Scene && !args.lighting.environment &&
+                        !args.has_own_brightness && !is_linear(output);
+  if (!is_usual || !scene.scene().needs_fill_light) return {};
+  const LinearImage image = metered_image(scene, camera, args);
+  std::size_t surfaces = 0, white = 0;
+  for (const Linear& c : image.values()) {
+    if (c.a < 0.5f) continue;
+    ++surfaces;
+    white += std::min({c.r, c.g, c.b}) >= c.a;
+  }
+  const double part = static_cast<double>(white) / static_cast<double>(std::max<std::size_t>(surfaces, 1));
+  const float metered = auto_exposure(image);
+  if (part < least_white || !is_well_above_white(1, metered)) return {};
+  args.light_dimming = metered;
+  return fmt::format(
+      "{}: its lights would clip {:.0f} % of the surfaces to white and are dimmed to {:.2g} of their intensity; see "
+      "--light-intensity, --exposure and --lights",
+      args.input, 100 * part, metered);
+}
+
+PreparedScene dimmed(const RenderArgs& args, PreparedScene scene) {
+  if (args.light_dimming == 1) return scene;
+  Lighting lighting = scene.lighting();
+  for (Light& light : lighting.lights) light.intensity *= args.light_dimming;
+  return scene.lit(std::move(lighting));
 }
 
 Rendered finish_picture(const RenderArgs& args, RenderedImage image, const Scene& scene, const Camera& camera,
@@ -233,8 +279,6 @@ std::vector<std::uint8_t> encode_picture(const Rendered& picture, const std::str
 }
 
 std::string clipping(const RenderArgs& args, const Rendered& picture, const std::function<float()>& metered) {
-  constexpr double least = 0.25;
-  constexpr float metered_white = 0.8f, most_light = 1.25f;  // the brightest surfaces' channel at the metered exposure
   const float4 b = background_of(args);
   const auto code = [](float x) { return static_cast<std::uint8_t>(x * 255 + 0.5f); };
   const Rgba8 background{code(b.x), code(b.y), code(b.z), code(b.w)};
@@ -245,7 +289,7 @@ std::string clipping(const RenderArgs& args, const Rendered& picture, const std:
     white += c.r == 255 && c.g == 255 && c.b == 255;
   }
   const double part = static_cast<double>(white) / static_cast<double>(std::max<std::size_t>(surfaces, 1));
-  if (part < least || args.display.exposure * metered_white <= most_light * metered()) return {};
+  if (part < least_white || !is_well_above_white(args.display.exposure, metered())) return {};
   return fmt::format(
       "{}: {:.0f} % of the surfaces are clipped to white; see --exposure auto, --lights and "
       "--tone-mapping",

@@ -74,6 +74,15 @@ RenderSettings settings_of(const RenderArgs& args, const std::string& output);
 /// with one sample per pixel, of the whole view.
 float metered_exposure(const PreparedScene& scene, const Camera& camera, const RenderArgs& args);
 
+/// Sets `args.light_dimming`: where the lights of a file would clip a quarter of the surfaces or more to white, the
+/// factor that brings them to the brightness of --exposure auto; 1 for others, where options choose the lights or the
+/// brightness, and for linear images. Returns the warning about it; empty for a factor of 1.
+std::string set_light_dimming(RenderArgs& args, const PreparedScene& scene, const Camera& camera,
+                              const std::string& output);
+
+/// The scene under its lights, dimmed by `args.light_dimming`.
+PreparedScene dimmed(const RenderArgs& args, PreparedScene scene);
+
 /// Converts a rendered image of `scene` by `camera` to the formats of the output's extension, with its data passes. Its
 /// counts, times and size are stored in `summary`. `frame` is its number in a sequence.
 Rendered finish_picture(const RenderArgs& args, RenderedImage image, const Scene& scene, const Camera& camera,

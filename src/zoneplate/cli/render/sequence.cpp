@@ -130,6 +130,7 @@ Rendered render_frame(const RenderArgs& args, Sequence& sequence, int frame, con
         samples,
         [&](int i) {
           SceneView view = sequence.view(shutter_time(frame, open, i, samples, args.sequence.shutter_filter));
+          view.scene = dimmed(args, std::move(view.scene));
           if (i == 0) camera = view.camera;
           return view;
         },
@@ -138,7 +139,7 @@ Rendered render_frame(const RenderArgs& args, Sequence& sequence, int frame, con
     if (settings.planes.motion) settings.options.last = sequence.moment(frame - args.sequence.jump);
     if (settings.planes.flow) settings.options.next = sequence.moment(frame + args.sequence.jump);
     SceneView view = sequence.view(frame);
-    renderer.set_scene(std::move(view.scene));
+    renderer.set_scene(dimmed(args, std::move(view.scene)));
     camera = view.camera;
     image = renderer.render(camera, settings);
   }
@@ -164,7 +165,7 @@ void warm_up(const RenderArgs& args, Sequence& sequence, int first, Renderer& re
   const RenderSettings settings = settings_of(args, args.output);
   for (int i = args.sequence.warm_up; i > 0; --i) {
     SceneView view = sequence.view(first - i * args.sequence.jump);
-    renderer.set_scene(std::move(view.scene));
+    renderer.set_scene(dimmed(args, std::move(view.scene)));
     renderer.render(view.camera, settings);
   }
 }
@@ -226,12 +227,14 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
   if (!is_numbered && !args.aovs.empty())
     throw Error(ErrorKind::Usage, "--aov requires numbered frames, as chair.####.png");
   sequence.set_view(args.view, aspect);
-  if (args.meters_exposure) {
+  summary.warnings = sequence.scene(plan.frames().front()).scene().warnings;
+  if (args.meters_exposure || renderer.scene().scene().needs_fill_light) {
     const SceneView start = sequence.view(0);
-    args.display.exposure = metered_exposure(start.scene, start.camera, args);
+    if (std::string warning = set_light_dimming(args, start.scene, start.camera, args.output); !warning.empty())
+      summary.warnings.push_back(std::move(warning));
+    if (args.meters_exposure) args.display.exposure = metered_exposure(start.scene, start.camera, args);
   }
   summary.exposure = args.display.exposure;
-  summary.warnings = sequence.scene(plan.frames().front()).scene().warnings;
   summary.warnings.insert(summary.warnings.end(), plan.notes().begin(), plan.notes().end());
   if (!is_numbered && plan.frames().size() == 1 && !is_one_frame(args.sequence))
     summary.warnings.push_back(
@@ -264,7 +267,7 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
     if (frame == plan.frames().front()) {
       const auto metered = [&] {
         const SceneView view = sequence.view(frame);
-        return metered_exposure(view.scene, view.camera, args);
+        return metered_exposure(dimmed(args, view.scene), view.camera, args);
       };
       if (std::string warning = clipping(args, picture, metered); !warning.empty())
         summary.warnings.push_back(std::move(warning));
