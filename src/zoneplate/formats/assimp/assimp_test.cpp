@@ -206,6 +206,9 @@ TEST(Assimp, ModelsOfColladaWithoutHighlightsHaveNone) {
   const Material lambert = material_of("<lambert><diffuse><color>.8 .2 .2 1</color></diffuse></lambert>");
   EXPECT_EQ(lambert.specular, (float3{0, 0, 0}));
   EXPECT_EQ(lambert.base_color.x, decode_srgb(0.8f));
+  const std::string red = "<phong><diffuse><color>.8 .2 .2 1</color></diffuse>";
+  EXPECT_EQ(material_of(red + "</phong>").specular, (float3{0, 0, 0}));
+  EXPECT_NE(material_of(red + "<specular><color>.5 .5 .5 1</color></specular></phong>").specular, (float3{0, 0, 0}));
   const Material constant = material_of("<constant><emission><color>.2 .8 .2 1</color></emission></constant>");
   EXPECT_EQ(constant.model, ShadingModel::Unlit);
   EXPECT_EQ(constant.base_color.y, decode_srgb(0.8f));

@@ -112,10 +112,13 @@ MtlTexture find_texture(const aiMaterial& m, std::initializer_list<aiTextureType
 }
 
 /// Applies the shading models of COLLADA's common profile: <constant> is its emission alone, and <lambert>, which
-/// assimp names Gouraud, has no highlights.
+/// assimp names Gouraud, has no highlights. Nor has a material that states none, to which assimp gives its own.
 void set_collada_model(const aiMaterial& m, MtlMaterial& out) {
+  constexpr float3 specular_of_assimp{0.4f, 0.4f, 0.4f};
+  constexpr float exponent_of_assimp = 10;
   const std::optional<int> model = find_whole(m, "$mat.shadingm");
-  if (model == int{aiShadingMode_Gouraud}) out.illumination = 1;
+  const bool states_none = out.specular == specular_of_assimp && out.exponent == exponent_of_assimp;
+  if (model == int{aiShadingMode_Gouraud} || states_none) out.illumination = 1;
   if (model != int{aiShadingMode_NoShading}) return;
   out.illumination = 0;
   out.diffuse = std::exchange(out.emissive, std::nullopt);

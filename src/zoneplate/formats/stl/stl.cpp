@@ -62,6 +62,7 @@ class FacetColor {
 
   bool is_own(std::uint32_t attribute) const { return (attribute >> 15 != 0) != is_magics_; }
   bool colors_all() const { return is_magics_; }
+  float4 of_all() const { return whole_; }  ///< that of the header, if `colors_all`
   float4 operator()(std::uint32_t attribute) const {
     if (!is_own(attribute)) return whole_;
     const float low = linear_[attribute & 31], middle = linear_[attribute >> 5 & 31],
@@ -93,7 +94,7 @@ Mesh read_facets(Bytes bytes, std::uint64_t count, ImportBudget& budget) {
   budget.take(count * 3 * (2 * sizeof(float3) + sizeof(std::uint32_t)));
   Mesh mesh = make_triangles(count);
   const FacetColor color(bytes.first(header_bytes));
-  std::atomic<bool> is_colored = color.colors_all();
+  std::atomic<bool> is_colored = color.colors_all(), has_attributes = false;
   parallel_ranges(count, block, [&](std::size_t begin, std::size_t end) {
     if (!budget.has_time()) return;
     std::uint32_t any = 0;
@@ -107,14 +108,18 @@ Mesh read_facets(Bytes bytes, std::uint64_t count, ImportBudget& budget) {
     FlatNormalKernels::of().make(facets + begin * facet_bytes + corners_at, facet_bytes, end - begin,
                                  &mesh.normal[3 * begin].x);
     if (color.is_own(any)) is_colored = true;
+    if (any != 0) has_attributes = true;
   });
   budget.check_time();
   if (!is_colored) return mesh;
   budget.take(count * 3 * sizeof(float4));
   make_large(mesh.color, mesh.position.size());
+  // Attributes that are all 0 are left out, not black.
   parallel_ranges(count, block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t f = begin; f < end; ++f)
-      std::fill_n(&mesh.color[3 * f], 3, color(read_u16(facets + f * facet_bytes + attribute_at)));
+    for (std::size_t f = begin; f < end; ++f) {
+      const std::uint32_t attribute = read_u16(facets + f * facet_bytes + attribute_at);
+      std::fill_n(&mesh.color[3 * f], 3, has_attributes ? color(attribute) : color.of_all());
+    }
   });
   return mesh;
 }

@@ -79,6 +79,14 @@ TEST(Stl, MagicsColorsHaveRedLowAndTheHeadersWhereTheirBitIsSet) {
   EXPECT_EQ(m.color[3], (float4{decode_srgb8(128), 0, 1, 1}));
 }
 
+TEST(Stl, AttributesThatAreAllZeroAreNotBlack) {
+  const std::string header("x COLOR=\x80\x00\xff\xff", 12);
+  const Scene all = load(binary({{corner, 0}, {corner, 0}}, header)),
+              one = load(binary({{corner, 0}, {corner, 31}}, header));
+  for (const float4 c : all.meshes[0].color) EXPECT_EQ(c, (float4{decode_srgb8(128), 0, 1, 1}));
+  EXPECT_EQ(one.meshes[0].color[0], (float4{0, 0, 0, 1}));
+}
+
 TEST(Stl, AsciiSolidsAreObjectsAndLoopsPolygons) {
   const Scene s = load(std::string(
       "  solid one two\r\nfacet normal 0 0 1\r\n outer loop\r\n vertex 0 0 0\r\n vertex 1 0 0\r\n vertex 0 1 0\r\n"
