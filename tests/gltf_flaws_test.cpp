@@ -72,6 +72,11 @@ TEST(GltfFlaws, OfMaterials) {
             (float3{1, 1, 1}));
   load_flawed(with_material(R"({"extensions":{"KHR_materials_ior":{"ior":"glass"}}})"),
               "material 0 KHR_materials_ior: ior");
+  GltfMaker lost = with_material("{}");
+  lost.materials = "";
+  EXPECT_EQ(load_flawed(lost, "mesh 0 primitive 0: material is 0, expected an index below 0").meshes.at(0).primitives(),
+            1u);
+  EXPECT_TRUE(load(with_material(R"({"extensions":null})")).warnings.empty());
   const Scene scene = load(with_material(R"({"extensions":{"KHR_materials_unlit":null}})"));
   EXPECT_EQ(scene.materials.at(0).model, ShadingModel::MetallicRoughness);
   EXPECT_TRUE(scene.warnings.empty());

@@ -215,6 +215,27 @@ TEST_F(Options, LightsThatWouldClipASceneToWhiteAreDimmed) {
   EXPECT_FALSE(contains(run("bright.gltf -o a.exr --size 64").out, "dimmed"));
 }
 
+TEST_F(Options, AModelThatCannotBeSeenIsWarnedAbout) {
+  const auto with_material = [](const std::string& properties) {
+    std::string text = bright_gltf;
+    const std::string old = R"({"pbrMetallicRoughness": {"metallicFactor": 0}})";
+    return text.replace(text.find(old), old.size(), properties);
+  };
+  const std::string clear = R"("pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0]})";
+  write("blend.gltf", with_material(R"({"alphaMode": "BLEND", )" + clear + "}"));
+  write("mask.gltf", with_material(R"({"alphaMode": "MASK", )" + clear + "}"));
+  write("cutoff.gltf", with_material(R"({"alphaMode": "MASK", "alphaCutoff": 2})"));
+  for (const char* name : {"blend", "mask", "cutoff"})
+    for (const char* output : {"a.png", "a.png --no-background", "a.exr"}) {
+      const ProgramAnswer answer = run(fmt::format("{}.gltf --size 32 -o {}", name, output));
+      EXPECT_EQ(answer.code, 0);
+      EXPECT_TRUE(contains(answer.out, "nothing of it can be seen: its surfaces are transparent")) << name << output;
+    }
+  write("bright.gltf", bright_gltf);
+  for (const char* options : {"", "--background white", "--crop 0,0,2,2"})
+    EXPECT_FALSE(contains(run(fmt::format("bright.gltf --size 32 -o a.png {}", options)).out, "be seen")) << options;
+}
+
 TEST_F(Options, AutomaticExposureFitsTheBrightSurfaces) {
   write("bright.gltf", bright_gltf);
   const ProgramAnswer answer = run("bright.gltf -o a.png --size 64 --exposure auto --json");

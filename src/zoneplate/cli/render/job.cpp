@@ -91,7 +91,8 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   const auto metered = [&] { return metered_exposure(lit, camera, args); };
   if (std::string warning = clipping(args, picture, metered); !warning.empty())
     summary.warnings.push_back(std::move(warning));
-  if (summary.counts.triangles_set_up == 0) summary.warnings.push_back(emptiness(args, summary.counts));
+  if (std::string warning = emptiness(args, summary.counts, picture); !warning.empty())
+    summary.warnings.push_back(std::move(warning));
 
   out.progress("encode", 0.9);
   const Stopwatch encode_watch;

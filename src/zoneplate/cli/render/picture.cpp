@@ -278,10 +278,27 @@ std::vector<std::uint8_t> encode_picture(const Rendered& picture, const std::str
   return picture.image16.empty() ? encode_png(picture.image, png) : encode_png(picture.image16, png);
 }
 
-std::string clipping(const RenderArgs& args, const Rendered& picture, const std::function<float()>& metered) {
+namespace {
+
+Rgba8 background_code(const RenderArgs& args) {
   const float4 b = background_of(args);
   const auto code = [](float x) { return static_cast<std::uint8_t>(x * 255 + 0.5f); };
-  const Rgba8 background{code(b.x), code(b.y), code(b.z), code(b.w)};
+  return {code(b.x), code(b.y), code(b.z), code(b.w)};
+}
+
+/// Whether every pixel is the background.
+bool is_background_alone(const RenderArgs& args, const Rendered& picture) {
+  const Rgba8 background = background_code(args);
+  const auto is_background = [&](Rgba8 c) { return c.a == 0 || c == background; };
+  const auto is_clear = [](const Linear& c) { return c.a == 0; };
+  if (!picture.image.values().empty()) return std::ranges::all_of(picture.image.values(), is_background);
+  return !picture.linear.values().empty() && std::ranges::all_of(picture.linear.values(), is_clear);
+}
+
+}  // namespace
+
+std::string clipping(const RenderArgs& args, const Rendered& picture, const std::function<float()>& metered) {
+  const Rgba8 background = background_code(args);
   std::size_t surfaces = 0, white = 0;
   for (const Rgba8 c : picture.image.values()) {
     if (c.a == 0 || c == background) continue;
@@ -296,9 +313,11 @@ std::string clipping(const RenderArgs& args, const Rendered& picture, const std:
       args.input, 100 * part);
 }
 
-std::string emptiness(const RenderArgs& args, const RenderCounts& counts) {
-  return args.input + (counts.triangles == 0 ? ": there is nothing in it to draw"
-                                             : ": nothing of it is in view; see the camera options");
+std::string emptiness(const RenderArgs& args, const RenderCounts& counts, const Rendered& picture) {
+  if (counts.triangles == 0) return args.input + ": there is nothing in it to draw";
+  if (counts.triangles_set_up == 0) return args.input + ": nothing of it is in view; see the camera options";
+  if (args.options.crop || !is_background_alone(args, picture)) return {};
+  return args.input + ": nothing of it can be seen: its surfaces are transparent, too small or as the background";
 }
 
 }  // namespace zoneplate::cli

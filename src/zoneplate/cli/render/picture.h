@@ -97,7 +97,8 @@ std::vector<std::uint8_t> encode_picture(const Rendered& picture, const std::str
 /// if so much of it is white.
 std::string clipping(const RenderArgs& args, const Rendered& picture, const std::function<float()>& metered);
 
-/// The warning about an image without visible surfaces; empty if there are any.
-std::string emptiness(const RenderArgs& args, const RenderCounts& counts);
+/// The warning about an image without visible surfaces, and why there are none; empty if there are any, and if a crop
+/// may lie beside them.
+std::string emptiness(const RenderArgs& args, const RenderCounts& counts, const Rendered& picture);
 
 }  // namespace zoneplate::cli

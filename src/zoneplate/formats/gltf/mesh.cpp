@@ -254,7 +254,8 @@ Mesh read_primitive(GltfFile& file, const JsonView& json, const GltfPose& pose, 
   Primitive p{file, json, json.object("attributes").renamed(json.place()), {}};
   const std::uint64_t mode = json.whole("mode", 4, 255);
   if (mode > 6) json.fail("mode is " + std::to_string(mode) + ", expected 0 to 6");
-  const auto material = find_material(json, pose, materials.size());
+  std::optional<std::size_t> material;
+  file.read_optional([&] { material = find_material(json, pose, materials.size()); });
   decode_draco_primitive(file, json);
   Mesh m;
   m.material = static_cast<int>(material.value_or(materials.size()));

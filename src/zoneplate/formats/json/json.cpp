@@ -182,7 +182,8 @@ JsonView JsonView::object(const char* key, const std::string& name) const {
 }
 
 std::optional<JsonView> JsonView::extension(const char* name) const {
-  if (!has("extensions")) return std::nullopt;
+  const JsonValue* const extensions = find("extensions");
+  if (extensions == nullptr || extensions->kind == JsonValue::Kind::Null) return std::nullopt;
   const JsonView all(object("extensions"));
   const JsonValue* const found = all.find(name);
   if (found == nullptr || found->kind == JsonValue::Kind::Null) return std::nullopt;
