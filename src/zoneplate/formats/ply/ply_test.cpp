@@ -277,6 +277,10 @@ TEST(Ply, OneFlawDoesNotCostTheModel) {
           ascii + "element vertex 3\n" + xyz + faces + "0 0 0 7 7 7\n1 0 0 7 7 7\n0 1 0 7 7 7\n3 0 1 2\n3 0 1 2\n", 2),
       "rows have more values than the header states, the rest is ignored");
   EXPECT_EQ(
+      warning_of(ascii + "element vertex 3\n" + xyz + faces + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 1 2\nmade by hand\n",
+                 2),
+      "line 15: 'made' follows the last row, the rest is ignored");
+  EXPECT_EQ(
       warning_of(
           ascii + "element vertex 3\n" + xyz + faces + "0 0 0\n1 0 0\n\n0 1 0\n3 0 1 2 0.5 0.5\n3 0 1 2 0.5 0.5\n", 2),
       "rows have more values than the header states, the rest is ignored");
@@ -311,6 +315,8 @@ TEST(Ply, Refusals) {
   EXPECT_EQ(refusal(ascii + "element vertex 1\n" + xyz + "end_header\n1 2\n"),
             "element vertex: the file ends in row 0 of 1");
   EXPECT_EQ(refusal(ascii + "element vertex 1\n" + xyz + "end_header\n1 two 3\n"), "line 8: 'two' is not a number");
+  EXPECT_EQ(refusal(ascii + "element vertex 2\n" + xyz + "end_header\n1 2 3\n4 five 6\n"),
+            "line 9: 'five' is not a number");
   EXPECT_EQ(refusal(ascii + "element vertex 1\n" + xyz +
                     "element face 2\nproperty list uchar int vertex_indices\nend_header\n1 2 3\n3 0 0 1\n3 0 0 1\n"),
             "face 0 uses vertex 1, there are 1: it is dropped (and 1 more); nothing is left to draw");

@@ -130,14 +130,14 @@ double parse_number(const char* begin, const char* end) {
   return value;  // 0 if the number underflows or overflows
 }
 
-std::vector<double> parse_numbers(std::string_view part) {
-  std::vector<double> out;
+/// Appends the numbers of a part, up to its end or to a word that is not a number.
+void parse_numbers(std::string_view part, std::vector<double>& out) {
   out.reserve(part.size() / 6);
   const char* at = part.data();
   const char* const end = at + part.size();
   while (true) {
     while (at != end && is_space(*at)) ++at;
-    if (at == end) return out;
+    if (at == end) return;
     const char* const begin = at;
     while (at != end && !is_space(*at)) ++at;
     out.push_back(parse_number(begin, at));
@@ -177,16 +177,18 @@ std::optional<std::size_t> numbers_of_row(const PlyElement& element, std::span<c
   return n;
 }
 
-/// Whether the rows of all elements take exactly these numbers.
-bool fills_rows(const PlyHeader& header, std::span<const double> numbers, ImportBudget& budget) {
+/// How many of the numbers the rows of all elements take; nothing if there are too few.
+std::optional<std::size_t> numbers_of_rows(const PlyHeader& header, std::span<const double> numbers,
+                                           ImportBudget& budget) {
+  const std::size_t all = numbers.size();
   for (const PlyElement& element : header.elements)
     for (std::uint64_t row = 0; row < element.count && !element.properties.empty(); ++row) {
       if (row % PlyRows::block == 0) budget.check_time();
       const std::optional<std::size_t> own = numbers_of_row(element, numbers);
-      if (!own) return false;
+      if (!own) return std::nullopt;
       numbers = numbers.subspan(*own);
     }
-  return numbers.empty();
+  return all - numbers.size();
 }
 
 /// Whether rows have more values than the header states (as VCGLIB writes some), so that only lines separate them:
@@ -200,7 +202,8 @@ bool needs_lines(std::string_view body, const PlyHeader& header, ImportBudget& b
       const std::optional<std::string_view> line = lines.next();
       if (!line) return false;
       if (row > 0) continue;
-      const std::vector<double> numbers = parse_numbers(*line);
+      std::vector<double> numbers;
+      parse_numbers(*line, numbers);
       const std::optional<std::size_t> own = numbers_of_row(element, numbers);
       if (!own) return false;
       has_more = has_more || *own < numbers.size();
@@ -217,7 +220,8 @@ std::vector<double> parse_lines(std::string_view body, const PlyHeader& header, 
       if (row % PlyRows::block == 0) budget.check_time();
       const std::optional<std::string_view> line = lines.next();
       if (!line) return out;  // find_ply_rows reports what is missing
-      const std::vector<double> numbers = parse_numbers(*line);
+      std::vector<double> numbers;
+      parse_numbers(*line, numbers);
       const std::optional<std::size_t> own = numbers_of_row(element, numbers);
       if (!own)
         throw Error(ErrorKind::Input,
@@ -352,7 +356,7 @@ std::vector<double> parse_ply_text(std::string_view body, std::size_t lines_befo
   parallel_for(parts.size(), [&](std::size_t i) {
     if (!budget.has_time() || made > most) return;
     try {
-      numbers[i] = parse_numbers(parts[i]);
+      parse_numbers(parts[i], numbers[i]);
     } catch (WordError& error) {
       errors[i] = std::move(error);
     }
@@ -360,11 +364,9 @@ std::vector<double> parse_ply_text(std::string_view body, std::size_t lines_befo
   });
   budget.check_time();
   budget.take(made);
-  for (const std::optional<WordError>& error : errors)
-    if (error) {
-      const auto line = static_cast<std::size_t>(std::count(body.data(), error->at, '\n')) + lines_before + 1;
-      throw Error(ErrorKind::Input, fmt::format("{}: line {}: '{}' is not a number", budget.file(), line, error->word));
-    }
+  const auto error = std::find_if(errors.begin(), errors.end(), [](const auto& e) { return e.has_value(); });
+  if (error != errors.end())
+    std::fill(numbers.begin() + (error - errors.begin()) + 1, numbers.end(), std::vector<double>());
 
   std::vector<std::size_t> first(parts.size() + 1);
   for (std::size_t i = 0; i < parts.size(); ++i) first[i + 1] = first[i] + numbers[i].size();
@@ -374,7 +376,16 @@ std::vector<double> parse_ply_text(std::string_view body, std::size_t lines_befo
     std::copy(numbers[i].begin(), numbers[i].end(), all.begin() + static_cast<std::ptrdiff_t>(first[i]));
     numbers[i] = {};
   });
-  if (!fills_rows(header, all, budget) && needs_lines(body, header, budget)) {
+  const std::optional<std::size_t> used = numbers_of_rows(header, all, budget);
+  if (error != errors.end()) {
+    const std::string& word = (*error)->word;
+    const auto line = static_cast<std::size_t>(std::count(body.data(), (*error)->at, '\n')) + lines_before + 1;
+    if (!used)
+      throw Error(ErrorKind::Input, fmt::format("{}: line {}: '{}' is not a number", budget.file(), line, word));
+    header.warnings.push_back(
+        fmt::format("{}: line {}: '{}' follows the last row, the rest is ignored", budget.file(), line, word));
+    all.resize(*used);
+  } else if (used != all.size() && needs_lines(body, header, budget)) {
     // Fewer numbers than before, in a list that grows while the rows are read.
     budget.take(2 * all.size() * sizeof(double));
     const std::size_t before = all.size();
