@@ -16,6 +16,7 @@
 #include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/codec/exr.h"
 #include "zoneplate/codec/png.h"
+#include "zoneplate/formats/gltf/maker_for_test.h"
 #include "zoneplate/report/json_for_test.h"
 
 namespace zoneplate {
@@ -33,17 +34,6 @@ endloop
 endfacet
 endsolid
 )";
-
-// A white square that a point light of 100,000 cd makes far brighter than white.
-constexpr const char* bright_gltf = R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
-"extensionsUsed": ["KHR_lights_punctual"],
-"extensions": {"KHR_lights_punctual": {"lights": [{"type": "point", "intensity": 100000}]}},
-"nodes": [{"mesh": 0}, {"translation": [0, 0, 3], "extensions": {"KHR_lights_punctual": {"light": 0}}}],
-"materials": [{"pbrMetallicRoughness": {"metallicFactor": 0}}],
-"meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "material": 0}]}],
-"accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [-1, -1, 0], "max": [1, 1, 0]}],
-"bufferViews": [{"buffer": 0, "byteLength": 36}],
-"buffers": [{"byteLength": 36, "uri": "data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA"}]})";
 
 class Options : public ProgramTest {
  protected:
@@ -184,7 +174,7 @@ TEST_F(Options, AContactSheetReportsItsModels) {
 }
 
 TEST_F(Options, LightsOfAFileCanBeReplacedOrJoined) {
-  write("bright.gltf", bright_gltf);
+  write("bright.gltf", bright_gltf());
   const ProgramAnswer answer = run("bright.gltf -o a.png --size 64 --lights file");
   EXPECT_TRUE(contains(answer.out, " % of the surfaces are clipped to white; see --exposure auto")) << answer.out;
   EXPECT_EQ(middle(image("a.png")), (Rgba8{255, 255, 255, 255}));
@@ -194,7 +184,7 @@ TEST_F(Options, LightsOfAFileCanBeReplacedOrJoined) {
 }
 
 TEST_F(Options, LightsThatWouldClipASceneToWhiteAreDimmed) {
-  write("bright.gltf", bright_gltf);
+  write("bright.gltf", bright_gltf());
   const ProgramAnswer answer = run("bright.gltf -o a.png --size 64");
   EXPECT_TRUE(contains(answer.out, "its lights would clip 100 % of the surfaces to white and are dimmed"))
       << answer.out;
@@ -217,7 +207,7 @@ TEST_F(Options, LightsThatWouldClipASceneToWhiteAreDimmed) {
 
 TEST_F(Options, AModelThatCannotBeSeenIsWarnedAbout) {
   const auto with_material = [](const std::string& properties) {
-    std::string text = bright_gltf;
+    std::string text = bright_gltf();
     const std::string old = R"({"pbrMetallicRoughness": {"metallicFactor": 0}})";
     return text.replace(text.find(old), old.size(), properties);
   };
@@ -231,13 +221,13 @@ TEST_F(Options, AModelThatCannotBeSeenIsWarnedAbout) {
       EXPECT_EQ(answer.code, 0);
       EXPECT_TRUE(contains(answer.out, "nothing of it can be seen: its surfaces are transparent")) << name << output;
     }
-  write("bright.gltf", bright_gltf);
+  write("bright.gltf", bright_gltf());
   for (const char* options : {"", "--background white", "--crop 0,0,2,2"})
     EXPECT_FALSE(contains(run(fmt::format("bright.gltf --size 32 -o a.png {}", options)).out, "be seen")) << options;
 }
 
 TEST_F(Options, AutomaticExposureFitsTheBrightSurfaces) {
-  write("bright.gltf", bright_gltf);
+  write("bright.gltf", bright_gltf());
   const ProgramAnswer answer = run("bright.gltf -o a.png --size 64 --exposure auto --json");
   EXPECT_FALSE(contains(answer.out, "clipped")) << answer.out;
   const double exposure = parsed_json(answer.out)["exposure"];

@@ -276,16 +276,18 @@ typedef struct zoneplate_render_options {
   /// "none", "aces", "neutral", "agx" or "filmic"; null: "neutral" in the studio that a scene without lights gets, else
   /// "none".
   const char* tone_mapping;
-  float exposure;                ///< stops
-  const float* background;       ///< sRGB red, green, blue and straight alpha in [0, 1]; null: dark grey
-  int32_t is_transparent;        ///< 1: no background, the image keeps its alpha
-  const float* light_intensity;  ///< factor of every light; null: 1
-  const float* environment;      ///< linear red, green, blue: replaces the scene's environment and the default light
-  zoneplate_shadows shadows;     ///< ZONEPLATE_NO_SHADOWS by default
-  int32_t occlusion_samples;     ///< rays of ambient occlusion; 0: none
-  int32_t has_shadow_ground;     ///< 1: a ground that is visible only where light is missing
-  int32_t anisotropy;            ///< most probes of texture filters; 0: 4, or the own value of a built-in scene
-  int32_t keeps_back_faces;      ///< 1: back faces of single-sided materials are drawn
+  float exposure;           ///< stops
+  const float* background;  ///< sRGB red, green, blue and straight alpha in [0, 1]; null: dark grey
+  int32_t is_transparent;   ///< 1: no background, the image keeps its alpha
+  /// Factor of every light; null: 1, and lights that would clip a quarter of the surfaces to white are dimmed, unless
+  /// an environment or an exposure is given or the form is linear.
+  const float* light_intensity;
+  const float* environment;   ///< linear red, green, blue: replaces the scene's environment and the default light
+  zoneplate_shadows shadows;  ///< ZONEPLATE_NO_SHADOWS by default
+  int32_t occlusion_samples;  ///< rays of ambient occlusion; 0: none
+  int32_t has_shadow_ground;  ///< 1: a ground that is visible only where light is missing
+  int32_t anisotropy;         ///< most probes of texture filters; 0: 4, or the own value of a built-in scene
+  int32_t keeps_back_faces;   ///< 1: back faces of single-sided materials are drawn
   /// Pixels along a side of the squares of points; 0: the size with which all points would cover a sixteenth of the
   /// image, from 1 to a hundredth of its height.
   float point_size;

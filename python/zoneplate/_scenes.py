@@ -478,7 +478,7 @@ def render(
     exposure: float = 0.0,
     background: str | Floats | None = None,
     transparent: bool = False,
-    light_intensity: float = 1.0,
+    light_intensity: float | None = None,
     environment: str | Floats | None = None,
     shadows: str = "none",
     ambient_occlusion: int = 0,
@@ -499,6 +499,7 @@ def render(
     tone_mapping "none", "aces", "neutral", "agx" or "filmic"; None: "neutral" in the studio that a scene without lights
                  gets, else "none"; `exposure` in stops
     background   "#rrggbb", or sRGB numbers in [0, 1]; `transparent`: none
+    light_intensity  factor of every light; None: 1, and lights that would clip the surfaces to white are dimmed
     environment  a colour whose light from all directions replaces the default light
     shadows      "none", "map", "hard" or "soft"; `ambient_occlusion`: rays, 0: none
     shadow_ground  a ground that is visible only where it is in shadow

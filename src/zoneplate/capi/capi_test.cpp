@@ -16,6 +16,7 @@
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/capi/arrays.h"
 #include "zoneplate/codec/png.h"
+#include "zoneplate/formats/gltf/maker_for_test.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/render/lighting.h"
 #include "zoneplate/render/renderer.h"
@@ -83,6 +84,27 @@ TEST(Capi, PointsHaveTheSizeOfTheOptionsOrTheUsualOne) {
   options.point_size = -1;
   zoneplate_image* image = nullptr;
   EXPECT_EQ(zoneplate_render(scene.get(), nullptr, &options, &image), ZONEPLATE_USAGE);
+}
+
+TEST(Capi, DimsBrightLightsOfAFileAsTheCommandDoes) {
+  const std::string path = testing::TempDir() + "zoneplate_capi_bright.gltf";
+  std::ofstream(path) << bright_gltf();
+  const SceneHandle scene = load(path.c_str());
+  std::remove(path.c_str());
+  const auto middle = [&](const zoneplate_render_options& options) {
+    const ImageHandle image = render(scene.get(), options);
+    const zoneplate_array color = array(image, "color");
+    return static_cast<const std::uint8_t*>(
+        color.data)[color.shape[0] / 2 * color.strides[0] + color.shape[1] / 2 * color.strides[1]];
+  };
+  zoneplate_render_options options = small;
+  const int usual = middle(options);
+  EXPECT_TRUE(usual > 200 && usual < 255) << usual;
+  const float intensity = 1;
+  options.light_intensity = &intensity;
+  EXPECT_EQ(middle(options), 255);
+  options = small, options.exposure = -1;
+  EXPECT_EQ(middle(options), 255);
 }
 
 TEST(Capi, RendersTheBytesOfTheRenderer) {

@@ -12,6 +12,7 @@
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/render/aov.h"
 #include "zoneplate/render/lighting.h"
+#include "zoneplate/render/metering/metering.h"
 #include "zoneplate/render/view.h"
 #include "zoneplate/scene/usual_options.h"
 #include "zoneplate/upscale/upscaler.h"
@@ -188,10 +189,13 @@ std::unique_ptr<zoneplate_image> render_image(zoneplate_scene& scene, const zone
       o.point_size != 0 ? o.point_size : usual_point_size(prepared.scene(), options.width, options.height);
   const Lighting light = make_lighting(prepared.scene(), lighting);
   settings.options.display.mapping = tone_mapping.value_or(light.tone_mapping);
-  Renderer renderer(prepared.lit(light), std::move(method));
-  RenderedImage image = renderer.render_still(
-      camera != nullptr ? camera_of(camera, prepared.scene().origin) : find_camera(scene, nullptr, aspect).camera,
-      settings);
+  const Camera view =
+      camera != nullptr ? camera_of(camera, prepared.scene().origin) : find_camera(scene, nullptr, aspect).camera;
+  PreparedScene lit = prepared.lit(light);
+  if (o.light_intensity == nullptr && !lighting.environment && o.exposure == 0 && settings.form != ImageForm::Linear)
+    lit = dimmed(lit, dimming_of(lit, view, settings.options, upscale::make_method("none")).factor);
+  Renderer renderer(std::move(lit), std::move(method));
+  RenderedImage image = renderer.render_still(view, settings);
 
   const bool has_alpha = options.display.is_transparent || options.display.background.w < 1;
   std::unique_ptr<zoneplate_image> out;

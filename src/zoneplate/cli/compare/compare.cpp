@@ -25,6 +25,7 @@
 #include "zoneplate/metrics/file/picture_file.h"
 #include "zoneplate/metrics/flip/magma.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/render/metering/metering.h"
 #include "zoneplate/render/sequence.h"
 #include "zoneplate/scene/builtin/builtin.h"
 
@@ -101,7 +102,9 @@ SceneTrials compare_scene(const CompareArgs& args, const std::string& name, cons
   render.input = name;
   const Camera camera = choose_own_camera(render, scene);
   render.display.mapping = set_look(render, scene);
-  const PreparedScene prepared(std::move(scene), render.mips);
+  PreparedScene prepared(std::move(scene), render.mips);
+  const std::string dimming = set_light_dimming(render, prepared, camera, "");
+  prepared = dimmed(std::move(prepared), render.light_dimming);
   if (render.meters_exposure) render.display.exposure = metered_exposure(prepared, camera, render);
   const RenderSettings settings = settings_of(render, "");
   TrialSetup setup{prepared, camera, settings, memory, args.frames};
@@ -118,14 +121,20 @@ SceneTrials compare_scene(const CompareArgs& args, const std::string& name, cons
     sequence.emplace(sequence_of(args, *source));
     const float aspect = static_cast<float>(render.options.width) / static_cast<float>(render.options.height);
     sequence->set_view(render.view, aspect);
-    setup.view = [&](int frame) { return sequence->view(frame); };
+    setup.view = [&](int frame) {
+      SceneView view = sequence->view(frame);
+      view.scene = dimmed(std::move(view.scene), render.light_dimming);
+      return view;
+    };
   }
   SceneTrials trials = run_trials(setup, options, progress);
   trials.scene = name;
   if (const BuiltinScene* listed = find_builtin_scene(name))
     trials.failure = listed->failure, trials.complaint = listed->complaint;
-  if (render.verbosity != Verbosity::Quiet)
+  if (render.verbosity != Verbosity::Quiet) {
     for (const std::string& warning : prepared.scene().warnings) out.warn(warning);
+    if (!dimming.empty()) out.warn(dimming);
+  }
   return trials;
 }
 

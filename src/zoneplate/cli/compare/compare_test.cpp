@@ -15,6 +15,7 @@
 #include "zoneplate/cli/compare/report.h"
 #include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/codec/png.h"
+#include "zoneplate/formats/gltf/maker_for_test.h"
 #include "zoneplate/metrics/metrics.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/report/html_page_for_test.h"
@@ -79,13 +80,18 @@ TEST_F(CompareVerb, WritesEverythingThatItsJsonNames) {
   EXPECT_LT(table.find("`ssaa:pattern=halton,samples=8`"), table.find("`none`"));
 }
 
-// Points and the background are those of `render`, and its options act: a cloud of three points, and the scene that is
-// defined on black.
+// Points, lights and the background are those of `render`, and its options act: a cloud of three points, a file whose
+// lights are dimmed, and the scene that is defined on black.
 TEST_F(CompareVerb, DrawsThePixelsOfRender) {
   std::ofstream(place / "cloud.ply") << "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
                                         "property float z\nend_header\n0 0 0\n1 0 0\n0 1 0\n";
-  const std::pair<const char*, const char*> cases[] = {
-      {"triangles", ""}, {"cloud.ply", ""}, {"cloud.ply", " --point-size 9"}, {"cloud.ply", " --exposure auto"}};
+  std::ofstream(place / "bright.gltf") << bright_gltf();
+  const std::pair<const char*, const char*> cases[] = {{"triangles", ""},
+                                                       {"bright.gltf", ""},
+                                                       {"bright.gltf", " --light-intensity 1"},
+                                                       {"cloud.ply", ""},
+                                                       {"cloud.ply", " --point-size 9"},
+                                                       {"cloud.ply", " --exposure auto"}};
   std::vector<Rgba8Image> images;
   for (const auto& [scene, options] : cases) {
     const std::string name = std::string(scene) + options;
@@ -99,6 +105,7 @@ TEST_F(CompareVerb, DrawsThePixelsOfRender) {
     EXPECT_EQ(pixels("out/" + folder + "/none.png"), images.back()) << name;
   }
   EXPECT_NE(images[1], images[2]);
+  EXPECT_NE(images[3], images[4]);
 }
 
 TEST_F(CompareVerb, ThePageHasTheImagesAndNeedsNoFolder) {

@@ -21,6 +21,7 @@
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/render/metering/metering.h"
 #include "zoneplate/report/figure.h"
 #include "zoneplate/report/json.h"
 #include "zoneplate/upscale/upscaler.h"
@@ -72,7 +73,7 @@ std::vector<std::uint8_t> render_cell(RenderArgs render, ItemSender& sender) {
   render.display.mapping = set_look(render, scene);
   Renderer renderer(PreparedScene(std::move(scene)), upscale::make_method(render.method));
   set_light_dimming(render, renderer.scene(), camera, "");
-  renderer.set_scene(dimmed(render, renderer.scene()));
+  renderer.set_scene(dimmed(renderer.scene(), render.light_dimming));
   if (render.meters_exposure) render.display.exposure = metered_exposure(renderer.scene(), camera, render);
   const Rgba8Image picture = renderer.render_still(camera, settings_of(render, "")).display;
   const auto* first = reinterpret_cast<const std::uint8_t*>(picture.values().data());

@@ -11,6 +11,7 @@
 #include "zoneplate/cli/usage.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/render/metering/metering.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {
@@ -78,7 +79,7 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   PreparedScene lit = scene_->lit(lighting);
   if (std::string warning = set_light_dimming(args, lit, camera, args.named_output()); !warning.empty())
     summary.warnings.push_back(std::move(warning));
-  lit = dimmed(args, std::move(lit));
+  lit = dimmed(std::move(lit), args.light_dimming);
   {
     Renderer renderer(lit, std::move(method));
     if (args.meters_exposure) args.display.exposure = metered_exposure(renderer.scene(), camera, args);

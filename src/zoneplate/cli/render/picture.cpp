@@ -23,6 +23,7 @@
 #include "zoneplate/codec/webp_still.h"
 #include "zoneplate/image/auto_exposure.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/render/metering/metering.h"
 #include "zoneplate/scene/geometry/displacement.h"
 #include "zoneplate/scene/usual_options.h"
 
@@ -180,65 +181,23 @@ RenderSettings settings_of(const RenderArgs& args, const std::string& output) {
   return settings;
 }
 
-namespace {
-
-/// The image that exposures are metered in.
-LinearImage metered_image(const PreparedScene& scene, const Camera& camera, const RenderArgs& args) {
-  constexpr int most_side = 256;
-  RenderSettings settings{.options = args.options, .form = ImageForm::Linear};
-  RenderOptions& options = settings.options;
-  options.crop.reset();
-  options.background.reset();
-  const int longest = std::max(options.width, options.height);
-  if (longest > most_side) {
-    options.width = std::max(1, options.width * most_side / longest);
-    options.height = std::max(1, options.height * most_side / longest);
-  }
-  Renderer renderer(scene, make_resolver(antialias::methods(), "none"));
-  return renderer.render(camera, settings).linear;
-}
-
-// At the metered exposure, the brightest surfaces' channel is metered_white. An image is clipped if it is well above
-// white, and if at least the part least_white of its surfaces is white.
-constexpr float metered_white = 0.8f, most_light = 1.25f;
-constexpr double least_white = 0.25;
-
-bool is_well_above_white(float exposure, float metered) { return exposure * metered_white > most_light * metered; }
-
-}  // namespace
-
 float metered_exposure(const PreparedScene& scene, const Camera& camera, const RenderArgs& args) {
-  return auto_exposure(metered_image(scene, camera, args));
+  return auto_exposure(metered_image(scene, camera, args.options, make_resolver(antialias::methods(), "none")));
 }
 
 std::string set_light_dimming(RenderArgs& args, const PreparedScene& scene, const Camera& camera,
                               const std::string& output) {
   args.light_dimming = 1;
-  const bool is_usual = args.lighting.source == LightSource::Scene && !args.lighting.environment &&
-                        !args.has_own_brightness && !is_linear(output);
-  if (!is_usual || !scene.scene().needs_fill_light) return {};
-  const LinearImage image = metered_image(scene, camera, args);
-  std::size_t surfaces = 0, white = 0;
-  for (const Linear& c : image.values()) {
-    if (c.a < 0.5f) continue;
-    ++surfaces;
-    white += std::min({c.r, c.g, c.b}) >= c.a;
-  }
-  const double part = static_cast<double>(white) / static_cast<double>(std::max<std::size_t>(surfaces, 1));
-  const float metered = auto_exposure(image);
-  if (part < least_white || !is_well_above_white(1, metered)) return {};
-  args.light_dimming = metered;
+  if (args.lighting.source != LightSource::Scene || args.lighting.environment || args.has_own_brightness ||
+      is_linear(output))
+    return {};
+  const auto [factor, white] = dimming_of(scene, camera, args.options, make_resolver(antialias::methods(), "none"));
+  args.light_dimming = factor;
+  if (factor == 1) return {};
   return fmt::format(
       "{}: its lights would clip {:.0f} % of the surfaces to white and are dimmed to {:.2g} of their intensity; see "
       "--light-intensity, --exposure and --lights",
-      args.input, 100 * part, metered);
-}
-
-PreparedScene dimmed(const RenderArgs& args, PreparedScene scene) {
-  if (args.light_dimming == 1) return scene;
-  Lighting lighting = scene.lighting();
-  for (Light& light : lighting.lights) light.intensity *= args.light_dimming;
-  return scene.lit(std::move(lighting));
+      args.input, 100 * white, factor);
 }
 
 Rendered finish_picture(const RenderArgs& args, RenderedImage image, const Scene& scene, const Camera& camera,

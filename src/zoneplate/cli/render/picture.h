@@ -80,9 +80,6 @@ float metered_exposure(const PreparedScene& scene, const Camera& camera, const R
 std::string set_light_dimming(RenderArgs& args, const PreparedScene& scene, const Camera& camera,
                               const std::string& output);
 
-/// The scene under its lights, dimmed by `args.light_dimming`.
-PreparedScene dimmed(const RenderArgs& args, PreparedScene scene);
-
 /// Converts a rendered image of `scene` by `camera` to the formats of the output's extension, with its data passes. Its
 /// counts, times and size are stored in `summary`. `frame` is its number in a sequence.
 Rendered finish_picture(const RenderArgs& args, RenderedImage image, const Scene& scene, const Camera& camera,

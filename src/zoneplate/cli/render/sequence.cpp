@@ -13,6 +13,7 @@
 #include "zoneplate/cli/background.h"
 #include "zoneplate/cli/render/film.h"
 #include "zoneplate/formats/load.h"
+#include "zoneplate/render/metering/metering.h"
 #include "zoneplate/render/sequence.h"
 
 namespace zoneplate::cli {
@@ -130,7 +131,7 @@ Rendered render_frame(const RenderArgs& args, Sequence& sequence, int frame, con
         samples,
         [&](int i) {
           SceneView view = sequence.view(shutter_time(frame, open, i, samples, args.sequence.shutter_filter));
-          view.scene = dimmed(args, std::move(view.scene));
+          view.scene = dimmed(std::move(view.scene), args.light_dimming);
           if (i == 0) camera = view.camera;
           return view;
         },
@@ -139,7 +140,7 @@ Rendered render_frame(const RenderArgs& args, Sequence& sequence, int frame, con
     if (settings.planes.motion) settings.options.last = sequence.moment(frame - args.sequence.jump);
     if (settings.planes.flow) settings.options.next = sequence.moment(frame + args.sequence.jump);
     SceneView view = sequence.view(frame);
-    renderer.set_scene(dimmed(args, std::move(view.scene)));
+    renderer.set_scene(dimmed(std::move(view.scene), args.light_dimming));
     camera = view.camera;
     image = renderer.render(camera, settings);
   }
@@ -165,7 +166,7 @@ void warm_up(const RenderArgs& args, Sequence& sequence, int first, Renderer& re
   const RenderSettings settings = settings_of(args, args.output);
   for (int i = args.sequence.warm_up; i > 0; --i) {
     SceneView view = sequence.view(first - i * args.sequence.jump);
-    renderer.set_scene(dimmed(args, std::move(view.scene)));
+    renderer.set_scene(dimmed(std::move(view.scene), args.light_dimming));
     renderer.render(view.camera, settings);
   }
 }
@@ -267,7 +268,7 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
     if (frame == plan.frames().front()) {
       const auto metered = [&] {
         const SceneView view = sequence.view(frame);
-        return metered_exposure(dimmed(args, view.scene), view.camera, args);
+        return metered_exposure(dimmed(view.scene, args.light_dimming), view.camera, args);
       };
       if (std::string warning = clipping(args, picture, metered); !warning.empty())
         summary.warnings.push_back(std::move(warning));
