@@ -49,7 +49,7 @@ class Font {
   std::unique_ptr<FT_FaceRec_, Close> face_;
 };
 
-/// The outline of a line of text of this size that starts at the origin of its baseline.
+/// The outline of a line of text of this size that starts at the origin of its baseline, as the boundary of all glyphs.
 sdf::Outline text_outline(const Font& font, std::string_view text, double size);
 /// The width of the line: the sum of advances and kerning.
 double text_width(const Font& font, std::string_view text, double size);

@@ -7,6 +7,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/utf8.h"
 #include "zoneplate/formats/font/font.h"
+#include "zoneplate/sdf/boundary.h"
 
 namespace zoneplate {
 namespace {
@@ -48,7 +49,7 @@ sdf::Outline text_outline(const Font& font, std::string_view text, double size) 
     for (sdf::Contour& contour : font.outline(code).mapped({.scale = size, .move = {pen * size, 0}}).contours)
       out.contours.push_back(std::move(contour));
   });
-  return out;
+  return sdf::boundary_of(out);
 }
 
 double text_width(const Font& font, std::string_view text, double size) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/sdf/boundary.h"
 #include "zoneplate/sdf/draw.h"
 
 namespace zoneplate::sdf {
@@ -89,15 +90,6 @@ float3 multi_distance(const std::vector<Edge>& edges, Point p, double sign) {
     return static_cast<float>(d.edge == nullptr ? -1e6 : sign * pseudo_distance(d, p));
   };
   return {of(nearest[0]), of(nearest[1]), of(nearest[2])};
-}
-
-/// Twice the area, positive for contours that run clockwise on the screen.
-double signed_area(const Outline& outline) {
-  double area = 0;
-  for (const Contour& contour : outline.contours)
-    for (const Segment& s : contour)
-      for (int i = 0; i < s.degree; ++i) area += cross(s.p[i], s.p[i + 1]);
-  return area;
 }
 
 /// Replaces the channels of texels by their median where the interpolated median has the wrong sign: the nearest texel
@@ -227,7 +219,7 @@ FieldImage outline_field(const Outline& outline, FieldKind kind, int width, int 
                          double range) {
   FieldImage field{kind, Plane<float4>(width, height)};
   const auto reach = static_cast<float>(range / 2);
-  Outline texels = outline.mapped({.scale = scale, .move = move});
+  Outline texels = boundary_of(outline).mapped({.scale = scale, .move = move});
   const ShapePtr shape = region(texels);
   const DistanceField single = distance_field(shape, {width, height, {}, 1});
   for (std::size_t i = 0; i < field.distances.values().size(); ++i) {
@@ -242,11 +234,14 @@ FieldImage outline_field(const Outline& outline, FieldKind kind, int width, int 
     for (std::size_t i = 0; i < contour.size(); ++i) edges.push_back({contour[i], channels[i], contour[i].bounds()});
   }
   const double sign = signed_area(texels) < 0 ? -1 : 1;
+  constexpr float negligible = 0.05f;  // of a texel: closer to the boundary, the sign is a matter of rounding
   parallel_for(static_cast<std::size_t>(height), [&](std::size_t row) {
     const int y = static_cast<int>(row);
     for (int x = 0; x < width; ++x) {
       const float3 d = multi_distance(edges, {x + 0.5, y + 0.5}, sign);
       float4& out = field.distances(x, y);
+      // Where several corners meet or are near, the median may have the wrong sign.
+      if (std::abs(out.w) > negligible && (median(d.x, d.y, d.z) > 0) != (out.w > 0)) continue;
       out = {std::clamp(d.x, -reach, reach), std::clamp(d.y, -reach, reach), std::clamp(d.z, -reach, reach), out.w};
     }
   });

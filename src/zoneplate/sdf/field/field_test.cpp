@@ -117,6 +117,42 @@ TEST(SdfField, ThreeChannelsKeepCorners) {
   EXPECT_LT(error[1], 0.02);
 }
 
+/// Closed polygons.
+Outline polygons(std::initializer_list<std::initializer_list<Point>> contours) {
+  Outline out;
+  for (const auto& points : contours)
+    for (Contour& contour : polygon(std::vector<Point>(points)).contours) out.contours.push_back(std::move(contour));
+  return out;
+}
+
+// Two bars that cross, the same with opposite directions, and one contour that overlaps itself, as variable fonts have
+// them: the ink of an atlas of 32 texels per em.
+TEST(SdfAtlas, OverlappingContoursKeepTheirInk) {
+  struct Case {
+    Outline outline;
+    double area, part;  // em², and the part of it that may be lost
+  };
+  const Case cases[] = {
+      {polygons({{{0.1, -0.3}, {0.1, -0.5}, {0.9, -0.5}, {0.9, -0.3}}, {{0.4, 0}, {0.4, -0.8}, {0.6, -0.8}, {0.6, 0}}}),
+       0.28, 0.002},
+      // Four squares whose corners touch, at which no median of three channels is right.
+      {polygons({{{0.1, -0.3}, {0.1, -0.5}, {0.9, -0.5}, {0.9, -0.3}}, {{0.6, 0}, {0.6, -0.8}, {0.4, -0.8}, {0.4, 0}}}),
+       0.24, 0.01},
+      {polygons({{{0.1, 0}, {0.1, -0.7}, {0.7, -0.7}, {0.7, -0.3}, {0.3, -0.3}, {0.3, -0.9}, {0.5, -0.9}, {0.5, 0}}}),
+       0.40, 0.002}};
+  for (const Case& c : cases) {
+    const std::vector<GlyphOutline> glyphs = {{U'a', 1, c.outline}};
+    const Atlas atlas = make_atlas(glyphs, {.kind = FieldKind::Multi, .size = 32, .range = 4});
+    constexpr double em = 200;
+    const char32_t text[] = {U'a'};
+    Plane<float> drawn(220, 220);
+    draw_text(atlas, text, {10, 200}, em, drawn);
+    double ink = 0;
+    for (const float v : drawn.values()) ink += static_cast<double>(v);
+    EXPECT_NEAR(ink / (em * em), c.area, c.area * c.part);
+  }
+}
+
 TEST(SdfAtlas, DrawsGlyphsWhereTheirOutlinesAre) {
   const std::vector<GlyphOutline> glyphs = {{U'a', 0.9, notched()}, {U' ', 0.4, {}}, {U'b', 0.8, notched()}};
   for (const FieldKind kind : {FieldKind::Single, FieldKind::Multi, FieldKind::MultiAlpha}) {
