@@ -63,18 +63,48 @@ Filtered filter_on(const DisplayImage& image, Backdrop backdrop, Mixing mixing, 
   return f;
 }
 
+/// The least and the greatest value of each channel around a pixel.
+struct ColorRange {
+  Display low{1, 1, 1, 1}, high{0, 0, 0, 0};
+
+  void add(const Display& c) {
+    low = {std::min(low.r, c.r), std::min(low.g, c.g), std::min(low.b, c.b)};
+    high = {std::max(high.r, c.r), std::max(high.g, c.g), std::max(high.b, c.b)};
+  }
+  bool empty() const { return low.r > high.r; }
+  Display clamp(const Display& c) const {
+    return {std::clamp(c.r, low.r, high.r), std::clamp(c.g, low.g, high.g), std::clamp(c.b, low.b, high.b), c.a};
+  }
+};
+
+/// Of the pixels that are not entirely transparent in the smallest square around (x, y) that has any.
+ColorRange colors_around(const DisplayImage& image, int x, int y) {
+  constexpr int farthest = 16;  // pixels: no filter blends farther
+  ColorRange range;
+  for (int reach = 1; reach <= farthest && range.empty(); ++reach)
+    for (int v = std::max(y - reach, 0); v <= std::min(y + reach, image.height() - 1); ++v)
+      for (int u = std::max(x - reach, 0); u <= std::min(x + reach, image.width() - 1); ++u)
+        if (image(u, v).a > 0) range.add(image(u, v));
+  return range;
+}
+
 /// Silhouettes of dark objects are detected over white, those of bright objects over black: each pixel takes the result
-/// in which its alpha changed more.
-DisplayImage filter_transparent(DisplayImage image, Mixing mixing, const EncodedFilter& filter) {
+/// in which its alpha changed more. Division by alpha enlarges the rounding of 8-bit codes: since filters blend, the
+/// colour is among those around the pixel.
+DisplayImage filter_transparent(const DisplayImage& image, Mixing mixing, const EncodedFilter& filter) {
   const Filtered black = filter_on(image, Backdrop::Black, mixing, filter);
   const Filtered white = filter_on(image, Backdrop::White, mixing, filter);
+  DisplayImage out = image;
+  const auto width = static_cast<std::size_t>(image.width());
   for_pixels(image.values().size(), [&](std::size_t i) {
-    if (white.alpha_change(i) > black.alpha_change(i))
-      image.values()[i] = lifted_from(white.after.values()[i], Backdrop::White, mixing);
-    else if (black.is_changed(i))
-      image.values()[i] = lifted_from(black.after.values()[i], Backdrop::Black, mixing);
+    const bool is_white = white.alpha_change(i) > black.alpha_change(i);
+    if (!is_white && !black.is_changed(i)) return;
+    const Display found =
+        lifted_from((is_white ? white : black).after.values()[i], is_white ? Backdrop::White : Backdrop::Black, mixing);
+    const ColorRange range = colors_around(image, static_cast<int>(i % width), static_cast<int>(i / width));
+    out.values()[i] = found.a > 0 && !range.empty() ? range.clamp(found) : found;
   });
-  return image;
+  return out;
 }
 
 }  // namespace
@@ -82,7 +112,7 @@ DisplayImage filter_transparent(DisplayImage image, Mixing mixing, const Encoded
 DisplayImage filter_encoded(DisplayImage image, Mixing mixing, const EncodedFilter& filter) {
   if (image.empty()) return image;
   if (std::ranges::any_of(image.values(), [](const Display& c) { return c.a < 1; }))
-    return filter_transparent(std::move(image), mixing, filter);
+    return filter_transparent(image, mixing, filter);
   Filtered f{quantize8(image), {}};
   f.after = filter(f.before);
   for_pixels(image.values().size(), [&](std::size_t i) {

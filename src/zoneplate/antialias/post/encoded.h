@@ -21,8 +21,9 @@ using EncodedFilter = std::function<Rgba8Image(const Rgba8Image&)>;
 /// Applies a filter that is defined on sRGB-encoded 8-bit images to a display-referred image.
 ///
 /// Edges     a transparent image is premultiplied and filtered over black and over white, colour and alpha together, so
-///           that silhouettes of every colour are detected.
-/// Exact     a pixel whose 8-bit values the filter does not change keeps its bits; any other becomes value / 255.
+///           that silhouettes of every colour are detected; straight colours stay within those around each pixel.
+/// Exact     a pixel whose 8-bit values the filter does not change keeps its bits; any other of an opaque image becomes
+///           value / 255.
 DisplayImage filter_encoded(DisplayImage image, Mixing mixing, const EncodedFilter& filter);
 
 /// The display-referred pixels a and b, premultiplied and weighted by 1 - weight and weight.

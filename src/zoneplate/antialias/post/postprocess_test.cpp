@@ -2,6 +2,10 @@
 // Properties of all methods that filter the display-referred image.
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <string>
+#include <vector>
+
 #include "zoneplate/antialias/charts_for_test.h"
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/parallel.h"
@@ -166,24 +170,53 @@ TEST(PostProcess, MirroredPicturesGiveMirroredResults) {
   }
 }
 
-TEST(PostProcess, TransparentPicturesKeepTheirColourAtTheEdge) {
-  // An opaque disc of one colour on transparency: its rim becomes transparent, but neither darker nor brighter.
-  for (const Rgba8 color : {Rgba8{255, 180, 60}, Rgba8{2, 2, 2}, Rgba8{250, 250, 250}}) {
-    const Rgba8Image disc = make_codes(48, 48, [&](int x, int y) {
-      return (x - 23) * (x - 23) + (y - 24) * (y - 24) < 300 ? color : Rgba8{0, 0, 0, 0};
-    });
-    for (const Case& c : cases) {
-      const Rgba8Image out = filtered(c.text, disc);
-      int mixed = 0;
-      for (const Rgba8 p : out.values()) {
-        mixed += p.a > 0 && p.a < 255;
-        // The error of the rim composited over any background is at most two roundings of a bright code.
-        for (const auto channel : {&Rgba8::r, &Rgba8::g, &Rgba8::b})
-          EXPECT_NEAR(p.a / 255.0f * (decode_srgb8(p.*channel) - decode_srgb8(color.*channel)), 0, 0.01f) << c.text;
-      }
-      EXPECT_GT(mixed, 40) << c.text << " " << int{color.r};
-    }
+/// The filters of images, of the table with their defaults and of the cases.
+std::vector<std::string> filters() {
+  std::vector<std::string> out;
+  for (const Method& method : methods()) {
+    const Request request = make_resolver(methods(), method.name)->request({});
+    if (request.is_display_referred && request.samples.size() == 1 && !request.draw && !request.planes.any())
+      out.emplace_back(method.name);
   }
+  for (const Case& c : cases) out.emplace_back(c.text);
+  return out;
+}
+
+// Discs of one colour and of two, with hard and with soft outlines, on transparency that hides another colour: what
+// becomes transparent has no colour that the disc does not have.
+TEST(PostProcess, TransparentPicturesHaveNoColouredRim) {
+  ASSERT_GE(filters().size(), std::size(cases) + 7);
+  const std::pair<Rgba8, Rgba8> colors[] = {{{255, 180, 60}, {255, 180, 60}},
+                                            {{2, 2, 2}, {2, 2, 2}},
+                                            {{250, 250, 250}, {250, 250, 250}},
+                                            {{220, 30, 40}, {200, 20, 90}}};
+  for (const auto& [left, right] : colors)
+    for (const bool is_soft : {false, true}) {
+      const Rgba8Image disc = make_codes(48, 48, [&, left = left, right = right](int x, int y) {
+        const float distance = std::sqrt(static_cast<float>((x - 23) * (x - 23) + (y - 24) * (y - 24)));
+        const float coverage = std::clamp(17.4f - distance, 0.0f, 1.0f);
+        Rgba8 c = x < 20 ? left : right;
+        c.a = static_cast<std::uint8_t>((is_soft ? coverage : coverage > 0.5f ? 1 : 0) * 255 + 0.5f);
+        return c.a > 0 ? c : Rgba8{0, 255, 0, 0};
+      });
+      for (const std::string& text : filters()) {
+        const Rgba8Image out = filtered(text.c_str(), disc);
+        int mixed = 0, changed = 0;
+        for (std::size_t i = 0; i < out.values().size(); ++i) {
+          const Rgba8 p = out.values()[i];
+          mixed += p.a > 0 && p.a < 255, changed += p != disc.values()[i];
+          if (p.a == 0) continue;
+          for (const auto channel : {&Rgba8::r, &Rgba8::g, &Rgba8::b}) {
+            EXPECT_GE(p.*channel + 2, std::min(left.*channel, right.*channel)) << text << ' ' << int{p.a};
+            EXPECT_LE(p.*channel - 2, std::max(left.*channel, right.*channel)) << text << ' ' << int{p.a};
+          }
+        }
+        EXPECT_GT(mixed, 40) << text;
+        if (!is_soft) {
+          EXPECT_GT(changed, 40) << text;
+        }
+      }
+    }
 }
 
 }  // namespace
