@@ -227,7 +227,7 @@ TEST_F(Cli, ErrorsAreOneLineWithTheDocumentedCode) {
       {2, {"triangles", "-o", "{nodel}.png"}, "--output: there is no placeholder {nodel}; did you mean {model}?"},
       {2,
        {"triangles", "-o", "a.jpg", "--no-background"},
-       "--no-background: JPEG has no alpha; write a .png or a .webp"},
+       "a.jpg: the image is not opaque, and JPEG has no alpha: write a .png or a .webp, or give it a background"},
       {2, {"triangles", "-o", "a.png", "--out", "a.png"}, "unknown option --out; did you mean --output?"},
       {2,
        {"triangles", "-o", "a.png", "--camera-ortho"},

@@ -58,7 +58,7 @@ TEST_F(Films, OpaqueVideosRefuseATransparentBackground) {
   for (const char* name : {"f.mp4", "f.mov", "f.mkv"}) {
     const auto answer = run_recorded(std::string("teapot --turntable 2 --size 16 --no-background -o ") + name);
     EXPECT_EQ(answer.code, 2) << name;
-    EXPECT_TRUE(contains(answer.out, "has no alpha; write a .webm, .webp or .apng")) << answer.out;
+    EXPECT_TRUE(contains(answer.out, "H.264 video has no alpha: write a .webm, .webp or .apng")) << answer.out;
   }
   EXPECT_EQ(run_recorded("teapot --turntable 2 --size 16 --no-background -o f.webm").code, 0);
 }

@@ -13,14 +13,21 @@ namespace zoneplate {
 /// The ending of a path in lower case, with its dot.
 std::string extension_of(const std::string& path);
 
-/// Saves a display-referred image in the format of the path's ending: .png, .jpg, .jpeg or .webp. JPEG has no alpha.
+/// Requires that an image that is not opaque is written to a format with alpha, which .jpg, .jpeg, .pfm, .mp4, .mov and
+/// .mkv are not.
+///
+/// Errors    ErrorKind::Usage naming the path, its format and those with alpha.
+void check_alpha(const std::string& path);
+
+/// Saves a display-referred image in the format of the path's ending: .png, .jpg, .jpeg or .webp.
 ///
 /// The file is written whole or not at all.
-/// Errors    ErrorKind::Usage for another ending; ErrorKind::Output naming the file.
+/// Errors    ErrorKind::Usage for another ending, and that of check_alpha for an image that is not opaque;
+///           ErrorKind::Output naming the file.
 void save_image(const std::string& path, const Rgba8Image& image);
 
-/// Saves a scene-linear, premultiplied image in the format of the path's ending: .exr (half floats, with alpha) or .pfm
-/// (without alpha).
+/// Saves a scene-linear, premultiplied image in the format of the path's ending: .exr (half floats, with alpha) or
+/// .pfm.
 ///
 /// Errors    as above.
 void save_image(const std::string& path, const LinearImage& image);

@@ -30,12 +30,14 @@ zoneplate_type type_of(std::monostate) { throw Error(ErrorKind::Usage, "the imag
   throw Error(ErrorKind::Usage, fmt::format("'{}' is not a format of this image; there are {}", format, formats));
 }
 
-std::vector<std::uint8_t> encode(const LinearImage& image, bool, const std::string& format) {
+std::vector<std::uint8_t> encode(const LinearImage& image, bool has_alpha, const std::string& format) {
+  if (has_alpha) check_alpha('.' + format);
   if (format == "pfm") return encode_pfm(image);
   if (format != "exr") refuse_format(format, "exr and pfm");
   return encode_exr(image.width(), image.height(), rgba_channels(image));
 }
 std::vector<std::uint8_t> encode(const Rgba8Image& image, bool has_alpha, const std::string& format) {
+  if (has_alpha) check_alpha('.' + format);
   if (format == "jpg" || format == "jpeg") return encode_jpeg(image);
   if (format == "webp") return encode_webp(image, has_alpha);
   if (format != "png") refuse_format(format, "png, jpg and webp");

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/codec/save.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
+#include <iterator>
+#include <string_view>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/lower_case.h"
@@ -18,9 +22,25 @@ std::string extension_of(const std::string& path) {
   return lower_case(std::filesystem::path(path).extension().string());
 }
 
+void check_alpha(const std::string& path) {
+  struct Format {
+    std::string_view extension, name, with_alpha;
+  };
+  constexpr std::string_view images = "a .png or a .webp", videos = "a .webm, .webp or .apng";
+  static constexpr Format formats[] = {{".jpg", "JPEG", images},        {".jpeg", "JPEG", images},
+                                       {".pfm", "PFM", "an .exr"},      {".mp4", "H.264 video", videos},
+                                       {".mov", "H.264 video", videos}, {".mkv", "H.264 video", videos}};
+  const auto found = std::ranges::find(formats, extension_of(path), &Format::extension);
+  if (found == std::end(formats)) return;
+  throw Error(ErrorKind::Usage,
+              fmt::format("{}: the image is not opaque, and {} has no alpha: write {}, or give it a background", path,
+                          found->name, found->with_alpha));
+}
+
 std::vector<std::uint8_t> encode_image(const std::string& path, const Rgba8Image& image) {
   const std::string extension = extension_of(path);
   const bool has_alpha = std::ranges::any_of(image.values(), [](Rgba8 c) { return c.a != 255; });
+  if (has_alpha) check_alpha(path);
   if (extension == ".png") return encode_png(image, {.has_alpha = has_alpha});
   if (extension == ".jpg" || extension == ".jpeg") return encode_jpeg(image);
   if (extension == ".webp") return encode_webp(image, has_alpha);
@@ -29,6 +49,10 @@ std::vector<std::uint8_t> encode_image(const std::string& path, const Rgba8Image
 
 std::vector<std::uint8_t> encode_image(const std::string& path, const LinearImage& image) {
   const std::string extension = extension_of(path);
+  // The sums of filters round. Alpha of 0 everywhere is that of values without it, such as derivatives.
+  constexpr float rounding = 0.5f / 255;
+  const auto has = [&](const auto& alpha) { return std::ranges::any_of(image.values(), alpha, &Linear::a); };
+  if (has([](float a) { return a < 1 - rounding; }) && has([](float a) { return a > rounding; })) check_alpha(path);
   if (extension == ".pfm") return encode_pfm(image);
   if (extension != ".exr") throw Error(ErrorKind::Usage, path + ": scene-linear images are saved as .exr or .pfm");
   return encode_exr(image.width(), image.height(), rgba_channels(image));

@@ -47,8 +47,7 @@ SamplePosition sample_of(const FrameContext& context, SamplePosition planned) {
 
 LinearImage over_background(LinearImage image, const DisplayOptions& display, std::string_view name) {
   if (display.is_transparent)
-    throw Error(ErrorKind::Usage,
-                std::string(name) + " makes opaque images, and a transparent background is requested");
+    throw Error(ErrorKind::Usage, std::string(name) + " makes opaque images, and this one is not: give a --background");
   const auto light = [&](float code) { return display.raw ? code : decode_srgb(code); };
   const float4 b = display.background;
   const float3 color = scene_light({light(b.x), light(b.y), light(b.z)}, display);

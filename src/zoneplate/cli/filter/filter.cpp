@@ -35,6 +35,7 @@ struct FilterArgs {
   std::optional<int2> size;  ///< of the upscaled images
   int bit_depth = 8, threads = 0;
   bool replaces_inputs = false;
+  std::optional<float4> background;
   std::optional<ProgressKind> progress;  ///< none: a bar on a terminal
   ReadingLimits limits;
 };
@@ -56,7 +57,9 @@ std::string filter_names() {
 
 std::string upscaler_names() {
   std::string names;
-  for (const Upscaler& row : upscale::upscalers()) names += fmt::format("{}{}", names.empty() ? "" : ", ", row.name);
+  for (const Upscaler& row : upscale::upscalers())
+    if (row.make_spatial || filters_sequences(std::string(row.name)))
+      names += fmt::format("{}{}", names.empty() ? "" : ", ", row.name);
   return names;
 }
 
@@ -118,8 +121,9 @@ void filter_linear(const FilterItem& item, const LinearImage& image, const Filte
   out.save(item.output, encode_image(item.output, upscale::upscale_linear(*filters.upscaler, image, grid)));
 }
 
-void filter_image(const FilterItem& item, const Filters& filters, int bit_depth, Delivery& out) {
+void filter_image(const FilterItem& item, const Filters& filters, const FilterArgs& args, Delivery& out) {
   metrics::Picture picture = load_still(item.input, out);
+  if (args.background) lay_over(picture, *args.background);
   if (picture.is_scene_linear) return filter_linear(item, picture.linear, filters, out);
   if (is_linear_file(item.output))
     throw Error(ErrorKind::Usage, fmt::format("{}: is a display-referred image, and {} is scene-linear: write a .png",
@@ -128,7 +132,7 @@ void filter_image(const FilterItem& item, const Filters& filters, int bit_depth,
   if (filters.antialiasing) image = filters.antialiasing->post_process(std::move(image), Frame());
   if (filters.upscaler)
     image = filters.upscaler->upscale(image, grid_of(filters, image.width(), image.height(), item.input));
-  if (bit_depth == 8) return out.save(item.output, encode_image(item.output, quantize8(image)));
+  if (args.bit_depth == 8) return out.save(item.output, encode_image(item.output, quantize8(image)));
   out.save(item.output, encode_png(quantize16(image)));
 }
 
@@ -137,6 +141,9 @@ std::string sequence_method(const FilterArgs& args) {
   const Upscaler* const upscaler =
       args.upscaler.empty() ? nullptr : &parse_spec("upscaler", upscale::upscalers(), args.upscaler).row;
   const bool is_temporal = upscaler && upscaler->make_temporal;
+  if (is_temporal && !filters_sequences(args.upscaler))
+    throw Error(ErrorKind::Usage,
+                fmt::format("--upscale: {} needs a scene, expected one of {}", args.upscaler, upscaler_names()));
   const bool has_history = !args.method.empty() && filters_sequences(args.method);
   if (is_temporal && !args.method.empty())
     throw Error(ErrorKind::Usage,
@@ -181,7 +188,9 @@ Syntax make_syntax(FilterArgs& args) {
           "A file that is read is not replaced without --force.\n"
           "Antialiasing filters work on 8-bit sRGB values. Pixels that the filter does not blend keep their exact "
           "value;\n"
-          "images with alpha are filtered premultiplied.\n"
+          "images with alpha are filtered premultiplied. What has no alpha refuses them without a --background: JPEG, "
+          "PFM,\n"
+          "fsr2, fsr3, taau and sgsr2.\n"
           "\n"
           "Methods with history (taa, history-guided, fsr2, fsr3, taau, sgsr2) filter the frames of a sequence in "
           "order, as one shot "
@@ -208,6 +217,9 @@ Syntax make_syntax(FilterArgs& args) {
        "Options", true, [&](auto& text) { args.upscaler = text; }},
       {"--size", "W,H", "Size of the upscaled image; default: that of the image times the upscaler's scale, 1.5",
        "Options", true, [&](auto& text) { args.size = parse_size(text, 32768); }},
+      {"--background", "COLOR",
+       "Background under images with alpha, for methods and formats without it; default: none, they keep alpha",
+       "Options", false, [&](auto& text) { args.background = parse_color(text); }},
       {"--motion", "FILES", "EXR sequence with the motion of the frames; default: channels of the frames themselves",
        "Sequences", true, [&](auto& text) { args.motion = text; }},
       {"--motion-scale", "X,Y",
@@ -259,13 +271,14 @@ void filter_all(const FilterWork& work, Delivery& out) {
                             .fov = static_cast<float>(args.fov),
                             .size = args.size,
                             .scale = scale,
-                            .bit_depth = args.bit_depth},
+                            .bit_depth = args.bit_depth,
+                            .background = args.background},
                            out);
   }
   double done = 0;
   for (const FilterItem& item : work.items) {
     out.progress(item.input, done++ / static_cast<double>(work.items.size()));
-    filter_image(item, work.filters, args.bit_depth, out);
+    filter_image(item, work.filters, args, out);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "zoneplate/base/paths_for_test.h"
 #include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/png.h"
+#include "zoneplate/metrics/backdrop.h"
 #include "zoneplate/metrics/file/picture_file.h"
 #include "zoneplate/metrics/psnr.h"
 #include "zoneplate/os/file.h"
@@ -215,7 +216,7 @@ TEST_P(FilterUpscaler, TreatsFramesOfAnotherRendererAsOwnOnes) {
     direct.push_back(renderer.render(camera, settings).linear);
   }
   ASSERT_EQ(run(fmt::format("filter color.####.exr --depth depth.####.exr --motion motion.####.exr --motion-scale "
-                            "-48,36 --jitter jitter.txt --fov 30 --upscale {} --size 96x72 -o out",
+                            "-48,36 --jitter jitter.txt --fov 30 --background black --upscale {} --size 96x72 -o out",
                             name)),
             0)
       << output_;
@@ -242,6 +243,55 @@ TEST_F(FilterVerb, TemporalMethodsFilterTheFramesOfRender) {
   // Colours are rounded to half floats before the history, not only after it.
   EXPECT_EQ(run("metrics direct.0000.exr out/raw.0000.exr --metric mae --threshold 0"), 0) << output_;
   EXPECT_EQ(run("metrics direct.####.exr out/raw.####.exr --metric psnr --threshold 80"), 0) << output_;
+}
+
+// A disc on transparency that hides another colour.
+TEST_F(FilterVerb, FormatsWithoutAlphaNeedABackground) {
+  Rgba8Image disc(40, 30, Rgba8{0, 255, 0, 0});
+  for (int y = 0; y < 30; ++y)
+    for (int x = 0; x < 40; ++x)
+      if ((x - 20) * (x - 20) + (y - 15) * (y - 15) < 120) disc(x, y) = {220, 30, 40, 255};
+  save("disc.png", encode_png(disc));
+  for (const char* name : {"out.jpg", "out.jpeg"}) {
+    EXPECT_EQ(run(std::string("filter disc.png --aa smaa -o ") + name), 2);
+    EXPECT_EQ(output_, std::string("zoneplate: error: ") + name +
+                           ": the image is not opaque, and JPEG has no alpha: write a .png or a .webp, or give it a "
+                           "background\n");
+    EXPECT_FALSE(exists(name));
+  }
+  ASSERT_EQ(run("filter disc.png --aa smaa --background '#0000ff' -o out.jpg"), 0) << output_;
+  ASSERT_EQ(run("filter disc.png --aa smaa --background '#0000ff' -o out.png"), 0) << output_;
+  const Rgba8Image laid = png("out.png").pixels;
+  EXPECT_EQ(laid(0, 0), (Rgba8{0, 0, 255, 255}));
+  EXPECT_EQ(laid(20, 15), (Rgba8{220, 30, 40, 255}));
+  const metrics::Picture jpeg = metrics::load_picture((folder() / "out.jpg").string());
+  EXPECT_NEAR(jpeg.display(1, 1).b, 1, 0.02f);
+  EXPECT_NEAR(jpeg.display(1, 1).g, 0, 0.02f);
+  ASSERT_EQ(run("teapot -o pot.exr --size 24x18"), 0) << output_;
+  EXPECT_EQ(run("filter pot.exr --upscale bilinear -o pot.pfm"), 2) << output_;
+  EXPECT_EQ(run("filter pot.exr --upscale bilinear --background white -o pot.pfm"), 0) << output_;
+}
+
+// Methods of opaque images refuse frames with alpha without a background, and else make those of opaque frames.
+TEST_F(FilterVerb, TemporalMethodsKeepAlphaOrRefuseIt) {
+  const std::string frames = "teapot --turntable 90 --frames 2 --size 48x36 --aa none --aov depth,motion ";
+  ASSERT_EQ(run(frames + "-o clear.####.exr"), 0) << output_;
+  ASSERT_EQ(run(frames + "--background '#204060' -o laid.####.exr"), 0) << output_;
+  for (const char* method : {"--upscale fsr2", "--upscale fsr3", "--upscale sgsr2", "--upscale taau"}) {
+    const std::string name = std::string(method).substr(10);
+    EXPECT_EQ(run(std::string("filter clear.####.exr -o out ") + method), 2) << method;
+    EXPECT_NE(
+        output_.find("clear.0000.exr: " + name + " makes opaque images, and this one is not: give a --background"),
+        std::string::npos)
+        << output_;
+    ASSERT_EQ(run(std::string("filter clear.####.exr -o a --background '#204060' ") + method), 0) << output_;
+    ASSERT_EQ(run(std::string("filter laid.####.exr -o b ") + method), 0) << output_;
+    EXPECT_EQ(run("metrics b/laid.0001.exr a/clear.0001.exr --metric psnr --threshold 60"), 0) << output_;
+  }
+  for (const char* method : {"taa", "history-guided"}) {
+    ASSERT_EQ(run(std::string("filter clear.####.exr -o kept --aa ") + method), 0) << output_;
+    EXPECT_TRUE(metrics::has_alpha(metrics::load_picture((folder() / "kept/clear.0001.exr").string())));
+  }
 }
 
 TEST_F(FilterVerb, SequencesThatDoNotFitAreRefused) {
@@ -271,6 +321,11 @@ TEST_F(FilterVerb, SequencesThatDoNotFitAreRefused) {
             std::string::npos)
       << output_;
   EXPECT_NE(message("raw.####.exr --motion raw.####.exr --aa smaa -o out", 2).find("methods with history"),
+            std::string::npos)
+      << output_;
+  EXPECT_NE(message("raw.####.exr --upscale oracle-taau -o out", 2)
+                .find("--upscale: oracle-taau needs a scene, expected one of bilinear, bicubic, lanczos, fsr1, nis, "
+                      "sgsr1, fsr2, fsr3, sgsr2, taau"),
             std::string::npos)
       << output_;
   EXPECT_NE(message("raw.####.exr --aa taa --upscale fsr2 -o out", 2).find("antialiases itself"), std::string::npos)

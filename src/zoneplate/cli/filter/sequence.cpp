@@ -18,6 +18,7 @@
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/save.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/metrics/backdrop.h"
 #include "zoneplate/metrics/file/picture_file.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/upscale/upscaler.h"
@@ -202,6 +203,7 @@ void filter_sequence(const SequenceFilter& filter, Delivery& out) {
   for (std::size_t i = 0; i < files.size(); ++i) {
     out.progress(files[i].color, static_cast<double>(i) / static_cast<double>(files.size()));
     metrics::Picture picture = load_still(files[i].color, out);
+    if (filter.background) lay_over(picture, *filter.background);
     if (picture.is_scene_linear != is_linear_file(files[i].output))
       throw Error(ErrorKind::Usage,
                   fmt::format("{}: is a {} image, and {} is not: write {}", files[i].color,
@@ -225,9 +227,16 @@ void filter_sequence(const SequenceFilter& filter, Delivery& out) {
     context.given = GivenFrame{own.x, own.y, std::nullopt};
     if (!samples.empty()) context.given->sample = samples[i];
     method->request(context);
-    const bool is_scene_linear = picture.is_scene_linear;
+    const bool is_scene_linear = picture.is_scene_linear, has_alpha = metrics::has_alpha(picture);
     Frame frame = frame_of(files[i], std::move(picture.linear), filter, camera.near, objects, out);
-    save(files[i].output, method->resolve(frame), is_scene_linear, filter.bit_depth, out);
+    frame.display.is_transparent = has_alpha;
+    LinearImage image;
+    try {
+      image = method->resolve(frame);
+    } catch (const Error& error) {
+      throw Error(error.kind(), files[i].color + ": " + error.what());
+    }
+    save(files[i].output, std::move(image), is_scene_linear, filter.bit_depth, out);
   }
 }
 

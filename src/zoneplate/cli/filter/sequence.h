@@ -22,6 +22,7 @@ struct SequenceFilter {
   std::optional<int2> size;   ///< of the images; none: that of the frames times `scale`
   double scale = 1;
   int bit_depth = 8;
+  std::optional<float4> background;  ///< laid under frames with alpha: an encoded colour with straight alpha
 };
 
 /// True if the method keeps history of one-sample frames and reads no planes but those that files contain.
@@ -30,7 +31,8 @@ bool filters_sequences(const std::string& method);
 /// Filters the frames in order and delivers each image, after it has checked that all files fit together. A pixel that
 /// is not finite takes the mean of its neighbours, so that it does not enter the history; a warning counts them.
 ///
-/// Errors    ErrorKind::Input naming the file that is missing, lacks a channel or has another size.
+/// Errors    ErrorKind::Input naming the file that is missing, lacks a channel or has another size; ErrorKind::Usage
+///           naming a frame that is not opaque, for a method that makes opaque images.
 void filter_sequence(const SequenceFilter& filter, Delivery& out);
 
 }  // namespace zoneplate::cli

@@ -8,6 +8,8 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/codec/inspect/image_format.h"
+#include "zoneplate/image/tonemap.h"
+#include "zoneplate/image/transfer.h"
 #include "zoneplate/metrics/backdrop.h"
 #include "zoneplate/metrics/file/picture_file.h"
 
@@ -98,6 +100,17 @@ metrics::Picture load_still(const std::string& path, Delivery& out) {
     out.warn(fmt::format("{}: {} {} not finite, and {} the mean of neighbours", path, pixels,
                          pixels == 1 ? "pixel is" : "pixels are", pixels == 1 ? "takes" : "take"));
   return picture;
+}
+
+void lay_over(metrics::Picture& picture, float4 background) {
+  picture.linear = over_background(std::move(picture.linear), {.background = background});
+  for (std::size_t i = 0; i < picture.linear.values().size(); ++i) {
+    const Linear& c = picture.linear.values()[i];
+    Display& codes = picture.display.values()[i];
+    if (codes.a == 1) continue;
+    const auto code = [&](float light) { return encode_srgb(std::clamp(light / c.a, 0.0f, 1.0f)); };
+    codes = c.a > 0 ? Display{code(c.r), code(c.g), code(c.b), c.a} : Display{0, 0, 0, 0};
+  }
 }
 
 std::size_t fill_not_finite(LinearImage& image, const std::string& name) {

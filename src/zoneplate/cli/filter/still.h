@@ -5,6 +5,7 @@
 #include <string>
 
 #include "zoneplate/cli/process/confined.h"
+#include "zoneplate/math/vec.h"
 #include "zoneplate/metrics/picture.h"
 
 namespace zoneplate::cli {
@@ -14,6 +15,11 @@ namespace zoneplate::cli {
 ///
 /// Errors    those of load_picture (metrics/file/picture_file.h) and of fill_not_finite.
 metrics::Picture load_still(const std::string& path, Delivery& out);
+
+/// Lays an image with alpha over a background, an encoded colour with straight alpha, in linear light.
+///
+/// Exact     an opaque pixel keeps its values.
+void lay_over(metrics::Picture& picture, float4 background);
 
 /// Gives each pixel with a channel that is not finite the mean of those of its eight neighbours that are finite; where
 /// all are undefined, from the border of such a region inwards.

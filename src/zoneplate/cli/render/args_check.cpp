@@ -12,6 +12,7 @@
 #include "zoneplate/cli/config/config.h"
 #include "zoneplate/cli/render/args.h"
 #include "zoneplate/cli/render/film.h"
+#include "zoneplate/codec/save.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {
@@ -150,11 +151,7 @@ void check_args(RenderArgs& args) {
     throw Error(ErrorKind::Usage, "--ground shadow requires --shadows or --ambient-occlusion");
   if (args.bit_depth == 16 && ending != ".png" && ending != ".rgba")
     throw Error(ErrorKind::Usage, "--bit-depth: only .png and .rgba have 16 bits");
-  if (args.display.is_transparent && (ending == ".jpg" || ending == ".jpeg"))
-    throw Error(ErrorKind::Usage, "--no-background: JPEG has no alpha; write a .png or a .webp");
-  if (args.display.is_transparent && is_opaque_video(args.output))
-    throw Error(ErrorKind::Usage,
-                fmt::format("--no-background: {} has no alpha; write a .webm, .webp or .apng", ending));
+  if (args.display.is_transparent || (args.background && args.background->w < 1)) check_alpha(args.named_output());
   if (args.dithers && (args.bit_depth == 16 || ending == ".pfm" || ending == ".exr"))
     throw Error(ErrorKind::Usage, "--dither is for 8 bits a channel");
   if (args.sequence.jump != 1 && !args.sequence.is_sequence())

@@ -26,7 +26,7 @@ const Words bt709_tags = {"-colorspace", "bt709",        "-color_primaries", "bt
 struct Codec {
   std::string_view extension;
   Words words;
-  bool is_opaque = false;  ///< H.264: without alpha, of even sides
+  bool has_even_sides = false;  ///< H.264, whose chroma has half of the pixels along each axis
 };
 
 // Options of ffmpeg: one thread and no time stamps, so that the same version of ffmpeg writes the same bytes. MP4 and
@@ -73,7 +73,7 @@ Words arguments_for(const std::string& output, int width, int height, const Anim
                  "-pix_fmt",
                  "rgba",
                  "-s",
-                 fmt::format("{}x{}", even(width, is_opaque_video(output)), even(height, is_opaque_video(output))),
+                 fmt::format("{}x{}", even(width, has_even_sides(output)), even(height, has_even_sides(output))),
                  "-r",
                  fmt::format("{}/{}", format.per, format.seconds),
                  "-i",
@@ -106,9 +106,9 @@ AnimationFormat film_format(double rate) {
 
 bool is_encoded_by_ffmpeg(const std::string& output) { return find_codec(output) != nullptr; }
 
-bool is_opaque_video(const std::string& output) {
+bool has_even_sides(const std::string& output) {
   const Codec* const codec = find_codec(output);
-  return codec != nullptr && codec->is_opaque;
+  return codec != nullptr && codec->has_even_sides;
 }
 
 std::unique_ptr<AnimationEncoder> make_film_encoder(const std::string& output, const AnimationFormat& format) {
@@ -119,8 +119,8 @@ FfmpegFilm::FfmpegFilm(const std::string& output, int width, int height, const A
                        std::function<void()> check_time)
     : row_bytes_(std::size_t{4} * static_cast<std::size_t>(width)),
       rows_(static_cast<std::size_t>(height)),
-      repeats_column_(even(width, is_opaque_video(output)) != width),
-      repeats_row_(even(height, is_opaque_video(output)) != height),
+      repeats_column_(even(width, has_even_sides(output)) != width),
+      repeats_row_(even(height, has_even_sides(output)) != height),
       ffmpeg_("ffmpeg", arguments_for(output, width, height, format),
               {.milliseconds = longest_wait_ms, .check_time = std::move(check_time)}) {}
 

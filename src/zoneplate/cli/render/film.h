@@ -21,8 +21,8 @@ AnimationFormat film_format(double rate);
 /// True for the name of a video that the program ffmpeg encodes: .mp4, .mov, .mkv, .webm or .gif.
 bool is_encoded_by_ffmpeg(const std::string& output);
 
-/// True if such a video has no alpha: .mp4, .mov and .mkv.
-bool is_opaque_video(const std::string& output);
+/// True if such a video has sides of even numbers of pixels: .mp4, .mov and .mkv.
+bool has_even_sides(const std::string& output);
 
 /// The frames per second that a .gif has at most: browsers show delays below 2 hundredths of a second as 10.
 constexpr int most_gif_rate = 50;

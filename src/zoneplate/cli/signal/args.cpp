@@ -11,8 +11,8 @@
 #include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/codec/exr_encode.h"
-#include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
+#include "zoneplate/codec/save.h"
 #include "zoneplate/signal/pattern/pattern.h"
 
 namespace zoneplate::cli {
@@ -100,7 +100,7 @@ void save_picture(const std::string& path, const Rgba8Image& picture, Delivery& 
 
 void save_result(const std::string& path, const LinearImage& values, const std::function<Rgba8Image()>& picture,
                  Delivery& out) {
-  if (path.ends_with(".pfm")) return out.save(path, encode_pfm(values));
+  if (path.ends_with(".pfm")) return out.save(path, encode_image(path, values));
   if (!path.ends_with(".exr")) return save_picture(path, picture(), out);
   const Linear& first = *values.values().data();
   constexpr std::size_t step = sizeof(Linear) / sizeof(float);
