@@ -63,6 +63,9 @@ struct MipOptions {
   /// Scales the alpha of each level of alpha-tested base colours so that the fraction of texels that pass the test is
   /// that of level 0.
   bool keeps_coverage = false;
+  /// Weights the base colours of alpha-tested and blended materials by alpha, so that the colours which transparent
+  /// texels hide do not show along outlines. False: averaged without regard to alpha, as GPUs do.
+  bool weights_by_alpha = true;
 };
 
 /// Widens reflection lobes by the variance of the normals within a pixel, which shading at one point misses.

@@ -32,6 +32,9 @@ struct LevelOptions {
   /// number with which the fraction of texels that pass is nearest to that of level 0.
   /// Source    Castaño, Computing Alpha Mipmaps, 2010.
   std::optional<float> kept_cutoff;
+  /// Weights colours by alpha between levels, and gives entirely transparent texels, on all levels, the colour of what
+  /// is visible around them: look-ups do not see the colours that they hide.
+  bool weights_by_alpha = false;
 };
 
 /// An image with its mip levels, in linear light.
@@ -39,8 +42,8 @@ struct LevelOptions {
 /// Level l + 1 is half as wide and high as level l, rounded down, at least 1. Each of its texels is the mean of the
 /// area that it covers (where a size is odd, of three texels a side, weighted by the fraction that it covers of each);
 /// means of integers are rounded to the nearest, halves up. Colours are decoded before they are averaged. Alpha is
-/// straight, as in glTF: colour is averaged without regard to alpha. MipFilter::Kaiser and Lanczos replace that mean;
-/// their values are clamped to the range of the texels.
+/// straight, as in glTF: colour is averaged without regard to alpha, unless LevelOptions::weights_by_alpha is set.
+/// MipFilter::Kaiser and Lanczos replace that mean; their values are clamped to the range of the texels.
 ///
 /// Texels    of 8-bit images: values as unorm8, colours as unorm15 in linear light. Of scene-linear images (HDR, EXR):
 ///           half floats where half floats represent every texel of level 0 exactly, as they do for an EXR file of half

@@ -163,6 +163,28 @@ TEST_F(FilterFiles, DamagedJpegsGiveAWarning) {
   }
 }
 
+// Opaque red columns and transparent green ones between them.
+TEST_F(FilterFiles, MipLevelsHideWhatAlphaHides) {
+  Rgba8Image columns(side, side, {255, 0, 0, 255});
+  for (int y = 0; y < side; ++y)
+    for (int x = 1; x < side; x += 2) columns(x, y) = {0, 255, 0, 0};
+  save("columns.png", encode_png(columns));
+  const auto greenest = [&](const char* options) {
+    const ProgramAnswer answer = ProgramTest::run(fmt::format("texture levels columns.png -o levels.png{}", options));
+    EXPECT_EQ(answer.code, 0) << answer.out;
+    const FileBytes file((place / "levels.png").string());
+    const Rgba8Image levels = decode_png(file.bytes(), "levels.png").pixels;
+    int most = 0;
+    for (const Rgba8 c : levels.values()) most = std::max(most, int{c.g});
+    return most;
+  };
+  EXPECT_EQ(greenest(""), 0);
+  EXPECT_EQ(greenest(" --mip-filter kaiser"), 0);
+  EXPECT_EQ(greenest(" --ripmap"), 0);
+  EXPECT_EQ(greenest(" --straight-alpha"), 255);
+  EXPECT_EQ(greenest(" --values"), 255);
+}
+
 TEST_F(FilterFiles, WhatIsNotFiniteDoesNotEnterTheHistory) {
   for (int i = 0; i < 6; ++i) {
     LinearImage image(side, side, {0.25f, 0.25f, 0.25f, 1});

@@ -188,13 +188,16 @@ struct MipFilterRow {
 };
 
 void set_mip_filter(const std::string& text, MipOptions& mips) {
-  static constexpr std::string_view alphas[] = {"average", "coverage"};
-  static constexpr Param params[] = {{.name = "alpha", .meaning = "of alpha-tested textures", .names = alphas}};
+  static constexpr std::string_view alphas[] = {"average", "coverage"}, colors[] = {"weighted", "straight"};
+  static constexpr Param params[] = {
+      {.name = "alpha", .meaning = "of alpha-tested textures", .names = alphas},
+      {.name = "color", .meaning = "of textures with alpha: weighted by it, or not", .names = colors}};
   static constexpr MipFilterRow rows[] = {
       {"box", params, MipFilter::Box}, {"kaiser", params, MipFilter::Kaiser}, {"lanczos", params, MipFilter::Lanczos}};
   const auto spec = parse_spec<MipFilterRow>("mip filter", rows, text);
   mips.filter = spec.row.filter;
   mips.keeps_coverage = spec.settings.chosen("alpha") == "coverage";
+  mips.weights_by_alpha = spec.settings.chosen("color") == "weighted";
 }
 
 std::vector<Option> input_options(RenderArgs& a) {
@@ -505,7 +508,8 @@ std::vector<Option> scene_options(RenderArgs& a) {
        group, false, [&](auto& text) { a.options.texture_filter = parse_texture_filter(text); }, texture_filter_list()},
       {"--mip-filter", "FILTER",
        "Filter that makes mip levels: box, kaiser or lanczos; :alpha=coverage keeps the fraction of an alpha-tested "
-       "texture that is opaque; default box",
+       "texture that is opaque, :color=straight shows the colours that transparent texels hide, as GPUs do; default "
+       "box",
        group, false, [&](auto& text) { set_mip_filter(text, a.mips); }, Choices{"box", "kaiser", "lanczos"}},
       choice_option(
           "--specular-aa", "KIND",

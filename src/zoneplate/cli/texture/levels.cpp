@@ -28,7 +28,7 @@ namespace {
 struct LevelsArgs : SignalArgs {
   LevelOptions options;
   TexelMeaning meaning = TexelMeaning::Color;
-  bool shows_ripmap = false;
+  bool weights_by_alpha = true, shows_ripmap = false;
 };
 
 DecodedImage load_texels(const std::string& operand, std::uint64_t most_pixels) {
@@ -206,6 +206,8 @@ Syntax make_syntax(LevelsArgs& args) {
        }},
       {"--alpha-cutoff", "A", "Keep the fraction of texels whose alpha is at least A", group, false,
        [&](auto& text) { args.options.kept_cutoff = static_cast<float>(parse_number(text, 0.001, 1)); }},
+      {"--straight-alpha", "", "Average colours without regard to alpha, as GPUs do; default: weighted by alpha", group,
+       false, [&](auto&) { args.weights_by_alpha = false; }},
       {"--values", "", "The image holds data, not sRGB colours", group, false,
        [&](auto&) { args.meaning = TexelMeaning::Values; }},
       {"--ripmap", "", "Show the ripmap", group, true, [&](auto&) { args.shows_ripmap = true; }}};
@@ -230,8 +232,9 @@ void run_texture_levels(std::span<const std::string> arguments) {
       out.warn_of_flaw(image.flaw);
       texels = std::move(image.texels);
     });
-    const Texture texture(std::move(texels), args.meaning, args.options);
     const bool is_color = args.meaning == TexelMeaning::Color;
+    args.options.weights_by_alpha = args.weights_by_alpha && is_color;
+    const Texture texture(std::move(texels), args.meaning, args.options);
     if (!args.output.empty())
       save_picture(args.output,
                    args.shows_ripmap ? ripmap_of(texture.ripmap(), is_color) : pyramid_of(texture.view(), is_color),

@@ -183,9 +183,13 @@ void TextureSet::find_uses(const Scene& scene) {
       const TextureImage& image = scene.images.at(static_cast<std::size_t>(use.image));
       if (image.pixels.empty()) throw Error(ErrorKind::Input, "texture " + image.name + ": has no texels");
       LevelOptions options{mips_.filter, use.sampler.wrap_u, use.sampler.wrap_v, {}};
-      if (mips_.keeps_coverage && material.alpha_mode == AlphaMode::Mask && &use == &material.base_color_texture)
+      const bool has_alpha = material.alpha_mode != AlphaMode::Opaque && &use == &material.base_color_texture;
+      if (mips_.keeps_coverage && has_alpha && material.alpha_mode == AlphaMode::Mask)
         options.kept_cutoff = material.alpha_cutoff;
-      textures_.try_emplace(key_of(use.image, meaning), Entry{options, nullptr});
+      options.weights_by_alpha = mips_.weights_by_alpha && has_alpha;
+      const auto [entry, is_new] = textures_.try_emplace(key_of(use.image, meaning), Entry{options, nullptr});
+      // Where a use ignores alpha, no texel hides its colour.
+      if (!is_new) entry->second.options.weights_by_alpha &= options.weights_by_alpha;
     };
     for_used_slots(material, add);
     if (material.layers == nullptr || material.model != ShadingModel::MetallicRoughness) continue;

@@ -156,6 +156,30 @@ TEST(TextureSet, AnImageIsThereOnceForEachMeaning) {
   EXPECT_EQ(find(set, -1, TexelMeaning::Color), nullptr);
 }
 
+// The second texel of level 0 is transparent and green; where alpha counts, it takes the colour of the first.
+TEST(TextureSet, BaseColoursAreWeightedByAlphaWhereItCounts) {
+  Rgba8Image pixels(2, 1, Rgba8{255, 0, 0, 255});
+  pixels(1, 0) = {0, 255, 0, 0};
+  const auto green = [&](std::initializer_list<AlphaMode> modes, const MipOptions& mips) {
+    Scene scene = flat_triangle();
+    scene.images = {{"leaf", pixels}};
+    for (const AlphaMode mode : modes) {
+      Material m = scene.materials[0];
+      m.alpha_mode = mode, m.base_color_texture.image = 0;
+      scene.materials.push_back(m);
+    }
+    const TextureSet set(scene, mips);
+    const TextureView& view = set.find({.image = 0}, TexelMeaning::Color)->view();
+    return view.unorm15[4 * view.texel(0, 1, 0) + 1];
+  };
+  EXPECT_EQ(green({AlphaMode::Mask}, {}), 0);
+  EXPECT_EQ(green({AlphaMode::Blend, AlphaMode::Mask}, {}), 0);
+  EXPECT_EQ(green({AlphaMode::Blend}, {.weights_by_alpha = false}), 32767);
+  EXPECT_EQ(green({AlphaMode::Opaque}, {}), 32767);
+  EXPECT_EQ(green({AlphaMode::Blend, AlphaMode::Opaque}, {}), 32767);
+  EXPECT_EQ(green({AlphaMode::Opaque, AlphaMode::Blend}, {}), 32767);
+}
+
 TEST(TextureSet, HasTheTexturesOfBlackFactorsForLaterFrames) {
   Scene scene = flat_triangle();
   scene.images = {{"glow", one_texel({0, 255, 0, 255})}, {"coat", one_texel({128, 0, 0, 255})}};

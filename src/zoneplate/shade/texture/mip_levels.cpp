@@ -18,7 +18,8 @@ namespace {
 
 /// Makes level l from the level before it, by a kernel with negative lobes.
 template <class Code>
-void filter_level(Code* codes, const TextureView& view, std::int32_t l, const LevelOptions& options) {
+void filter_level(Code* codes, const TextureView& view, std::int32_t l, const LevelOptions& options,
+                  bool weights_by_alpha) {
   static const Kernel kaiser = make_kernel("kaiser"), lanczos = make_kernel("lanczos3");
   const Kernel& kernel = options.filter == MipFilter::Kaiser ? kaiser : lanczos;
   const LevelSize from{view.width[l - 1], view.height[l - 1]}, to{view.width[l], view.height[l]};
@@ -28,6 +29,7 @@ void filter_level(Code* codes, const TextureView& view, std::int32_t l, const Le
     for (Linear& p : image.row(y)) {
       const auto value = [&](int c) { return static_cast<float>(term(texel[c])) * unit_of<Code>; };
       p = {value(0), value(1), value(2), value(3)};
+      if (weights_by_alpha) p = {p.r * p.a, p.g * p.a, p.b * p.a, p.a};
       texel += 4;
     }
   }
@@ -37,7 +39,8 @@ void filter_level(Code* codes, const TextureView& view, std::int32_t l, const Le
   for (std::int32_t y = 0; y < to.height; ++y) {
     Code* const row = row_of(codes, view, l, y);
     Code* texel = row;
-    for (const Linear& p : small.row(y)) {
+    for (Linear p : small.row(y)) {
+      if (weights_by_alpha && p.a > 0) p = {p.r / p.a, p.g / p.a, p.b / p.a, p.a};
       texel[0] = code_of<Code>(p.r, view.most), texel[1] = code_of<Code>(p.g, view.most);
       texel[2] = code_of<Code>(p.b, view.most), texel[3] = code_of<Code>(p.a, 1);
       texel += 4;
@@ -112,17 +115,112 @@ void halve_level(Code* codes, const TextureView& view, std::int32_t l) {
   });
 }
 
+/// A texel of a weighted sum: colours times alpha, and alpha.
+template <class Code>
+struct WeightedSum {
+  TexelSum<Code> color[3] = {}, alpha = 0;
+
+  void add(const Code* texel, std::uint64_t weight) {
+    const auto by = static_cast<TexelSum<Code>>(weight) * static_cast<TexelSum<Code>>(term(texel[3]));
+    for (int c = 0; c < 3; ++c) color[c] += by * static_cast<TexelSum<Code>>(term(texel[c]));
+    alpha += by;
+  }
+  bool is_transparent() const { return !(alpha > 0); }
+  void write_color(Code* out) const {
+    for (int c = 0; c < 3; ++c)
+      if constexpr (std::is_integral_v<Code>)
+        out[c] = static_cast<Code>((color[c] + alpha / 2) / alpha);
+      else
+        out[c] = rounded<Code>(color[c] / alpha);
+  }
+};
+
+/// Replaces the colours of level l, the means of those of the level before it, by means that are weighted by alpha.
+template <class Code>
+void weight_level(Code* codes, const TextureView& view, std::int32_t l) {
+  const LevelSize from{view.width[l - 1], view.height[l - 1]}, to{view.width[l], view.height[l]};
+  parallel_ranges(static_cast<std::size_t>(to.height), texel_rows_per_range, [&](std::size_t begin, std::size_t end) {
+    for (auto y = static_cast<std::int32_t>(begin); y < static_cast<std::int32_t>(end); ++y) {
+      Code* const out = row_of(codes, view, l, y);
+      const TexelCover rows = cover(from.height, to.height, y);
+      for (std::int32_t x = 0; x < to.width; ++x) {
+        const TexelCover columns = cover(from.width, to.width, x);
+        WeightedSum<Code> sum;
+        for (std::int32_t j = 0; j < rows.count; ++j)
+          for (std::int32_t i = 0; i < columns.count; ++i)
+            sum.add(row_of(codes, view, l - 1, rows.first + j) + std::ptrdiff_t{4} * (columns.first + i),
+                    rows.weight[j] * columns.weight[i]);
+        if (!sum.is_transparent()) sum.write_color(out + std::ptrdiff_t{4} * x);
+      }
+      close_row(out, to.width);
+    }
+  });
+}
+
+/// The texel at a coordinate that may lie one beyond the border; none with Wrap::Clamp and Wrap::Mirror.
+std::int32_t wrapped(std::int32_t at, std::int32_t size, Wrap wrap) {
+  if (at >= 0 && at < size) return at;
+  return wrap == Wrap::Repeat ? (at + size) % size : -1;
+}
+
+/// Gives the transparent texels of a level the colour of the visible ones next to them or, where there are none, that
+/// of the texel of the next level that covers them.
+template <class Code>
+void color_transparent_texels(Code* codes, const TextureView& view, std::int32_t l, const LevelOptions& options) {
+  const std::int32_t width = view.width[l], height = view.height[l];
+  const auto color_texel = [&](std::int32_t x, std::int32_t y, Code* texel) {
+    WeightedSum<Code> sum;
+    for (std::int32_t j = y - 1; j <= y + 1; ++j)
+      for (std::int32_t i = x - 1; i <= x + 1; ++i) {
+        const std::int32_t u = wrapped(i, width, options.wrap_u), v = wrapped(j, height, options.wrap_v);
+        if (u >= 0 && v >= 0) sum.add(row_of(codes, view, l, v) + std::ptrdiff_t{4} * u, 1);
+      }
+    if (!sum.is_transparent())
+      sum.write_color(texel);
+    else if (l + 1 < view.levels)
+      std::copy_n(row_of(codes, view, l + 1, std::min(y / 2, view.height[l + 1] - 1)) +
+                      std::ptrdiff_t{4} * std::min(x / 2, view.width[l + 1] - 1),
+                  3, texel);
+  };
+  // Transparent texels have no weight, so that the order in which they are coloured does not matter.
+  parallel_ranges(static_cast<std::size_t>(height), texel_rows_per_range, [&](std::size_t begin, std::size_t end) {
+    for (auto y = static_cast<std::int32_t>(begin); y < static_cast<std::int32_t>(end); ++y) {
+      Code* const row = row_of(codes, view, l, y);
+      for (std::int32_t x = 0; x < width; ++x)
+        if (Code* const texel = row + std::ptrdiff_t{4} * x; !(term(texel[3]) > 0)) color_texel(x, y, texel);
+      close_row(row, width);
+    }
+  });
+  close_level(codes, view, l);
+}
+
+/// True if a texel of level 0 is not opaque.
+template <class Code>
+bool has_transparency(Code* codes, const TextureView& view) {
+  const Code opaque = code_of<Code>(1, 1);
+  for (std::int32_t y = 0; y < view.height[0]; ++y) {
+    const Code* const row = row_of(codes, view, 0, y);
+    for (std::int32_t x = 0; x < view.width[0]; ++x)
+      if (term(row[std::ptrdiff_t{4} * x + 3]) != term(opaque)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 template <class Code>
 void make_mip_levels(Code* codes, const TextureView& view, const LevelOptions& options) {
+  const bool weights_by_alpha = options.weights_by_alpha && has_transparency(codes, view);
   for (std::int32_t l = 1; l < view.levels; ++l) {
     if (options.filter == MipFilter::Box)
       halve_level(codes, view, l);
     else
-      filter_level(codes, view, l, options);
+      filter_level(codes, view, l, options, weights_by_alpha);
+    if (weights_by_alpha && options.filter == MipFilter::Box) weight_level(codes, view, l);
     close_level(codes, view, l);
   }
+  if (weights_by_alpha)
+    for (std::int32_t l = view.levels; l-- > 0;) color_transparent_texels(codes, view, l, options);
   if (options.kept_cutoff) keep_coverage(codes, view, *options.kept_cutoff);
 }
 

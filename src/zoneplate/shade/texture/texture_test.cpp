@@ -370,6 +370,93 @@ TEST(Texture, KeepsTheCoverageOfAnAlphaTest) {
     EXPECT_NEAR(coverage(kept, l), wanted, 0.02 + 1.0 / (kept.view().width[l] * kept.view().width[l]));
 }
 
+/// An image of every kind, from straight values in [0, 1].
+std::vector<TexelImage> images_of(const Plane<float4>& values) {
+  Rgba8Image codes(values.width(), values.height());
+  Rgba16Image codes16(values.width(), values.height());
+  for (std::size_t i = 0; i < values.values().size(); ++i) {
+    const float4& v = values.values()[i];
+    const auto code = [](float x) { return static_cast<std::uint8_t>(x * 255 + 0.5f); };
+    const auto code16 = [](float x) { return static_cast<std::uint16_t>(x * 65535 + 0.5f); };
+    codes.values()[i] = {code(v.x), code(v.y), code(v.z), code(v.w)};
+    codes16.values()[i] = {code16(v.x), code16(v.y), code16(v.z), code16(v.w)};
+  }
+  std::vector<TexelImage> out;
+  out.emplace_back(std::move(codes)), out.emplace_back(std::move(codes16));
+  out.emplace_back(rounded_to_halves(values)), out.emplace_back(values);
+  return out;
+}
+
+/// All texels of a level, of any kind, in [0, 1].
+std::vector<float> units_of(const TextureView& view, int level) {
+  if (view.unorm8 == nullptr && view.unorm15 == nullptr) return values_of(view, level);
+  std::vector<float> out;
+  for (const std::uint32_t code : codes_of(view, level))
+    out.push_back(static_cast<float>(code) / (view.unorm8 != nullptr ? 255.0f : 32767.0f));
+  return out;
+}
+
+// Red leaves of several sizes and opacities on transparency that hides green: no texel of any level is green, so that
+// no filter, whatever its weights, can see it.
+TEST(Texture, ColoursThatAlphaHidesAreOnNoLevel) {
+  for (const auto& [width, height] : {std::pair{32, 16}, {13, 7}, {2, 9}}) {
+    Plane<float4> leaves(width, height, float4{0, 1, 0, 0});
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x)
+        if (x % 5 == 0 || (y == 3 && x > 20)) leaves(x, y) = {1, 0, 0, x % 2 == 0 ? 1.0f : 0.5f};
+    for (const TexelImage& image : images_of(leaves))
+      for (const TexelMeaning meaning : {TexelMeaning::Color, TexelMeaning::Values})
+        for (const MipFilter filter : {MipFilter::Box, MipFilter::Kaiser, MipFilter::Lanczos})
+          for (const Wrap wrap : {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp}) {
+            const Texture texture(image, meaning, {filter, wrap, wrap, {}, true}), plain(image, meaning, {filter});
+            float greenest = 0;
+            for (int l = 0; l < texture.view().levels; ++l) {
+              const std::vector<float> texels = units_of(texture.view(), l), other = units_of(plain.view(), l);
+              for (std::size_t i = 0; i < texels.size(); i += 4) {
+                ASSERT_EQ(texels[i + 1], 0) << "level " << l << " of " << width;
+                ASSERT_NEAR(texels[i], 1, filter == MipFilter::Box ? 0 : 2e-3) << "level " << l;
+                greenest = std::max(greenest, other[i + 1]);
+                if (wrap == Wrap::Repeat) {
+                  ASSERT_EQ(texels[i + 3], other[i + 3]);
+                }
+              }
+            }
+            EXPECT_GE(greenest, 1);
+            const RipmapView& ripmap = texture.ripmap();
+            for (int k = 0; k < ripmap.columns; ++k)
+              for (int i = 0; i < ripmap.width[k]; ++i)
+                if (ripmap.texels.unorm15 != nullptr) {
+                  ASSERT_EQ(ripmap.texels.unorm15[4 * (ripmap.offset[k] + ripmap.width[k] + 3 + i) + 1], 0);
+                }
+          }
+  }
+}
+
+TEST(Texture, ColoursAreMeansWeightedByAlpha) {
+  Plane<float4> values(2, 2);
+  values(0, 0) = {1, 0, 0.2f, 1}, values(1, 0) = {0, 1, 0.5f, 0.5f};  // floats, since halves do not hold 0.2
+  values(0, 1) = {0, 0, 1, 0.25f}, values(1, 1) = {1, 1, 1, 0};
+  const LevelOptions weighted{.wrap_u = Wrap::Clamp, .wrap_v = Wrap::Clamp, .weights_by_alpha = true};
+  const Texture texture(values, TexelMeaning::Values, weighted);
+  const std::vector<float> first = values_of(texture.view(), 0), second = values_of(texture.view(), 1);
+  const float mean[] = {1 / 1.75f, 0.5f / 1.75f, 0.7f / 1.75f};
+  for (std::size_t c = 0; c < 3; ++c) {
+    EXPECT_FLOAT_EQ(second[c], mean[c]);
+    EXPECT_FLOAT_EQ(first[12 + c], mean[c]);
+  }
+  EXPECT_EQ(second[3], 0.4375f);
+  EXPECT_EQ(std::vector<float>(first.begin() + 4, first.begin() + 8), (std::vector<float>{0, 1, 0.5f, 0.5f}));
+  // An opaque image, and the levels of one that is transparent everywhere, are as without weights.
+  for (const float alpha : {1.0f, 0.0f}) {
+    for (float4& v : values.values()) v.w = alpha;
+    const Texture other(values, TexelMeaning::Values, weighted), plain(values, TexelMeaning::Values);
+    EXPECT_EQ(values_of(other.view(), 1), values_of(plain.view(), 1));
+    if (alpha == 1) {
+      EXPECT_EQ(values_of(other.view(), 0), values_of(plain.view(), 0));
+    }
+  }
+}
+
 TEST(Texture, TheSpreadOfNormalsIsThatOfTheTexelsBelow) {
   // Slopes 1 and -1 by columns, 0.5 everywhere along y.
   Plane<float4> map(8, 4);
