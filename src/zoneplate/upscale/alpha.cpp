@@ -2,8 +2,10 @@
 #include "zoneplate/upscale/alpha.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <utility>
 
+#include "zoneplate/antialias/post/color_range.h"
 #include "zoneplate/base/parallel.h"
 
 namespace zoneplate::upscale {
@@ -61,7 +63,30 @@ DisplayImage continued_colors(const DisplayImage& image) {
 
 }  // namespace
 
-DisplayImage filter_with_alpha(const DisplayImage& image,
+void keep_visible_colors(DisplayImage& upscaled, const DisplayImage& image, const UpscaleGrid& grid, int reach) {
+  const Crop made = grid.made();
+  // Output pixel i of n is ((2 i + 1) m / n - 1) / 2 among the m pixels of the input: the pixel at or before it.
+  const auto before = [](std::int64_t i, std::int64_t n, std::int64_t m) {
+    const std::int64_t twice = (2 * i + 1) * m - n;
+    return static_cast<int>(twice >= 0 ? twice / (2 * n) : -1);
+  };
+  parallel_for(static_cast<std::size_t>(upscaled.height()), [&](std::size_t row) {
+    const int y = static_cast<int>(row), v = before(made.y + y, grid.to.height, grid.height) - grid.y;
+    for (int x = 0; x < upscaled.width(); ++x) {
+      Display& c = upscaled(x, y);
+      if (!(c.a > 0 && c.a < 1)) continue;
+      const int u = before(made.x + x, grid.to.width, grid.width) - grid.x;
+      antialias::ColorRange range;
+      for (int r = 1; r <= reach && range.empty(); ++r)
+        for (int j = v + 1 - r; j <= v + r; ++j)
+          for (int i = u + 1 - r; i <= u + r; ++i)
+            range.add(image(std::clamp(i, 0, image.width() - 1), std::clamp(j, 0, image.height() - 1)));
+      c = range.clamp(c);
+    }
+  });
+}
+
+DisplayImage filter_with_alpha(const DisplayImage& image, const UpscaleGrid& grid,
                                const std::function<DisplayImage(const DisplayImage&)>& filter, float Display::*alpha) {
   if (std::ranges::all_of(image.values(), [](const Display& c) { return c.a == 1; })) return filter(image);
   DisplayImage alphas = image;
@@ -73,6 +98,7 @@ DisplayImage filter_with_alpha(const DisplayImage& image,
     c.a = alphas.values()[i].*alpha;
     if (!(c.a > 0)) c = {0, 0, 0, 0};
   }
+  keep_visible_colors(out, image, grid, continued_reach);
   return out;
 }
 

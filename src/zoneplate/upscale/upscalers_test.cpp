@@ -11,6 +11,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/math/random.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::upscale {
@@ -140,6 +141,33 @@ TEST(Upscalers, AFlatShapeHasNoRim) {
       ASSERT_NEAR(c.r, color.r, 1 / 255.0f) << row.name;
       ASSERT_NEAR(c.g, color.g, 1 / 255.0f) << row.name;
       ASSERT_NEAR(c.b, color.b, 1 / 255.0f) << row.name;
+    }
+    EXPECT_GT(partial, 100) << row.name;
+  }
+}
+
+// A shape of random colours: where it becomes transparent, no upscaler makes colours that it does not have beside.
+TEST(Upscalers, ColoursOfAnOutlineAreThoseBesideIt) {
+  for (const Upscaler& row : upscalers()) {
+    if (!row.make_spatial) continue;
+    DisplayImage image(40, 30, Display{0, 1, 0, 0});
+    for (int y = 0; y < 30; ++y)
+      for (int x = 0; x < 40; ++x) {
+        const auto value = [&](std::uint32_t channel) {
+          return static_cast<float>(hash(static_cast<std::uint32_t>(40 * y + x), channel) % 256) / 255;
+        };
+        const float inside =
+            std::clamp(12.5f - std::hypot(static_cast<float>(x) - 19.5f, static_cast<float>(y) - 15.5f), 0.0f, 1.0f);
+        if (inside > 0) image(x, y) = {0.4f + 0.5f * value(1), 0.25f * value(2), 0.3f, inside};
+      }
+    const auto upscaler = make_spatial_upscaler(row.name);
+    const DisplayImage out = upscaler->upscale(image, {40, 30, 0, 0, {80, 60, std::nullopt}});
+    int partial = 0;
+    for (const Display& c : out.values()) {
+      if (!(c.a > 0 && c.a < 1)) continue;
+      ++partial;
+      ASSERT_TRUE(c.r >= 0.4f && c.r <= 0.9f && c.g >= 0 && c.g <= 0.25f && c.b == 0.3f)
+          << row.name << ' ' << c.r << ' ' << c.g << ' ' << c.b << ' ' << c.a;
     }
     EXPECT_GT(partial, 100) << row.name;
   }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "zoneplate/antialias/post/color_range.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/image/transfer.h"
 
@@ -63,28 +64,13 @@ Filtered filter_on(const DisplayImage& image, Backdrop backdrop, Mixing mixing, 
   return f;
 }
 
-/// The least and the greatest value of each channel around a pixel.
-struct ColorRange {
-  Display low{1, 1, 1, 1}, high{0, 0, 0, 0};
-
-  void add(const Display& c) {
-    low = {std::min(low.r, c.r), std::min(low.g, c.g), std::min(low.b, c.b)};
-    high = {std::max(high.r, c.r), std::max(high.g, c.g), std::max(high.b, c.b)};
-  }
-  bool empty() const { return low.r > high.r; }
-  Display clamp(const Display& c) const {
-    return {std::clamp(c.r, low.r, high.r), std::clamp(c.g, low.g, high.g), std::clamp(c.b, low.b, high.b), c.a};
-  }
-};
-
-/// Of the pixels that are not entirely transparent in the smallest square around (x, y) that has any.
+/// Of the visible pixels in the smallest square around (x, y) that has any.
 ColorRange colors_around(const DisplayImage& image, int x, int y) {
   constexpr int farthest = 16;  // pixels: no filter blends farther
   ColorRange range;
   for (int reach = 1; reach <= farthest && range.empty(); ++reach)
     for (int v = std::max(y - reach, 0); v <= std::min(y + reach, image.height() - 1); ++v)
-      for (int u = std::max(x - reach, 0); u <= std::min(x + reach, image.width() - 1); ++u)
-        if (image(u, v).a > 0) range.add(image(u, v));
+      for (int u = std::max(x - reach, 0); u <= std::min(x + reach, image.width() - 1); ++u) range.add(image(u, v));
   return range;
 }
 
@@ -102,7 +88,7 @@ DisplayImage filter_transparent(const DisplayImage& image, Mixing mixing, const 
     const Display found =
         lifted_from((is_white ? white : black).after.values()[i], is_white ? Backdrop::White : Backdrop::Black, mixing);
     const ColorRange range = colors_around(image, static_cast<int>(i % width), static_cast<int>(i / width));
-    out.values()[i] = found.a > 0 && !range.empty() ? range.clamp(found) : found;
+    out.values()[i] = found.a > 0 ? range.clamp(found) : found;
   });
   return out;
 }

@@ -145,7 +145,7 @@ constexpr Param params[] = {
 DisplayImage upscale_fsr1(const DisplayImage& image, const UpscaleGrid& grid, const Fsr1Options& options) {
   // Alpha has a channel of its own: RCAS keeps it between its neighbours, so that opaque pixels stay opaque.
   return filter_with_alpha(
-      image, [&](const DisplayImage& values) { return upscale_opaque(values, grid, options); }, &Display::a);
+      image, grid, [&](const DisplayImage& values) { return upscale_opaque(values, grid, options); }, &Display::a);
 }
 
 Upscaler fsr1() {

@@ -11,6 +11,7 @@
 
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/signal/filter/resample.h"
+#include "zoneplate/upscale/alpha.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::upscale {
@@ -70,6 +71,7 @@ class KernelUpscaler : public SpatialUpscaler {
       return c.a > 0 ? Display{clamped(c.r / c.a), clamped(c.g / c.a), clamped(c.b / c.a), clamped(c.a)}
                      : Display{0, 0, 0, 0};
     });
+    if (!is_opaque) keep_visible_colors(out, image, grid, reach());
     return out;
   }
 

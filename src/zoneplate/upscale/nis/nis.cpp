@@ -153,7 +153,7 @@ DisplayImage upscale_nis(const DisplayImage& image, const UpscaleGrid& grid, flo
   const bool is_same_size = grid.to.width == grid.width && grid.to.height == grid.height;
   const NisConstants constants(sharpness);
   return filter_with_alpha(
-      image,
+      image, grid,
       [&](const DisplayImage& values) {
         return is_same_size ? sharpened(values, grid, constants) : scaled(values, grid, constants);
       },

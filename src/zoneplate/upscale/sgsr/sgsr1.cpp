@@ -49,7 +49,7 @@ class Sgsr1 : public SpatialUpscaler {
   int reach() const override { return 2 + continued_reach; }
   DisplayImage upscale(const DisplayImage& image, const UpscaleGrid& grid) const override {
     return filter_with_alpha(
-        image, [&](const DisplayImage& values) { return upscale_values(values, grid); }, &Display::g);
+        image, grid, [&](const DisplayImage& values) { return upscale_values(values, grid); }, &Display::g);
   }
 };
 
