@@ -4,7 +4,7 @@
 set(linked_suffixes ${CMAKE_FIND_LIBRARY_SUFFIXES})
 set(CMAKE_FIND_LIBRARY_SUFFIXES .so)
 set(sonames "")
-foreach(library assimp meshoptimizer OpenEXRCore zstd)
+foreach(library assimp meshoptimizer OpenEXRCore zstd lcms2)
   string(TOLOWER ${library} name)
   find_library(shared_${name} ${library} REQUIRED)
   execute_process(COMMAND ${CMAKE_OBJDUMP} -p ${shared_${name}} OUTPUT_VARIABLE sections COMMAND_ERROR_IS_FATAL ANY)

@@ -17,7 +17,8 @@ struct Package {
 constexpr Package packages[] = {{soname_assimp, "libassimp5"},
                                 {soname_meshoptimizer, "libmeshoptimizer2d"},
                                 {soname_openexrcore, "libopenexr-3-1-30"},
-                                {soname_zstd, "libzstd1"}};
+                                {soname_zstd, "libzstd1"},
+                                {soname_lcms2, "liblcms2-2"}};
 
 const Package& package_of(Library library) { return packages[static_cast<int>(library)]; }
 

@@ -193,7 +193,7 @@ std::optional<std::vector<std::uint8_t>> receive_message(const std::string& plac
     const auto half = [](std::int32_t bits) { return std::uint64_t{static_cast<std::uint32_t>(bits)}; };
     events.environment(half(header.first) | half(header.second) << 32, header.size, read);
   } else if (header.kind == Kind::NeedsLibrary && events.needs_library && header.first >= 0 &&
-             header.first <= static_cast<int>(Library::Zstd)) {
+             header.first <= static_cast<int>(Library::Lcms)) {
     events.needs_library(static_cast<Library>(header.first), body.text());
   } else {
     body.fail("not expected here");
