@@ -5,7 +5,9 @@
 #include <string>
 
 #include "zoneplate/codec/bitmap/pillow_files_for_test.h"
+#include "zoneplate/codec/color/icc_for_test.h"
 #include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/inspect/exif_for_test.h"
 #include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/ktx2/files_for_test.h"
 #include "zoneplate/codec/pfm.h"
@@ -110,6 +112,14 @@ void write_images(const std::string& root) {
   write(root + "/png", "indexed.png", encode_png(Rgba8Image(5, 3, {1, 2, 3, 255}), {.may_be_indexed = true}));
   write(root + "/png", "rgba16.png", encode_png(Rgba16Image(4, 4, {1000, 2000, 3000, 4000})));
   write(root + "/png", "grey16.png", encode_png(Plane<std::uint16_t>(4, 4, 999)));
+  const Bytes icc = icc_display_p3();
+  const ColorProfile profile{.cicp = {{9, 16, 0, 1}},
+                             .icc = icc,
+                             .gamma = 55556,
+                             .primaries = {{31270, 32900, 68000, 32000, 26500, 69000, 15000, 6000}}};
+  write(root + "/png", "profile.png", png_with(encode_png(image, {.profile = profile}), "eXIf", exif_of(6)));
+  write(root + "/jpeg", "profile.jpg", turned_jpeg(encode_jpeg(image, 90, icc), 6));
+  write(root + "/webp", "profile.webp", encode_webp(image, true, std::nullopt, icc));
   write(root + "/jpeg", "noise.jpg", encode_jpeg(image));
   write(root + "/jpeg", "pixel.jpg", encode_jpeg(Rgba8Image(1, 1)));
   write(root + "/webp", "rgba.webp", encode_webp(image, true));

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "zoneplate/image/color_profile.h"
 #include "zoneplate/image/rgb.h"
 
 #pragma GCC visibility push(default)
@@ -38,6 +39,7 @@ struct PngOptions {
   bool is_small = false;        ///< slower, smaller
   bool may_be_indexed = false;  ///< an opaque image of at most 256 colours is written with a palette
   std::vector<std::pair<std::string, std::string>> text = {};  ///< tEXt chunks (iTXt where not ASCII)
+  ColorProfile profile = {};  ///< its chunks are written in place of sRGB, unless it is empty
 };
 
 ///@{

@@ -3,8 +3,10 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "zoneplate/image/color_profile.h"
 #include "zoneplate/image/rgb.h"
 
 #pragma GCC visibility push(default)
@@ -32,11 +34,19 @@ void save_image(const std::string& path, const Rgba8Image& image);
 /// Errors    as above.
 void save_image(const std::string& path, const LinearImage& image);
 
-/// The bytes of the file that save_image would write.
+/// The bytes of the file that save_image would write; with a profile, of values that it describes.
+///
+/// Requires  can_hold(extension_of(path), profile), or an empty profile.
 ///@{
-std::vector<std::uint8_t> encode_image(const std::string& path, const Rgba8Image& image);
-std::vector<std::uint8_t> encode_image(const std::string& path, const LinearImage& image);
+std::vector<std::uint8_t> encode_image(const std::string& path, const Rgba8Image& image,
+                                       const ColorProfile& profile = {});
+std::vector<std::uint8_t> encode_image(const std::string& path, const LinearImage& image,
+                                       const ColorProfile& profile = {});
 ///@}
+
+/// True if the format of an ending, as extension_of returns it, can state the profile: PNG all but OpenEXR's
+/// chromaticities, JPEG and WebP an ICC profile, of RGB pixels in each case, and OpenEXR chromaticities.
+bool can_hold(std::string_view extension, const ColorProfile& profile);
 
 }  // namespace zoneplate
 #pragma GCC visibility pop

@@ -13,7 +13,7 @@
 
 namespace zoneplate {
 
-std::vector<std::uint8_t> encode_jpeg(const Rgba8Image& image, int quality) {
+std::vector<std::uint8_t> encode_jpeg(const Rgba8Image& image, int quality, std::span<const std::uint8_t> icc) {
   if (image.width() < 1 || image.height() < 1 || image.width() > JPEG_MAX_DIMENSION ||
       image.height() > JPEG_MAX_DIMENSION)
     throw Error(ErrorKind::Failed, "an image of " + std::to_string(image.width()) + " x " +
@@ -36,6 +36,7 @@ std::vector<std::uint8_t> encode_jpeg(const Rgba8Image& image, int quality) {
   jpeg.optimize_coding = TRUE;
   for (int c = 0; c < jpeg.num_components; ++c) jpeg.comp_info[c].h_samp_factor = jpeg.comp_info[c].v_samp_factor = 1;
   jpeg_start_compress(&jpeg, TRUE);
+  if (!icc.empty()) jpeg_write_icc_profile(&jpeg, icc.data(), static_cast<unsigned>(icc.size()));
   static_assert(sizeof(Rgba8) == 4, "rows are handed to libjpeg as they lie");
   for (int y = 0; y < image.height(); ++y) {
     auto* row = const_cast<JSAMPLE*>(reinterpret_cast<const JSAMPLE*>(image.row(y).data()));

@@ -14,6 +14,7 @@
 
 #include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/codec/png/png_color.h"
 #include "zoneplate/codec/png_parts.h"
 
 namespace zoneplate {
@@ -334,7 +335,25 @@ std::vector<std::uint8_t> encode_indexed(const Rgba8Image& image, const std::vec
 
 }  // namespace
 
+namespace {
+
+/// The file that `encode` makes without an sRGB chunk, with the chunks of the profile after IHDR.
+template <class Encode>
+std::vector<std::uint8_t> with_profile(const PngOptions& options, const Encode& encode) {
+  PngOptions plain = options;
+  plain.profile = {}, plain.is_srgb = false;
+  std::vector<std::uint8_t> out = encode(plain);
+  const std::vector<std::uint8_t> chunks = png_color_chunks(options.profile);
+  constexpr std::ptrdiff_t after_header = 33;  // the signature, and IHDR
+  out.insert(out.begin() + after_header, chunks.begin(), chunks.end());
+  return out;
+}
+
+}  // namespace
+
 std::vector<std::uint8_t> encode_png(const Rgba8Image& image, const PngOptions& options) {
+  if (!options.profile.empty())
+    return with_profile(options, [&](const PngOptions& plain) { return encode_png(image, plain); });
   const bool is_plain = !options.is_small && !options.may_be_indexed && options.text.empty();
   if (is_plain && image.width() > 0 && image.height() > 0) return encode_png_parts(image, options);
   if (options.may_be_indexed && !options.has_alpha)
@@ -344,6 +363,8 @@ std::vector<std::uint8_t> encode_png(const Rgba8Image& image, const PngOptions& 
 }
 
 std::vector<std::uint8_t> encode_png(const Rgba16Image& image, const PngOptions& options) {
+  if (!options.profile.empty())
+    return with_profile(options, [&](const PngOptions& plain) { return encode_png(image, plain); });
   return encode(image, options, 16, false);
 }
 

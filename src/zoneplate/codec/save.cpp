@@ -10,6 +10,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/lower_case.h"
+#include "zoneplate/codec/color/icc.h"
 #include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/pfm.h"
@@ -18,6 +19,7 @@
 #include "zoneplate/os/file.h"
 
 namespace zoneplate {
+
 std::string extension_of(const std::string& path) {
   return lower_case(std::filesystem::path(path).extension().string());
 }
@@ -37,17 +39,17 @@ void check_alpha(const std::string& path) {
                           found->name, found->with_alpha));
 }
 
-std::vector<std::uint8_t> encode_image(const std::string& path, const Rgba8Image& image) {
+std::vector<std::uint8_t> encode_image(const std::string& path, const Rgba8Image& image, const ColorProfile& profile) {
   const std::string extension = extension_of(path);
   const bool has_alpha = std::ranges::any_of(image.values(), [](Rgba8 c) { return c.a != 255; });
   if (has_alpha) check_alpha(path);
-  if (extension == ".png") return encode_png(image, {.has_alpha = has_alpha});
-  if (extension == ".jpg" || extension == ".jpeg") return encode_jpeg(image);
-  if (extension == ".webp") return encode_webp(image, has_alpha);
+  if (extension == ".png") return encode_png(image, {.has_alpha = has_alpha, .profile = profile});
+  if (extension == ".jpg" || extension == ".jpeg") return encode_jpeg(image, usual_jpeg_quality, profile.icc);
+  if (extension == ".webp") return encode_webp(image, has_alpha, std::nullopt, profile.icc);
   throw Error(ErrorKind::Usage, path + ": display-referred images are saved as .png, .jpg, .jpeg or .webp");
 }
 
-std::vector<std::uint8_t> encode_image(const std::string& path, const LinearImage& image) {
+std::vector<std::uint8_t> encode_image(const std::string& path, const LinearImage& image, const ColorProfile& profile) {
   const std::string extension = extension_of(path);
   // The sums of filters round. Alpha of 0 everywhere is that of values without it, such as derivatives.
   constexpr float rounding = 0.5f / 255;
@@ -55,7 +57,16 @@ std::vector<std::uint8_t> encode_image(const std::string& path, const LinearImag
   if (has([](float a) { return a < 1 - rounding; }) && has([](float a) { return a > rounding; })) check_alpha(path);
   if (extension == ".pfm") return encode_pfm(image);
   if (extension != ".exr") throw Error(ErrorKind::Usage, path + ": scene-linear images are saved as .exr or .pfm");
-  return encode_exr(image.width(), image.height(), rgba_channels(image));
+  ExrAttributes attributes;
+  if (profile.chromaticities) attributes.emplace_back("chromaticities", *profile.chromaticities);
+  return encode_exr(image.width(), image.height(), rgba_channels(image), attributes);
+}
+
+bool can_hold(std::string_view extension, const ColorProfile& profile) {
+  const bool is_light = extension == ".exr" || extension == ".pfm";
+  if (profile.chromaticities || is_light) return profile.chromaticities && extension == ".exr";
+  if (!profile.icc.empty() && icc_pixels(profile.icc) != "RGB ") return false;
+  return extension == ".png" || (!profile.icc.empty() && !profile.cicp);
 }
 
 void save_image(const std::string& path, const Rgba8Image& image) { save_bytes(path, encode_image(path, image)); }

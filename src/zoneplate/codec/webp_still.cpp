@@ -3,6 +3,7 @@
 
 #include <webp/decode.h>
 #include <webp/encode.h>
+#include <webp/mux.h>
 
 #include <algorithm>
 #include <memory>
@@ -53,7 +54,27 @@ Rgba8Image decode_webp(std::span<const std::uint8_t> bytes, const std::string& n
   return image;
 }
 
-std::vector<std::uint8_t> encode_webp(const Rgba8Image& image, bool has_alpha, std::optional<int> quality) {
+namespace {
+
+/// The file with a chunk of the profile.
+std::vector<std::uint8_t> with_profile(const std::vector<std::uint8_t>& file, std::span<const std::uint8_t> icc) {
+  const WebPData image{file.data(), file.size()}, chunk{icc.data(), icc.size()};
+  const std::unique_ptr<WebPMux, decltype(&WebPMuxDelete)> mux(WebPMuxCreate(&image, 0), &WebPMuxDelete);
+  WebPData assembled;
+  WebPDataInit(&assembled);
+  const bool is_done = mux && WebPMuxSetChunk(mux.get(), "ICCP", &chunk, 0) == WEBP_MUX_OK &&
+                       WebPMuxAssemble(mux.get(), &assembled) == WEBP_MUX_OK;
+  std::vector<std::uint8_t> out;
+  if (is_done) out.assign(assembled.bytes, assembled.bytes + assembled.size);
+  WebPDataClear(&assembled);
+  if (!is_done) throw Error(ErrorKind::Failed, "an ICC profile cannot be written to a WebP file");
+  return out;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> encode_webp(const Rgba8Image& image, bool has_alpha, std::optional<int> quality,
+                                      std::span<const std::uint8_t> icc) {
   WebPConfig config;
   WebPPicture picture;
   if (WebPConfigInit(&config) == 0 || WebPPictureInit(&picture) == 0)
@@ -83,7 +104,7 @@ std::vector<std::uint8_t> encode_webp(const Rgba8Image& image, bool has_alpha, s
   if (!is_done)
     throw Error(ErrorKind::Failed, "an image of " + std::to_string(image.width()) + " x " +
                                        std::to_string(image.height()) + " pixels cannot be encoded as WebP");
-  return out;
+  return icc.empty() ? out : with_profile(out, icc);
 }
 
 }  // namespace zoneplate

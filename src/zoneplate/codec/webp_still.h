@@ -24,11 +24,13 @@ std::optional<int2> find_webp_size(std::span<const std::uint8_t> bytes);
 Rgba8Image decode_webp(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
 
 /// Encodes a WebP file: lossless, including the colours of transparent pixels, or of a quality from 0 to 100 with
-/// chroma subsampling. Without `has_alpha`, alpha is not written; with it, alpha is lossless.
+/// chroma subsampling. Without `has_alpha`, alpha is not written; with it, alpha is lossless. An ICC profile is written
+/// unless it is empty.
 ///
 /// Exact     the same bytes with the same version of libwebp.
 /// Errors    ErrorKind::Failed: sides above 16383 pixels.
 std::vector<std::uint8_t> encode_webp(const Rgba8Image& image, bool has_alpha,
-                                      std::optional<int> quality = std::nullopt);
+                                      std::optional<int> quality = std::nullopt,
+                                      std::span<const std::uint8_t> icc = {});
 
 }  // namespace zoneplate

@@ -10,6 +10,9 @@
 #include <string_view>
 #include <vector>
 
+#include "zoneplate/base/error.h"
+#include "zoneplate/codec/color/icc.h"
+#include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/exr_header.h"
 #include "zoneplate/codec/hdr.h"
 #include "zoneplate/codec/jpeg.h"
@@ -28,14 +31,13 @@ std::string_view text_in(ByteSpan bytes) { return {reinterpret_cast<const char*>
 std::string joined(std::string a, const std::string& b) { return a + (a.empty() || b.empty() ? "" : ", ") + b; }
 
 /// Two profiles are the same if their bytes are.
-std::string profile_text(ByteSpan profile) {
-  if (profile.empty()) return {};
+std::string icc_text(ByteSpan profile) {
   return fmt::format("ICC profile of {} bytes (checksum {:08x})", profile.size(), png_checksum(0, profile));
 }
 
-/// The orientation of Exif data, which is a TIFF file; empty for 1, the upright one.
-std::string orientation_text(ByteSpan tiff) {
-  if (tiff.size() < 8) return {};
+/// The orientation of Exif data, which is a TIFF file; 1, the upright one, if it states none.
+int orientation_in(ByteSpan tiff) {
+  if (tiff.size() < 8) return 1;
   const bool is_big = tiff[0] == 'M';
   const auto number = [&](std::size_t at, std::size_t size) {
     std::size_t value = 0;
@@ -43,105 +45,130 @@ std::string orientation_text(ByteSpan tiff) {
     return value;
   };
   const std::size_t directory = number(4, 4);
-  if (directory > tiff.size() || tiff.size() - directory < 2) return {};
-  constexpr std::size_t entry = 12, orientation = 0x112;
+  if (directory > tiff.size() || tiff.size() - directory < 2) return 1;
+  constexpr std::size_t entry = 12, orientation = 0x112, type_long = 4;
   const std::size_t entries = std::min(number(directory, 2), (tiff.size() - directory - 2) / entry);
   for (std::size_t i = 0; i < entries; ++i) {
     const std::size_t at = directory + 2 + i * entry;
-    if (number(at, 2) == orientation && number(at + 8, 2) != 1)
-      return fmt::format("Exif orientation {}", number(at + 8, 2));
+    if (number(at, 2) != orientation) continue;
+    const std::size_t value = number(at + 8, number(at + 2, 2) == type_long ? 4 : 2);
+    return value >= 1 && value <= 8 ? static_cast<int>(value) : 1;
   }
-  return {};
+  return 1;
+}
+
+/// Exif data of a file whose container already says that it is; some programs repeat JPEG's prefix.
+int orientation_after_prefix(ByteSpan exif) {
+  constexpr std::string_view prefix("Exif\0\0", 6);
+  return orientation_in(text_in(exif).starts_with(prefix) ? exif.subspan(prefix.size()) : exif);
 }
 
 /// The profile of an iCCP chunk: a name, a zero, the method 0, and a zlib stream.
-std::vector<std::uint8_t> inflated_profile(ByteSpan chunk) {
+void inflate_profile(ByteSpan chunk, FileColor& out) {
   const auto name_end = std::ranges::find(chunk, 0);
-  if (chunk.end() - name_end < 3) return {};
+  if (chunk.end() - name_end < 3) {
+    out.profile.icc.assign(chunk.begin(), chunk.end());
+    out.profile_flaw = "is cut off";
+    return;
+  }
   const ByteSpan packed = chunk.subspan(static_cast<std::size_t>(name_end - chunk.begin()) + 2);
-  constexpr uLongf most = 1 << 22;
-  std::vector<std::uint8_t> profile(most);
-  uLongf size = most;
+  uLongf size = most_icc_bytes;
+  out.profile.icc.resize(size);
+  const int result = uncompress(out.profile.icc.data(), &size, packed.data(), static_cast<uLong>(packed.size()));
+  if (result == Z_OK) return out.profile.icc.resize(size);
   // Of a profile that is damaged or too large, the packed bytes are compared.
-  if (uncompress(profile.data(), &size, packed.data(), static_cast<uLong>(packed.size())) != Z_OK)
-    return {packed.begin(), packed.end()};
-  profile.resize(size);
-  return profile;
+  out.profile.icc.assign(packed.begin(), packed.end());
+  out.profile_flaw = result == Z_BUF_ERROR && size == most_icc_bytes
+                         ? fmt::format("has more than {} bytes, which are not read", most_icc_bytes)
+                         : "is damaged: its packed bytes are no whole zlib stream";
 }
+
+constexpr std::uint32_t srgb_primaries[] = {31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000};
+constexpr std::array<std::uint8_t, 4> srgb_cicp = {1, 13, 0, 1};
+
+bool is_near(std::uint32_t a, std::uint32_t b) { return (a > b ? a - b : b - a) <= 10; }
 
 /// Gamma and primaries in units of 1/100000.
-std::string gamma_text(ByteSpan gamma, ByteSpan primaries) {
-  const auto is_near = [](std::uint32_t a, std::uint32_t b) { return (a > b ? a - b : b - a) <= 10; };
+std::string gamma_text(const ColorProfile& profile) {
   constexpr std::uint32_t srgb_gamma = 45455;
-  constexpr std::uint32_t srgb[] = {31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000};  // white, red, green, blue
   std::string text;
-  if (gamma.size() == 4 && !is_near(get_png_word(gamma), srgb_gamma))
-    text = fmt::format("gAMA {:g}", get_png_word(gamma) / 100000.0);
-  if (primaries.size() != 4 * std::size(srgb)) return text;
-  bool is_srgb = true;
+  if (profile.gamma && !is_near(*profile.gamma, srgb_gamma)) text = fmt::format("gAMA {:g}", *profile.gamma / 100000.0);
+  if (!profile.primaries || std::ranges::equal(*profile.primaries, srgb_primaries, is_near)) return text;
   std::string values = "cHRM";
-  for (std::size_t i = 0; i < std::size(srgb); ++i) {
-    const std::uint32_t value = get_png_word(primaries.subspan(4 * i));
-    is_srgb = is_srgb && is_near(value, srgb[i]);
-    values += fmt::format(" {:g}", value / 100000.0);
-  }
-  return is_srgb ? text : joined(text, values);
+  for (const std::uint32_t value : *profile.primaries) values += fmt::format(" {:g}", value / 100000.0);
+  return joined(text, values);
 }
 
-std::string of_png(ByteSpan file) {
+std::string text_of(const ColorProfile& profile) {
+  if (const auto& c = profile.cicp)
+    return *c == srgb_cicp ? "" : fmt::format("cICP {}/{}/{}/{}", (*c)[0], (*c)[1], (*c)[2], (*c)[3]);
+  return profile.icc.empty() ? gamma_text(profile) : icc_text(profile.icc);
+}
+
+FileColor of_png(ByteSpan file) {
   std::map<std::string_view, ByteSpan> chunks;
   for_png_chunks(file, [&](std::string_view name, ByteSpan data) {
     chunks.emplace(name, data);
     return name != "IEND";
   });
-  const auto has = [&](std::string_view name) { return chunks.contains(name); };
-  std::string text;
-  if (has("cICP") && chunks["cICP"].size() == 4) {
-    const ByteSpan c = chunks["cICP"];
-    const bool is_srgb = c[0] == 1 && c[1] == 13 && c[2] == 0 && c[3] == 1;
-    if (!is_srgb) text = fmt::format("cICP {}/{}/{}/{}", c[0], c[1], c[2], c[3]);
-  } else if (has("iCCP")) {
-    text = profile_text(inflated_profile(chunks["iCCP"]));
-  } else if (!has("sRGB")) {
-    text = gamma_text(chunks["gAMA"], chunks["cHRM"]);
+  const auto has = [&](std::string_view name, std::size_t size) {
+    return chunks.contains(name) && chunks[name].size() == size;
+  };
+  FileColor out;
+  constexpr std::uint8_t has_color = 2;
+  out.is_grey = file.size() > 25 && (file[25] & has_color) == 0;
+  out.orientation = orientation_after_prefix(chunks["eXIf"]);
+  if (has("cICP", 4)) std::ranges::copy(chunks["cICP"], out.profile.cicp.emplace().begin());
+  if (!chunks["iCCP"].empty()) {
+    inflate_profile(chunks["iCCP"], out);
+  } else if (has("sRGB", 1)) {
+    return out;  // gAMA and cHRM repeat it for older programs
   }
-  return joined(text, orientation_text(chunks["eXIf"]));
+  if (has("gAMA", 4)) out.profile.gamma = get_png_word(chunks["gAMA"]);
+  if (has("cHRM", 4 * std::size(srgb_primaries))) {
+    auto& values = out.profile.primaries.emplace();
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = get_png_word(chunks["cHRM"].subspan(4 * i));
+  }
+  return out;
 }
 
 /// The profile lies in parts in several APP2 segments, numbered from 1.
-std::string of_jpeg(ByteSpan file) {
+FileColor of_jpeg(ByteSpan file) {
+  FileColor out;
   std::map<int, ByteSpan> parts;
-  std::string orientation;
   constexpr std::string_view icc("ICC_PROFILE\0", 12), exif("Exif\0\0", 6);
-  constexpr std::uint8_t app1 = 0xe1, app2 = 0xe2, start_of_scan = 0xda;
+  constexpr std::uint8_t app1 = 0xe1, app2 = 0xe2, start_of_scan = 0xda, first_frame = 0xc0, last_frame = 0xcf;
   for (std::size_t at = 2; file.size() >= at + 4 && file[at] == 0xff && file[at + 1] != start_of_scan;) {
     const std::size_t size = std::size_t{file[at + 2]} << 8 | file[at + 3];
     if (size < 2 || file.size() - at - 2 < size) break;
     const ByteSpan data = file.subspan(at + 4, size - 2);
-    if (file[at + 1] == app2 && text_in(data).starts_with(icc) && data.size() > icc.size() + 2)
+    const std::uint8_t marker = file[at + 1];
+    if (marker == app2 && text_in(data).starts_with(icc) && data.size() > icc.size() + 2)
       parts.emplace(data[icc.size()], data.subspan(icc.size() + 2));
-    if (file[at + 1] == app1 && text_in(data).starts_with(exif))
-      orientation = orientation_text(data.subspan(exif.size()));
+    if (marker == app1 && text_in(data).starts_with(exif)) out.orientation = orientation_in(data.subspan(exif.size()));
+    // The components of a frame's header; between them are tables (DHT, JPG, DAC).
+    const bool is_frame =
+        marker >= first_frame && marker <= last_frame && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
+    if (is_frame && data.size() > 5) out.is_grey = data[5] == 1;
     at += 2 + size;
   }
-  std::vector<std::uint8_t> profile;
-  for (const auto& [number, part] : parts) profile.insert(profile.end(), part.begin(), part.end());
-  return joined(profile_text(profile), orientation);
+  for (const auto& [number, part] : parts) out.profile.icc.insert(out.profile.icc.end(), part.begin(), part.end());
+  return out;
 }
 
-std::string of_webp(ByteSpan file) {
-  std::string text;
+FileColor of_webp(ByteSpan file) {
+  FileColor out;
   for (std::size_t at = 12; file.size() >= at + 8;) {
     const std::size_t size = file[at + 4] | std::size_t{file[at + 5]} << 8 | std::size_t{file[at + 6]} << 16 |
                              std::size_t{file[at + 7]} << 24;
     if (file.size() - at - 8 < size) break;
     const ByteSpan data = file.subspan(at + 8, size);
     const std::string_view name = text_in(file.subspan(at, 4));
-    if (name == "ICCP") text = joined(text, profile_text(data));
-    if (name == "EXIF") text = joined(text, orientation_text(data));
+    if (name == "ICCP") out.profile.icc.assign(data.begin(), data.end());
+    if (name == "EXIF") out.orientation = orientation_after_prefix(data);
     at += 8 + size + size % 2;
   }
-  return text;
+  return out;
 }
 
 std::string of_hdr(ByteSpan file) {
@@ -167,16 +194,65 @@ std::string of_pfm(ByteSpan file) {
   return scale == 1 || scale == -1 ? "" : fmt::format("scale {:g}", scale < 0 ? -scale : scale);
 }
 
+FileColor of_exr(const ExrPart& part) {
+  FileColor out;
+  const auto& stated = part.chromaticities;
+  if (stated && !std::ranges::equal(*stated, rec709_chromaticities)) out.profile.chromaticities = stated;
+  return out;
+}
+
 }  // namespace
 
-std::string color_space_of(std::span<const std::uint8_t> bytes) {
+FileColor read_file_color(ByteSpan bytes) {
   if (is_png(bytes)) return of_png(bytes);
   if (is_jpeg(bytes)) return of_jpeg(bytes);
   if (is_webp(bytes)) return of_webp(bytes);
-  if (is_hdr(bytes)) return of_hdr(bytes);
-  if (is_pfm(bytes)) return of_pfm(bytes);
+  FileColor out;
+  if (is_hdr(bytes)) out.scale = of_hdr(bytes);
+  if (is_pfm(bytes)) out.scale = of_pfm(bytes);
   const std::optional<ExrPart> part = read_exr_part(bytes);
-  return part ? part->color_space : "";
+  return part ? of_exr(*part) : out;
+}
+
+std::string color_space_of(ByteSpan bytes) {
+  // The text of an EXR has other attributes, too.
+  if (const std::optional<ExrPart> part = read_exr_part(bytes)) return part->color_space;
+  const FileColor color = read_file_color(bytes);
+  return joined(text_of(color.profile), color.scale);
+}
+
+ImageColor read_image_color(ByteSpan bytes, const std::string& name) {
+  FileColor file = read_file_color(bytes);
+  ImageColor out{.space = nullptr, .orientation = file.orientation};
+  if (file.profile.empty()) return out;
+  const bool is_icc = !file.profile.icc.empty() && !file.profile.cicp,
+             is_light = file.profile.chromaticities.has_value();
+  if (is_icc && file.profile_flaw.empty()) open_icc_library(name);
+  try {
+    if (!is_icc) {
+      if (RgbSpacePtr space = make_rgb_space(file.profile)) {
+        RgbSpace named = *space;
+        named.name = is_light ? "its chromaticities" : text_of(file.profile);
+        out.space = std::make_shared<const RgbSpace>(std::move(named));
+      }
+      return out;
+    }
+    if (!file.profile_flaw.empty()) throw Error(ErrorKind::Input, file.profile_flaw);
+    RgbSpace space = read_icc_space(file.profile.icc, file.is_grey);
+    space.name = fmt::format("the ICC profile '{}'", space.name);
+    space.profile = std::move(file.profile);
+    find_if_standard(space);
+    out.space = std::make_shared<const RgbSpace>(std::move(space));
+  } catch (const Error& error) {
+    const char* const what = is_icc               ? "ICC profile"
+                             : file.profile.cicp  ? "cICP chunk"
+                             : is_light           ? "chromaticities attribute"
+                             : file.profile.gamma ? "gAMA chunk"
+                                                  : "cHRM chunk";
+    out.flaw = fmt::format("{}: its {} {}; the image is taken as {}", name, what, error.what(),
+                           is_light ? "light of Rec.709 primaries" : "sRGB");
+  }
+  return out;
 }
 
 }  // namespace zoneplate

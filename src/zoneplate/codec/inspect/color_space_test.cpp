@@ -4,10 +4,15 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include "zoneplate/codec/color/icc_for_test.h"
 #include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/inspect/exif_for_test.h"
+#include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/png/png_chunk.h"
+#include "zoneplate/codec/webp_still.h"
+#include "zoneplate/os/library.h"
 
 namespace zoneplate {
 namespace {
@@ -61,10 +66,75 @@ TEST(ColorSpace, ChunksOfPngAreRead) {
   const std::string profile = space_of_png({{"iCCP", profile_chunk(1)}});
   EXPECT_TRUE(profile.starts_with("ICC profile of 500 bytes")) << profile;
   EXPECT_EQ(space_of_png({{"iCCP", profile_chunk(9)}}), profile);  // however it is packed
-  const Bytes turned = {'M', 'M', 0, 42, 0, 0, 0, 8, 0, 1, 1, 0x12, 0, 3, 0, 0, 0, 1, 0, 6, 0, 0, 0, 0, 0, 0};
-  EXPECT_EQ(space_of_png({{"eXIf", turned}}), "Exif orientation 6");
+}
+
+TEST(ColorSpace, OrientationsAreReadFromExif) {
+  const Bytes png = encode_png(Rgba8Image(2, 2)), jpeg = encode_jpeg(Rgba8Image(2, 2));
+  const auto webp_with = [&](const Bytes& exif) {
+    Bytes webp = encode_webp(Rgba8Image(2, 2), false);
+    for (const std::string_view text : {std::string_view("EXIF"), std::string_view("\0\0\0\0", 4)})
+      webp.insert(webp.end(), text.begin(), text.end());
+    webp[webp.size() - 4] = static_cast<std::uint8_t>(exif.size());
+    webp.insert(webp.end(), exif.begin(), exif.end());
+    return webp;
+  };
+  for (std::uint8_t i = 1; i <= 8; ++i) {
+    EXPECT_EQ(read_file_color(png_with(png, "eXIf", exif_of(i))).orientation, i);
+    EXPECT_EQ(read_file_color(turned_jpeg(jpeg, i)).orientation, i);
+    EXPECT_EQ(read_file_color(webp_with(exif_of(i))).orientation, i);
+  }
+  Bytes prefixed = {'E', 'x', 'i', 'f', 0, 0};
+  const Bytes turned = exif_of(6);
+  prefixed.insert(prefixed.end(), turned.begin(), turned.end());
+  EXPECT_EQ(read_file_color(webp_with(prefixed)).orientation, 6);
+  for (const std::uint8_t wrong : {0, 9, 255}) EXPECT_EQ(read_file_color(turned_jpeg(jpeg, wrong)).orientation, 1);
   for (std::size_t size = 0; size < turned.size(); ++size)
-    space_of_png({{"eXIf", Bytes(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(size))}});
+    read_file_color(png_with(png, "eXIf", Bytes(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(size))));
+}
+
+TEST(ColorSpace, WrittenProfilesAreRead) {
+  const Rgba8Image image(2, 2);
+  const Bytes icc = icc_display_p3();
+  const std::array<std::uint32_t, 8> primaries = {31270, 32900, 68000, 32000, 26500, 69000, 15000, 6000};
+  const ColorProfile all{.cicp = {{12, 13, 0, 1}}, .icc = icc, .gamma = 45455, .primaries = primaries};
+  EXPECT_EQ(read_file_color(encode_png(image, {.profile = all})).profile, all);
+  EXPECT_EQ(read_file_color(encode_png(Rgba16Image(2, 2), {.profile = all})).profile, all);
+  EXPECT_EQ(read_file_color(encode_png(image, {.is_small = true, .profile = all})).profile, all);
+  EXPECT_EQ(read_file_color(encode_jpeg(image, 90, icc)).profile, ColorProfile{.icc = icc});
+  EXPECT_EQ(read_file_color(encode_webp(image, true, std::nullopt, icc)).profile, ColorProfile{.icc = icc});
+  // A profile that takes several segments of a JPEG.
+  Bytes large = icc;
+  large.resize(200'000);
+  EXPECT_EQ(read_file_color(encode_jpeg(image, 90, large)).profile.icc, large);
+}
+
+TEST(ColorSpace, ProfilesThatMeanNothingAreFlaws) {
+  const auto flaw = [](const Bytes& file) { return read_image_color(file, "a").flaw; };
+  const Rgba8Image image(2, 2);
+  EXPECT_EQ(flaw(encode_png(image, {.profile = {.cicp = {{1, 99, 0, 1}}}})),
+            "a: its cICP chunk has transfer function 99, which is not read; the image is taken as sRGB");
+  EXPECT_EQ(flaw(encode_png(image, {.profile = {.gamma = 0}})),
+            "a: its gAMA chunk has the value 0, expected 1000 to 10000000; the image is taken as sRGB");
+  const ExrChromaticities wrong = {0, 0, 0, 0, 0, 0, 0, 0};
+  const LinearImage light(2, 2);
+  EXPECT_EQ(flaw(encode_exr(2, 2, rgba_channels(light), {{"chromaticities", wrong}})),
+            "a: its chromaticities attribute has primaries or a white of no colour; the image is taken as light of "
+            "Rec.709 primaries");
+  const Bytes png = encode_png(image, {.is_srgb = false});
+  EXPECT_EQ(flaw(png_with(png, "iCCP", {'a', 0, 0, 1, 2, 3})),
+            "a: its ICC profile is damaged: its packed bytes are no whole zlib stream; the image is taken as sRGB");
+  EXPECT_EQ(flaw(png_with(png, "iCCP", {'a'})), "a: its ICC profile is cut off; the image is taken as sRGB");
+  EXPECT_EQ(flaw(png), "");
+  if (!open_library(Library::Lcms)) GTEST_SKIP() << "liblcms2-2 is not installed";
+  Bytes icc = icc_display_p3();
+  EXPECT_EQ(flaw(encode_png(image, {.profile = {.icc = icc}})), "");
+  EXPECT_EQ(read_image_color(encode_png(image, {.profile = {.icc = icc}}), "a").space->name,
+            "the ICC profile 'Display P3'");
+  icc.resize(5'000'000);
+  EXPECT_EQ(flaw(encode_png(image, {.profile = {.icc = icc}})),
+            "a: its ICC profile has more than 4194304 bytes, which are not read; the image is taken as sRGB");
+  EXPECT_EQ(flaw(encode_jpeg(image, 90, Bytes(300, 7))),
+            "a: its ICC profile has no header; the image is taken as sRGB");
 }
 
 TEST(ColorSpace, OtherFormatsStateTheirs) {
