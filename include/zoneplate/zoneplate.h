@@ -321,7 +321,8 @@ void zoneplate_image_free(zoneplate_image* image);
 /// 1 (grey), 3 or 4 channels.
 zoneplate_status zoneplate_image_new(const zoneplate_array* pixels, zoneplate_image** image);
 /// Reads a PNG, JPEG, WebP, BMP, TGA, HDR, EXR or PFM file; the floats of the last three as they are stored, with NaN
-/// and infinities.
+/// and infinities. Codes of another colour profile are converted to sRGB, light of other primaries to Rec.709; a
+/// damaged profile is ignored. The image is turned as its Exif orientation says.
 zoneplate_status zoneplate_image_load(const char* path, zoneplate_image** image);
 
 /// Measures the difference of two images by a metric, as "psnr" or "flip:ppd=30". Integers are sRGB codes, floats

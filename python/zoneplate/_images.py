@@ -117,7 +117,10 @@ class Image:
 
 
 def load_image(path: str | os.PathLike[str]) -> Image:
-    """Reads a PNG, JPEG, WebP, BMP, TGA, HDR, EXR or PFM file. The last three are linear light (float32)."""
+    """Reads a PNG, JPEG, WebP, BMP, TGA, HDR, EXR or PFM file. The last three are linear light (float32).
+
+    Colour profiles are converted to sRGB, light to Rec.709 primaries; the image is turned as its Exif data says.
+    """
     return Image(_native.image_load(os.fspath(path)))
 
 

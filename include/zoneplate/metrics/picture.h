@@ -2,12 +2,17 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "zoneplate/image/rgb.h"
 
 #pragma GCC visibility push(default)
 namespace zoneplate {
+
+/// What the values of an image mean (image/rgb_space.h).
+struct RgbSpace;
+
 namespace metrics {
 
 /// The input of metrics: the same image as display-referred values and in linear light.
@@ -19,6 +24,10 @@ struct Picture {
   /// made as frames of a sequence; otherwise empty.
   Plane<std::uint8_t> is_uncovered = {};
   std::string flaw = {};  ///< damage of its file that the decoder passed over, after the file's name; empty if none
+  /// What the values of its file mean: `display` has codes of this space, and `linear` light of its primaries. Null:
+  /// sRGB and Rec.709, as metrics expect it (in_srgb, metrics/file/picture_file.h).
+  std::shared_ptr<const RgbSpace> space = nullptr;
+  std::string color_flaw = {};  ///< why a profile of its file is not `space`, after the file's name; empty if it is
 
   /// Pixels in a row; both images have the same size.
   int width() const { return display.width(); }

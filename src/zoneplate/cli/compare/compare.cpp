@@ -111,7 +111,7 @@ SceneTrials compare_scene(const CompareArgs& args, const std::string& name, cons
   setup.load_reference = [&] {
     metrics::Picture picture;
     out.read(options.reference, [&] { picture = metrics::load_picture(options.reference, out.limits().pixels); });
-    out.warn_of_flaw(picture.flaw);
+    out.warn_of_flaw(picture.flaw), out.warn_of_flaw(picture.color_flaw);
     return picture;
   };
   std::optional<SceneSource> source;

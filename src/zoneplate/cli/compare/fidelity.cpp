@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <utility>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/isa.h"
@@ -18,8 +19,10 @@
 #include "zoneplate/cli/render/items.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
+#include "zoneplate/codec/inspect/color_space.h"
 #include "zoneplate/formats/import/image_file.h"
 #include "zoneplate/formats/json/json.h"
+#include "zoneplate/image/orientation.h"
 #include "zoneplate/math/angle.h"
 #include "zoneplate/metrics/compare.h"
 #include "zoneplate/metrics/file/picture_file.h"
@@ -244,7 +247,7 @@ std::vector<Scenario> confined_scenarios(const FidelityArgs& args, const std::st
 metrics::Picture load_image(const std::string& path, Delivery& out) {
   metrics::Picture picture;
   out.read(path, [&] { picture = metrics::load_picture(path, out.limits().pixels); });
-  out.warn_of_flaw(picture.flaw);
+  out.warn_of_flaw(picture.flaw), out.warn_of_flaw(picture.color_flaw);
   return picture;
 }
 
@@ -252,7 +255,11 @@ metrics::Picture load_image(const std::string& path, Delivery& out) {
 int2 confined_size(const FidelityArgs& args, const std::string& image) {
   const std::vector<std::uint8_t> bytes = run_confined(confined_run(args, image, {image}), [&](Delivery& out) {
     std::optional<int2> size;
-    out.read(image, [&] { size = find_image_size(FileBytes(image, out.limits().memory).bytes()); });
+    out.read(image, [&] {
+      const FileBytes file(image, out.limits().memory);
+      size = find_image_size(file.bytes());
+      if (size && swaps_sides(read_file_color(file.bytes()).orientation)) std::swap(size->x, size->y);
+    });
     if (!size) {
       const metrics::Picture picture = load_image(image, out);
       size = {picture.width(), picture.height()};

@@ -2,6 +2,7 @@
 // zoneplate filter: post-process antialiasing and upscaling of existing images, without a scene.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/args.h"
+#include "zoneplate/cli/filter/color.h"
 #include "zoneplate/cli/filter/items.h"
 #include "zoneplate/cli/filter/sequence.h"
 #include "zoneplate/cli/filter/still.h"
@@ -109,31 +111,62 @@ UpscaleGrid grid_of(const Filters& filters, int width, int height, const std::st
   return {width, height, 0, 0, {size.x, size.y, std::nullopt}};
 }
 
-void filter_linear(const FilterItem& item, const LinearImage& image, const Filters& filters, Delivery& out) {
-  if (filters.antialiasing)
-    throw Error(
-        ErrorKind::Input,
-        item.input + ": is a scene-linear image, expected a display-referred one (PNG, JPEG, WebP, BMP or TGA)");
-  if (!is_linear_file(item.output))
-    throw Error(ErrorKind::Usage, fmt::format("{}: is a scene-linear image, and {} is not: write an .exr or a .pfm",
-                                              item.input, item.output));
+bool is_clamped(const Linear& c) {
+  const auto is_outside = [&](float v) { return v < 0 || v > std::max(c.a, 0.0f); };
+  return is_outside(c.r) || is_outside(c.g) || is_outside(c.b);
+}
+
+void warn_of_clamped(const std::string& input, std::ptrdiff_t pixels, const char* what, Delivery& out) {
+  if (pixels > 0)
+    out.warn(fmt::format("{}: {} {}{} light outside 0 to 1, which is clamped", input, pixels, what,
+                         pixels == 1 ? "pixel has" : "pixels have"));
+}
+
+/// Antialiases the sRGB codes of an image, with light of any primaries. Pixels that the filter does not blend keep
+/// their light.
+void antialias_linear(const FilterItem& item, metrics::Picture& picture, Resolver& filter, Delivery& out) {
+  const DisplayImage filtered = filter.post_process(picture.display, Frame());
+  std::ptrdiff_t clamped = 0;
+  for (std::size_t i = 0; i < filtered.values().size(); ++i) {
+    const Display& c = filtered.values()[i];
+    if (c == picture.display.values()[i]) continue;
+    Linear& light = picture.linear.values()[i];
+    clamped += is_clamped(light);
+    light = {decode_srgb(c.r) * c.a, decode_srgb(c.g) * c.a, decode_srgb(c.b) * c.a, c.a};
+  }
+  warn_of_clamped(item.input, clamped, "blended ", out);
+}
+
+void filter_linear(const FilterItem& item, metrics::Picture picture, const Filters& filters, Delivery& out) {
+  if (filters.antialiasing) antialias_linear(item, picture, *filters.antialiasing, out);
+  const LinearImage& image = picture.linear;
+  if (!filters.upscaler) return out.save(item.output, encode_image(item.output, image, profile_of(picture.space)));
   const UpscaleGrid grid = grid_of(filters, image.width(), image.height(), item.input);
-  out.save(item.output, encode_image(item.output, upscale::upscale_linear(*filters.upscaler, image, grid)));
+  out.save(item.output, encode_image(item.output, upscale::upscale_linear(*filters.upscaler, image, grid),
+                                     profile_of(picture.space)));
 }
 
 void filter_image(const FilterItem& item, const Filters& filters, const FilterArgs& args, Delivery& out) {
-  metrics::Picture picture = load_still(item.input, out);
+  metrics::Picture picture =
+      in_space_of(load_still(item.input, out), FilteredValues::Codes, item.input, item.output, out);
   if (args.background) lay_over(picture, *args.background);
-  if (picture.is_scene_linear) return filter_linear(item, picture.linear, filters, out);
-  if (is_linear_file(item.output))
+  if (picture.is_scene_linear && is_linear_file(item.output))
+    return filter_linear(item, std::move(picture), filters, out);
+  if (picture.is_scene_linear && !filters.antialiasing)
+    throw Error(ErrorKind::Usage, fmt::format("{}: is a scene-linear image, and {} is not: write an .exr or a .pfm",
+                                              item.input, item.output));
+  if (picture.is_scene_linear)
+    warn_of_clamped(item.input, std::ranges::count_if(picture.linear.values(), is_clamped), "", out);
+  if (!picture.is_scene_linear && is_linear_file(item.output))
     throw Error(ErrorKind::Usage, fmt::format("{}: is a display-referred image, and {} is scene-linear: write a .png",
                                               item.input, item.output));
   DisplayImage image = std::move(picture.display);
   if (filters.antialiasing) image = filters.antialiasing->post_process(std::move(image), Frame());
   if (filters.upscaler)
     image = filters.upscaler->upscale(image, grid_of(filters, image.width(), image.height(), item.input));
-  if (args.bit_depth == 8) return out.save(item.output, encode_image(item.output, quantize8(image)));
-  out.save(item.output, encode_png(quantize16(image)));
+  const ColorProfile profile = profile_of(picture.space);
+  if (args.bit_depth == 8) return out.save(item.output, encode_image(item.output, quantize8(image), profile));
+  out.save(item.output, encode_png(quantize16(image), {.profile = profile}));
 }
 
 /// The method with history that the arguments select; empty: filters of single images.
@@ -183,14 +216,18 @@ Syntax make_syntax(FilterArgs& args) {
           "  zoneplate filter c.####.png --depth z.####.exr --motion v.####.exr --motion-scale -960,540 \\\n"
           "      --upscale fsr2 --size 1920x1080 --jitter offsets.txt -o out/\n",
       .notes =
-          "IMAGES is a PNG, JPEG, WebP, BMP or TGA file, a folder of them, or a sequence (name.####.png);\n"
-          "upscalers also read scene-linear .hdr, .exr and .pfm files, and write .exr and .pfm for them.\n"
+          "IMAGES is a PNG, JPEG, WebP, BMP or TGA file, a folder of them, or a sequence (name.####.png),\n"
+          "or a scene-linear .hdr, .exr or .pfm file, of which .exr and .pfm files are written, and by antialiasing "
+          "also\n"
+          "display-referred ones.\n"
           "A file that is read is not replaced without --force.\n"
           "Antialiasing filters work on 8-bit sRGB values. Pixels that the filter does not blend keep their exact "
           "value;\n"
           "images with alpha are filtered premultiplied. What has no alpha refuses them without a --background: JPEG, "
           "PFM,\n"
-          "fsr2, fsr3, taau and sgsr2.\n"
+          "fsr2, fsr3, taau and sgsr2. Of scene-linear images, the sRGB codes of their light are filtered.\n"
+          "Colour profiles are kept: filters work on the codes as they are. An image is turned as its Exif orientation "
+          "says.\n"
           "\n"
           "Methods with history (taa, history-guided, fsr2, fsr3, taau, sgsr2) filter the frames of a sequence in "
           "order, as one shot "

@@ -107,10 +107,8 @@ TEST_F(FilterVerb, WhatCannotBeFilteredIsRefused) {
   ASSERT_EQ(run("triangles -o a.webp --size 16x16"), 0) << output_;
   EXPECT_EQ(run("filter . -o all --aa smaa"), 2);  // a.png and a.webp
   EXPECT_NE(output_.find("would both be written to all/a.png"), std::string::npos) << output_;
-  EXPECT_EQ(run("filter a.exr -o b.png --aa smaa"), 3);
-  EXPECT_EQ(output_,
-            "zoneplate: error: a.exr: is a scene-linear image, expected a display-referred one (PNG, JPEG, WebP, BMP "
-            "or TGA)\n");
+  EXPECT_EQ(run("filter a.exr -o b.png --upscale fsr1"), 2);
+  EXPECT_EQ(output_, "zoneplate: error: a.exr: is a scene-linear image, and b.png is not: write an .exr or a .pfm\n");
   EXPECT_EQ(run("filter a.png -o b.exr --aa smaa"), 2);
   EXPECT_EQ(run("filter a.png -o b.webp --aa smaa --bit-depth 16"), 2);
   EXPECT_EQ(run("filter none.png -o b.webp --aa smaa --bit-depth 16"), 2);  // an error before the input is read

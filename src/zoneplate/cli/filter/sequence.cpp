@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/cli/filter/color.h"
 #include "zoneplate/cli/filter/still.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/codec/exr.h"
@@ -167,11 +168,14 @@ Frame frame_of(const FrameFiles& files, LinearImage color, const SequenceFilter&
   return frame;
 }
 
-void save(const std::string& path, LinearImage image, bool is_scene_linear, int bit_depth, Delivery& out) {
-  if (is_scene_linear) return out.save(path, encode_image(path, image));
-  const DisplayImage display = metrics::make_picture(std::move(image)).display;
-  if (bit_depth == 8) return out.save(path, encode_image(path, quantize8(display)));
-  out.save(path, encode_png(quantize16(display)));
+/// `light` is of the primaries of the space.
+void save(const std::string& path, LinearImage light, bool is_scene_linear, const RgbSpacePtr& space, int bit_depth,
+          Delivery& out) {
+  const ColorProfile profile = profile_of(space);
+  if (is_scene_linear) return out.save(path, encode_image(path, light, profile));
+  const DisplayImage display = display_of(std::move(light), space);
+  if (bit_depth == 8) return out.save(path, encode_image(path, quantize8(display), profile));
+  out.save(path, encode_png(quantize16(display), {.profile = profile}));
 }
 
 }  // namespace
@@ -202,7 +206,8 @@ void filter_sequence(const SequenceFilter& filter, Delivery& out) {
   int2 frame_size{0, 0};
   for (std::size_t i = 0; i < files.size(); ++i) {
     out.progress(files[i].color, static_cast<double>(i) / static_cast<double>(files.size()));
-    metrics::Picture picture = load_still(files[i].color, out);
+    metrics::Picture picture =
+        in_space_of(load_still(files[i].color, out), FilteredValues::Light, files[i].color, files[i].output, out);
     if (filter.background) lay_over(picture, *filter.background);
     if (picture.is_scene_linear != is_linear_file(files[i].output))
       throw Error(ErrorKind::Usage,
@@ -228,6 +233,7 @@ void filter_sequence(const SequenceFilter& filter, Delivery& out) {
     if (!samples.empty()) context.given->sample = samples[i];
     method->request(context);
     const bool is_scene_linear = picture.is_scene_linear, has_alpha = metrics::has_alpha(picture);
+    const RgbSpacePtr space = picture.space;
     Frame frame = frame_of(files[i], std::move(picture.linear), filter, camera.near, objects, out);
     frame.display.is_transparent = has_alpha;
     LinearImage image;
@@ -236,7 +242,7 @@ void filter_sequence(const SequenceFilter& filter, Delivery& out) {
     } catch (const Error& error) {
       throw Error(error.kind(), files[i].color + ": " + error.what());
     }
-    save(files[i].output, std::move(image), is_scene_linear, filter.bit_depth, out);
+    save(files[i].output, std::move(image), is_scene_linear, space, filter.bit_depth, out);
   }
 }
 

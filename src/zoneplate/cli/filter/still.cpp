@@ -10,6 +10,7 @@
 #include "zoneplate/codec/inspect/image_format.h"
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/math/vec.h"
 #include "zoneplate/metrics/backdrop.h"
 #include "zoneplate/metrics/file/picture_file.h"
 
@@ -92,7 +93,7 @@ metrics::Picture load_still(const std::string& path, Delivery& out) {
     picture = metrics::decode_file(file, out.limits().pixels);
     frames = count_frames(file.bytes);
   });
-  out.warn_of_flaw(picture.flaw);
+  out.warn_of_flaw(picture.flaw), out.warn_of_flaw(picture.color_flaw);
   if (frames > 1)
     out.warn(fmt::format("{}: is an animation of {} frames, of which the first is filtered", path, frames));
   if (!picture.is_scene_linear) return picture;

@@ -123,9 +123,11 @@ class Judge {
 
   void measure(std::size_t reference_index, std::size_t test_index, JudgedItem& item) {
     const metrics::ImageFile reference_file = reference_.open(reference_index), test_file = test_.open(test_index);
-    const Picture reference = reference_.decode(reference_file), test = test_.decode(test_file);
+    Picture reference = reference_.decode(reference_file), test = test_.decode(test_file);
     item.width = test.width(), item.height = test.height();
     item.stored = metrics::compare_stored(reference_file, reference, test_file, test);
+    if (!metrics::share_space(reference, test))
+      reference = metrics::in_srgb(std::move(reference)), test = metrics::in_srgb(std::move(test));
     std::string sizes;
     if (reference.width() != test.width() || reference.height() != test.height())
       sizes = fmt::format("{} × {} pixels, expected {} × {} as the reference", test.width(), test.height(),
@@ -198,7 +200,8 @@ class Judge {
       out.is_left_out = true;
       return;
     }
-    const auto encoded = [](const Picture& p) {
+    const auto encoded = [](const Picture& stored) {
+      const Picture p = metrics::in_srgb(stored);
       return p.is_scene_linear ? page_picture(p.linear) : page_picture(p.display);
     };
     out.reference = encoded(reference), out.test = encoded(test);
@@ -238,11 +241,12 @@ class Judge {
       out_.pooled_message = "metrics of several frames require every frame";
       return;
     }
-    const metrics::Comparands frames{.count = pairs.size(),
-                                     .reference = [&](std::size_t i) { return reference_.load(*pairs[i].reference); },
-                                     .test = [&](std::size_t i) { return test_.load(*pairs[i].test); },
-                                     .are_frames = is_sequence,
-                                     .name = [&](std::size_t i) { return pairs[i].name; }};
+    const metrics::Comparands frames{
+        .count = pairs.size(),
+        .reference = [&](std::size_t i) { return metrics::in_srgb(reference_.load(*pairs[i].reference)); },
+        .test = [&](std::size_t i) { return metrics::in_srgb(test_.load(*pairs[i].test)); },
+        .are_frames = is_sequence,
+        .name = [&](std::size_t i) { return pairs[i].name; }};
     Comparison comparison =
         metrics::compare(frames, sequences_, verdicts_.refuses_unfit ? metrics::Unfit::Refuse : metrics::Unfit::Leave);
     for (Result& result : comparison.results) {

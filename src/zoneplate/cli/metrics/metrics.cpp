@@ -131,9 +131,10 @@ Syntax make_syntax(MetricsArgs& args) {
           "bounds too: mae.max=0.1.\n"
           "\n"
           "Images are identical if their files store the same: every bit of every channel, layer and part, and\n"
-          "the same colour profile. Metrics measure the colours of the first part. Those with alpha are measured\n"
-          "over black and over white, and the worse value counts. NaN in any channel, and infinities in a\n"
-          "colour, are counted and miss every threshold.\n"
+          "the same colour profile. Metrics measure the colours of the first part: of two files with the same\n"
+          "profile the codes, of others, which a line of the report names, the colours in sRGB, or in light of\n"
+          "Rec.709 primaries. Those with alpha are measured over black and over white, and the worse value\n"
+          "counts. NaN in any channel, and infinities in a colour, are counted and miss every threshold.\n"
           "\n"
           "Exit codes, as of diff and cmp:\n"
           "  0  without --threshold: the images are identical; with it: every image reaches it\n"
@@ -188,7 +189,7 @@ metrics::PictureSet within_limits(metrics::PictureSet set, Delivery& out) {
   set.decode = [&out](const metrics::ImageFile& file) {
     metrics::Picture picture;
     out.read(file.name, [&] { picture = metrics::decode_file(file, out.limits().pixels); });
-    out.warn_of_flaw(picture.flaw);
+    out.warn_of_flaw(picture.flaw), out.warn_of_flaw(picture.color_flaw);
     return picture;
   };
   return set;

@@ -122,8 +122,9 @@ void Delivery::read(const std::string& input, const std::function<void()>& body)
 
 std::vector<std::uint8_t> run_confined(const ConfinedRun& run, const std::function<void(Delivery&)>& work) {
   const LoadLimits& load = run.limits.load;
-  // Standard input cannot be read again, as would be necessary if its format turned out to need this library.
-  if (std::ranges::find(run.readable, "-") != run.readable.end()) static_cast<void>(open_library(Library::OpenExr));
+  // Standard input cannot be read again, as would be necessary if its format turned out to need one of these libraries.
+  if (std::ranges::find(run.readable, "-") != run.readable.end())
+    for (const Library library : {Library::OpenExr, Library::Lcms}) static_cast<void>(open_library(library));
   ItemProcess process({.name = run.name == "-" ? "standard input" : run.name,
                        .load = load,
                        .seconds = run.limits.seconds,

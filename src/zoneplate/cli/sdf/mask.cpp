@@ -144,7 +144,7 @@ void run_sdf_to_mask(std::span<const std::string> arguments) {
     throw Error(ErrorKind::Usage, input + ": expected a field of distances, a .pfm or .exr file");
   run_subcommand(args, {input}, {}, [&](Delivery& out) {
     constexpr double most_pixels = 1 << 28;
-    const LinearImage image = load_signal(input, false, out);
+    const LinearImage image = load_as_stored(input, false, out).image;
     Plane<float> distances(image.width(), image.height());
     std::ranges::transform(image.values(), distances.values().begin(), &Linear::r);
     const double width = std::max(1.0, std::floor(image.width() * args.scale + 0.5)),

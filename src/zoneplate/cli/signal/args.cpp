@@ -9,10 +9,12 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/report_version.h"
+#include "zoneplate/cli/signal/show.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/codec/exr_encode.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/save.h"
+#include "zoneplate/image/transfer.h"
 #include "zoneplate/signal/pattern/pattern.h"
 
 namespace zoneplate::cli {
@@ -26,6 +28,20 @@ void check_name(const std::string& path, std::initializer_list<std::string_view>
     if (path.ends_with(ending)) return;
   throw Error(ErrorKind::Usage,
               fmt::format("--output: {}: expected a name that ends in {}, or -", path, fmt::join(endings, " or ")));
+}
+
+/// The values as floats, and their chromaticities.
+std::vector<std::uint8_t> exr_of(const LinearImage& values, const ColorProfile& profile) {
+  const Linear& first = *values.values().data();
+  constexpr std::size_t step = sizeof(Linear) / sizeof(float);
+  ExrAttributes attributes;
+  if (profile.chromaticities) attributes.emplace_back("chromaticities", *profile.chromaticities);
+  return encode_exr(values.width(), values.height(),
+                    {{"R", ExrType::Float, &first.r, nullptr, step},
+                     {"G", ExrType::Float, &first.g, nullptr, step},
+                     {"B", ExrType::Float, &first.b, nullptr, step},
+                     {"A", ExrType::Float, &first.a, nullptr, step}},
+                    attributes);
 }
 
 }  // namespace
@@ -92,23 +108,32 @@ void check_picture_name(const std::string& path) { check_name(path, {".png"}); }
 void check_result_name(const std::string& path) { check_name(path, {".png", ".pfm", ".exr"}); }
 void check_plot_name(const std::string& path) { check_name(path, {".svg", ".png"}); }
 
-void save_picture(const std::string& path, const Rgba8Image& picture, Delivery& out) {
+void save_picture(const std::string& path, const Rgba8Image& picture, Delivery& out, const ColorProfile& profile) {
   const bool is_opaque =
       std::all_of(picture.values().begin(), picture.values().end(), [](Rgba8 c) { return c.a == 255; });
-  out.save(path, encode_png(picture, {.has_alpha = !is_opaque}));
+  out.save(path, encode_png(picture, {.has_alpha = !is_opaque, .profile = profile}));
 }
 
 void save_result(const std::string& path, const LinearImage& values, const std::function<Rgba8Image()>& picture,
                  Delivery& out) {
-  if (path.ends_with(".pfm")) return out.save(path, encode_image(path, values));
-  if (!path.ends_with(".exr")) return save_picture(path, picture(), out);
-  const Linear& first = *values.values().data();
-  constexpr std::size_t step = sizeof(Linear) / sizeof(float);
-  out.save(path, encode_exr(values.width(), values.height(),
-                            {{"R", ExrType::Float, &first.r, nullptr, step},
-                             {"G", ExrType::Float, &first.g, nullptr, step},
-                             {"B", ExrType::Float, &first.b, nullptr, step},
-                             {"A", ExrType::Float, &first.a, nullptr, step}}));
+  save_signal(path, {values}, out, picture);
+}
+
+void save_signal(const std::string& path, const Signal& values, Delivery& out,
+                 const std::function<Rgba8Image()>& picture) {
+  const RgbSpacePtr& space = values.meaning.space;
+  const ColorProfile profile = space ? space->profile : ColorProfile{};
+  if (path.ends_with(".exr") && (values.meaning.are_codes || profile.chromaticities || !space))
+    return out.save(path, exr_of(values.image, profile));
+  if (path.ends_with(".exr")) return out.save(path, exr_of(in_rec709(values).image, {}));
+  if (path.ends_with(".pfm")) return out.save(path, encode_image(path, in_rec709(values).image));
+  if (picture) return save_picture(path, picture(), out);
+  if (!space || !can_hold(".png", profile))
+    return save_picture(path, shown(in_rec709(values).image, values.meaning.are_codes), out);
+  const Rgba8Image codes = values.meaning.are_codes || space->is_standard
+                               ? shown(values.image, values.meaning.are_codes)
+                               : quantize8(codes_of(values.image, *space));
+  save_picture(path, codes, out, profile);
 }
 
 void print_result(const SignalArgs& args, const std::string& text, const Json::Object& json, Delivery& out) {

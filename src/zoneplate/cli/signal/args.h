@@ -8,6 +8,7 @@
 
 #include "zoneplate/cli/args.h"
 #include "zoneplate/cli/process/confined.h"
+#include "zoneplate/cli/signal/load.h"
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/report/json.h"
 #include "zoneplate/report/plot.h"
@@ -56,12 +57,18 @@ void check_picture_name(const std::string& path);
 void check_result_name(const std::string& path);
 void check_plot_name(const std::string& path);
 
-void save_picture(const std::string& path, const Rgba8Image& picture, Delivery& out);
+void save_picture(const std::string& path, const Rgba8Image& picture, Delivery& out, const ColorProfile& profile = {});
 
 /// Writes a result: to .pfm and .exr the values as premultiplied floats, neither clamped nor shifted; to any other name
 /// the display image `picture()`.
 void save_result(const std::string& path, const LinearImage& values, const std::function<Rgba8Image()>& picture,
                  Delivery& out);
+
+/// Writes a result with the profile of its input, as far as the format of the output states it: to .png codes of its
+/// space, to .exr light of its chromaticities, else sRGB codes or light of Rec.709 primaries; codes as they are.
+/// `picture`: the image of a .png, in sRGB, if it does not show the colours themselves.
+void save_signal(const std::string& path, const Signal& values, Delivery& out,
+                 const std::function<Rgba8Image()>& picture = {});
 
 /// The outputs of save_result, for the help.
 inline constexpr const char* result_meaning =

@@ -125,9 +125,11 @@ Json::Object json_of(const std::string& input, const ConvolveArgs& args, const L
   return json;
 }
 
+/// The result of a kernel with sum 0 is.
+bool is_signed(const KernelChoice& kernel) { return std::abs(kernel.sum()) < 1e-6; }
+
 Rgba8Image picture_of(const ConvolveArgs& args, const KernelChoice& kernel, const LinearImage& result) {
-  // The result of a kernel with sum 0 is signed.
-  return std::abs(kernel.sum()) < 1e-6 ? shown_around_grey(result) : shown(result, args.uses_codes);
+  return is_signed(kernel) ? shown_around_grey(result) : shown(result, args.uses_codes);
 }
 
 /// The weights as grey levels, surrounded by weights of 0; the greatest is white. If some are negative, mid-grey is 0.
@@ -189,14 +191,18 @@ Rgba8Image figure_of(const std::string& input, const ConvolveArgs& args, const L
 }
 
 void convolve_image(const ConvolveArgs& args, const std::string& input, Delivery& out) {
-  const LinearImage image = load_signal(input, args.uses_codes, out);
+  Signal signal = load_as_stored(input, args.uses_codes, out);
+  if (args.is_side_by_side) signal = in_rec709(std::move(signal));
+  const LinearImage& image = signal.image;
   const KernelChoice& kernel = args.kernel;
   const Results results = convolved(args, image, kernel);
-  const auto picture = [&] {
-    return args.is_side_by_side ? figure_of(input, args, image, kernel, results.image)
-                                : picture_of(args, kernel, results.image);
-  };
-  if (!args.output.empty()) save_result(args.output, results.image, picture, out);
+  if (!args.output.empty() && args.is_side_by_side)
+    save_picture(args.output, figure_of(input, args, image, kernel, results.image), out);
+  else if (!args.output.empty() && is_signed(kernel))
+    save_signal(args.output, {results.image, signal.meaning}, out,
+                [&] { return picture_of(args, kernel, results.image); });
+  else if (!args.output.empty())
+    save_signal(args.output, {results.image, signal.meaning}, out);
   print_result(args, text_of(input, args, image, kernel, results), json_of(input, args, image, kernel, results), out);
 }
 

@@ -180,14 +180,15 @@ void run_signal_decimate(std::span<const std::string> arguments) {
   check_picture_name(args.output);
   for (const std::string& path : {args.naive_path, args.filtered_path}) check_result_name(path);
   run_subcommand(args, {input}, {args.naive_path, args.filtered_path}, [&](Delivery& out) {
-    const Pair pair = make_pair(args, load_signal(input, args.uses_codes, out));
+    const Signal stored = load_as_stored(input, args.uses_codes, out);
+    const Pair pair = make_pair(args, in_rec709(stored).image);
     if (!args.output.empty()) save_picture(args.output, figure_of(input, args, pair), out);
-    const auto save = [&](const std::string& path, const LinearImage& image) {
-      if (!path.empty())
-        save_result(
-            path, image, [&] { return shown(image, args.uses_codes); }, out);
+    const auto save = [&](const std::string& path, const std::string& kernel) {
+      if (path.empty()) return;
+      const int width = pair.naive.width(), height = pair.naive.height();
+      save_signal(path, {resampled(stored.image, width, height, kernel, Border::Clamp), stored.meaning}, out);
     };
-    save(args.naive_path, pair.naive), save(args.filtered_path, pair.filtered);
+    save(args.naive_path, "nearest"), save(args.filtered_path, args.kernel);
     const std::vector<Figures> rows = measure(args, pair);
     print_result(args, text_of(input, pair, rows), json_of(input, args, pair, rows), out);
   });

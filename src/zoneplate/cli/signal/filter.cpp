@@ -207,13 +207,16 @@ void run_signal_filter(std::span<const std::string> arguments) {
     throw Error(ErrorKind::Usage, "expected one of --low-pass, --high-pass, --band-pass and --band-stop");
   args.is_side_by_side ? check_picture_name(args.output) : check_result_name(args.output);
   run_subcommand(args, {input}, {}, [&](Delivery& out) {
-    const LinearImage before = load_signal(input, args.uses_codes, out);
+    Signal signal = load_as_stored(input, args.uses_codes, out);
+    if (args.is_side_by_side) signal = in_rec709(std::move(signal));
+    const LinearImage& before = signal.image;
     const LinearImage after = filtered(before, args.filter, args.border);
     if (args.is_side_by_side && !args.output.empty())
       out.save_figure(args.output, figure_of(input, args, before, after), plot_size);
+    else if (!args.output.empty() && args.loses_mean())
+      save_signal(args.output, {after, signal.meaning}, out, [&] { return picture_of(args, after); });
     else if (!args.output.empty())
-      save_result(
-          args.output, after, [&] { return picture_of(args, after); }, out);
+      save_signal(args.output, {after, signal.meaning}, out);
     tell_result(input, args, before, after, out);
   });
 }

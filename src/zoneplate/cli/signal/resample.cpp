@@ -103,13 +103,15 @@ void run_signal_resample(std::span<const std::string> arguments) {
   if (args.output.empty()) throw Error(ErrorKind::Usage, "--output is missing: the image file to write");
   args.is_side_by_side ? check_picture_name(args.output) : check_result_name(args.output);
   run_subcommand(args, {input}, {}, [&](Delivery& out) {
-    const LinearImage image = load_signal(input, args.uses_codes, out);
+    Signal signal = load_as_stored(input, args.uses_codes, out);
+    if (args.is_side_by_side) signal = in_rec709(std::move(signal));
+    const LinearImage& image = signal.image;
     const int2 size = size_from(args.size, image.width(), image.height());
-    const LinearImage result = resampled(image, size.x, size.y, args.kernel, args.border);
-    const auto picture = [&] {
-      return args.is_side_by_side ? figure_of(input, args, image, result) : shown(result, args.uses_codes);
-    };
-    save_result(args.output, result, picture, out);
+    const Signal result{resampled(image, size.x, size.y, args.kernel, args.border), signal.meaning};
+    if (args.is_side_by_side)
+      save_picture(args.output, figure_of(input, args, image, result.image), out);
+    else
+      save_signal(args.output, result, out);
     print_result(args,
                  fmt::format("{}, {} × {} to {} × {} by {}, border {}\n", printable(input), image.width(),
                              image.height(), size.x, size.y, args.kernel, name_of(args.border)),

@@ -65,7 +65,7 @@ void run_texture_normal_from_height(std::span<const std::string> arguments) {
   const std::string& input = only_operand(syntax, "one IMAGE");
   check_result_name(args.output);
   run_subcommand(args, {input}, {}, [&](Delivery& out) {
-    const Plane<float3> normals = normals_of(luminance(load_signal(input, true, out)), args.options);
+    const Plane<float3> normals = normals_of(luminance(load_texture(input, out)), args.options);
     LinearImage encoded(normals.width(), normals.height());
     float steepest = 1;
     for (std::size_t i = 0; i < normals.values().size(); ++i) {

@@ -16,11 +16,13 @@
 #include "zoneplate/codec/bitmap/tga.h"
 #include "zoneplate/codec/exr.h"
 #include "zoneplate/codec/hdr.h"
+#include "zoneplate/codec/inspect/color_space.h"
 #include "zoneplate/codec/inspect/image_format.h"
 #include "zoneplate/codec/jpeg.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/webp_still.h"
+#include "zoneplate/image/orientation.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/mapped_file_guard.h"
 
@@ -173,19 +175,42 @@ std::vector<std::uint64_t> frame_numbers(const std::vector<std::string>& paths) 
   return numbers;
 }
 
+/// Codes of a space and their light.
+Picture picture_of(DisplayImage codes, const ImageColor& color) {
+  codes = oriented(std::move(codes), color.orientation);
+  if (!color.space || color.space->is_standard) return make_picture(std::move(codes));
+  LinearImage light = light_of(codes, *color.space);
+  return {std::move(codes), std::move(light)};
+}
+
 }  // namespace
 
 Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t most_pixels) {
+  const ImageColor color = read_image_color(bytes, name);
+  Picture picture;
   if (is_jpeg(bytes)) {
     JpegImage image = decode_jpeg(bytes, name, most_pixels);
-    Picture picture = make_picture(display_of(image.pixels));
+    picture = picture_of(display_of(image.pixels), color);
     picture.flaw = std::move(image.flaw);
-    return picture;
+  } else {
+    picture = is_hdr(bytes)   ? make_picture(decode_hdr(bytes, name, most_pixels))
+              : is_exr(bytes) ? make_picture(decode_exr_as_stored(bytes, name, most_pixels))
+              : is_pfm(bytes) ? make_picture(decode_pfm(bytes, name, most_pixels))
+                              : picture_of(decode_display(bytes, name, most_pixels), color);
   }
-  return is_hdr(bytes)   ? make_picture(decode_hdr(bytes, name, most_pixels))
-         : is_exr(bytes) ? make_picture(decode_exr_as_stored(bytes, name, most_pixels))
-         : is_pfm(bytes) ? make_picture(decode_pfm(bytes, name, most_pixels))
-                         : make_picture(decode_display(bytes, name, most_pixels));
+  picture.space = color.space, picture.color_flaw = color.flaw;
+  return picture;
+}
+
+Picture in_srgb(Picture picture) {
+  if (picture.space && !picture.space->is_standard) {
+    convert_to_rec709(picture.linear, *picture.space);
+    Picture converted = make_picture(std::move(picture.linear));
+    picture.display = std::move(converted.display);
+    picture.linear = picture.is_scene_linear ? std::move(converted.linear) : make_picture(picture.display).linear;
+  }
+  picture.space = nullptr;
+  return picture;
 }
 
 ImageFile open_image(const std::string& path) {
@@ -202,7 +227,7 @@ Picture decode_file(const ImageFile& file, std::uint64_t most_pixels) {
 }
 
 Picture load_picture(const std::string& path, std::uint64_t most_pixels) {
-  return decode_file(open_image(path), most_pixels);
+  return in_srgb(decode_file(open_image(path), most_pixels));
 }
 
 std::vector<std::string> list_pictures_below(const std::string& directory) {

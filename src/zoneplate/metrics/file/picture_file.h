@@ -16,20 +16,24 @@ namespace zoneplate::metrics {
 /// Errors    ErrorKind::Input naming the file and the cause.
 ImageFile open_image(const std::string& path);
 
-/// Decodes it as load_picture does.
-Picture decode_file(const ImageFile& file, std::uint64_t most_pixels = std::uint64_t{1} << 28);
-
-/// Loads an image from a PNG (8 or 16 bits), JPEG, WebP, HDR, EXR, PFM, BMP or TGA file, recognised by its first bytes.
-/// "-" is stdin. Of a damaged JPEG what can be decoded is kept, with a flaw.
+/// Decodes an image from a PNG (8 or 16 bits), JPEG, WebP, HDR, EXR, PFM, BMP or TGA file, recognised by its first
+/// bytes. Of a damaged JPEG what can be decoded is kept, with a flaw.
 ///
 /// HDR, EXR and PFM contain unbounded linear light, which is kept as it is stored, with NaN and infinities; their
-/// display-referred values are clamped.
+/// display-referred values are clamped. Values stay as they are stored, in the colour space of the file, and the image
+/// is turned as its Exif orientation says.
 /// Errors    ErrorKind::Input naming the file and the cause, also for more than `most_pixels`.
-Picture load_picture(const std::string& path, std::uint64_t most_pixels = std::uint64_t{1} << 28);
+Picture decode_file(const ImageFile& file, std::uint64_t most_pixels = std::uint64_t{1} << 28);
 
 /// The same from the bytes of a file; `name` is for messages.
 Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name,
                        std::uint64_t most_pixels = std::uint64_t{1} << 28);
+
+/// The same image in sRGB codes, or light of Rec.709 primaries. Display-referred colours outside sRGB are clamped.
+Picture in_srgb(Picture picture);
+
+/// Loads an image in sRGB, or light of Rec.709 primaries.
+Picture load_picture(const std::string& path, std::uint64_t most_pixels = std::uint64_t{1} << 28);
 
 /// The image files of one operand, in order.
 struct PictureFiles {

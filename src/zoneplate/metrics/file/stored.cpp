@@ -83,7 +83,7 @@ class StoredComparison {
   StoredDifference compare(const Picture& reference, const Picture& test) {
     compare_colors(reference, test);
     compare_layers();
-    compare_meanings(test.is_scene_linear);
+    compare_meanings(reference, test);
     for (std::size_t side = 0; side < 2; ++side)
       if (const std::uint32_t frames = count_frames(files_[side]->bytes); frames > 1)
         differ(fmt::format("{} is an animation of {} frames, of which the first is compared", names[side], frames));
@@ -193,14 +193,20 @@ class StoredComparison {
     count_not_finite(name, values, 1, false, side == 0 ? out_.reference : out_.test);
   }
 
-  void compare_meanings(bool is_linear) {
+  void compare_meanings(const Picture& reference, const Picture& test) {
     std::array<std::string, 2> spaces;
     for (std::size_t side = 0; side < 2; ++side) spaces[side] = color_space_of(files_[side]->bytes);
-    if (spaces[0] == spaces[1]) return;
+    if (spaces[0] == spaces[1]) {
+      if (test.space && !test.space->is_standard)
+        out_.notes.push_back(fmt::format("both have {}: the values are compared as they are", test.space->name));
+      return;
+    }
+    const std::string usual = test.is_scene_linear ? "Rec.709 light" : "sRGB";
     for (std::string& space : spaces)
-      if (space.empty()) space = is_linear ? "Rec.709 light" : "sRGB";
-    differ(fmt::format("the values mean {} in the reference, {} in the test image: they are compared as they are",
-                       spaces[0], spaces[1]));
+      if (space.empty()) space = usual;
+    differ(fmt::format("the values mean {} in the reference, {} in the test image: {}", spaces[0], spaces[1],
+                       share_space(reference, test) ? "they are compared as they are"
+                                                    : "they are compared after conversion to " + usual));
   }
 
   std::array<const ImageFile*, 2> files_;
@@ -213,6 +219,12 @@ class StoredComparison {
 StoredDifference compare_stored(const ImageFile& reference_file, const Picture& reference, const ImageFile& test_file,
                                 const Picture& test) {
   return StoredComparison(reference_file, test_file).compare(reference, test);
+}
+
+bool share_space(const Picture& reference, const Picture& test) {
+  const auto is_usual = [](const Picture& p) { return !p.space || p.space->is_standard; };
+  if (reference.is_scene_linear != test.is_scene_linear) return is_usual(reference) && is_usual(test);
+  return is_same(reference.space, test.space);
 }
 
 }  // namespace zoneplate::metrics

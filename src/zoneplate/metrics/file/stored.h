@@ -49,7 +49,12 @@ struct StoredDifference {
 ///
 /// Exact     equal values are equal bits: NaN equals only the same NaN. Codes of 8 and of 16 bits are equal if they are
 ///           the same share of the range.
+/// The notes say which meaning the values have, if it is another than sRGB, and whether metrics have to convert them
+/// (share_space).
 StoredDifference compare_stored(const ImageFile& reference_file, const Picture& reference, const ImageFile& test_file,
                                 const Picture& test);
+
+/// True if the values of both mean the same colours; else in_srgb (metrics/file/picture_file.h) makes them comparable.
+bool share_space(const Picture& reference, const Picture& test);
 
 }  // namespace zoneplate::metrics

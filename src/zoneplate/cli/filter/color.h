@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+#include "zoneplate/cli/process/confined.h"
+#include "zoneplate/image/rgb_space.h"
+#include "zoneplate/metrics/picture.h"
+
+namespace zoneplate::cli {
+
+/// What a filter computes on: the codes as they are, or their light, which becomes codes again.
+enum class FilteredValues { Codes, Light };
+
+/// The image in a colour space that the output file can state: its own one, or else sRGB (or light of Rec.709
+/// primaries), with a warning.
+metrics::Picture in_space_of(metrics::Picture picture, FilteredValues values, const std::string& input,
+                             const std::string& output, Delivery& out);
+
+/// What the file of an image in this space states.
+ColorProfile profile_of(const RgbSpacePtr& space);
+
+/// Display-referred values of light in the primaries of a space.
+DisplayImage display_of(LinearImage light, const RgbSpacePtr& space);
+
+}  // namespace zoneplate::cli
