@@ -21,7 +21,7 @@ std::string model_key(const RenderArgs& args) {
   const LoadLimits& l = args.load.limits;
   const DefaultMaterial& m = args.default_material;
   const float4 color = m.color.value_or(float4{-1, 0, 0, 0});
-  return fmt::format("{} {}\n{}\n{}\n{} {} {} {:a} {} {} {} {} {} {} {} {} {} {} {:a} {:a} {:a} {:a} {:a} {:a} {} {}",
+  return fmt::format("{} {}\n{}\n{}\n{} {} {} {:a} {} {} {} {} {} {} {} {} {} {} {} {:a} {:a} {:a} {:a} {:a} {:a} {}",
                      l.is_strict, args.input, args.load.format, c.animation_name, c.scene.value_or(-1), c.variant,
                      c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds, fmt::join(l.allowed_paths, "\n"),
                      args.mips.raw_colors, static_cast<int>(args.mips.filter), args.mips.keeps_coverage,
