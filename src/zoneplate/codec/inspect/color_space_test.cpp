@@ -87,7 +87,7 @@ TEST(ColorSpace, OrientationsAreReadFromExif) {
   const Bytes turned = exif_of(6);
   prefixed.insert(prefixed.end(), turned.begin(), turned.end());
   EXPECT_EQ(read_file_color(webp_with(prefixed)).orientation, 6);
-  for (const std::uint8_t wrong : {0, 9, 255}) EXPECT_EQ(read_file_color(turned_jpeg(jpeg, wrong)).orientation, 1);
+  for (const std::uint8_t wrong : Bytes{0, 9, 255}) EXPECT_EQ(read_file_color(turned_jpeg(jpeg, wrong)).orientation, 1);
   for (std::size_t size = 0; size < turned.size(); ++size)
     read_file_color(png_with(png, "eXIf", Bytes(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(size))));
 }
