@@ -1,4 +1,5 @@
 #!/bin/bash
+# SPDX-License-Identifier: Apache-2.0
 # Compiles the scalar twin of every kernel for a GPU, nvptx64, by clang: no SDK, nothing is run. What a graphics
 # processor would compute is what a CPU computes only if the code has no fused multiply-add, no approximation and no
 # flush of denormals, and calls nothing that it does not hold.

@@ -15,6 +15,7 @@
 #include "zoneplate/codec/save.h"
 #include "zoneplate/formats/import/load_options.h"
 #include "zoneplate/formats/load.h"
+#include "zoneplate/image/color_profile.h"
 #include "zoneplate/image/pixel.h"
 #include "zoneplate/image/plane.h"
 #include "zoneplate/image/rgb.h"
