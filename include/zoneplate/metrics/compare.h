@@ -47,7 +47,8 @@ struct Comparison {
 ///
 /// Images with alpha are measured over black and over white, and the worse value counts, of each figure too; a metric
 /// that says itself what alpha means (Metric::defines_alpha) is measured once. Values that are not finite are measured
-/// as 0 (NaN) and ±65504 (infinities): count_not_finite (metrics/picture.h) finds them.
+/// as 0 (NaN) and ±65504 (infinities): count_not_finite (metrics/picture.h) finds them. Pixels that a reference ignores
+/// (Picture::is_ignored) are not compared.
 /// Requires  count > 0.
 /// Errors    ErrorKind::Input naming the image's index and sizes if a metric requires other sizes; otherwise as in Unfit.
 Comparison compare(const Comparands& pictures, std::span<const Choice> choices, Unfit unfit);

@@ -68,6 +68,7 @@ struct Metric {
   bool is_default = true;              ///< measured if the user names no metric
   int frames = 1;                      ///< number of consecutive frames that are used together
   bool starts_short = false;           ///< the first images are measured too, with fewer frames
+  bool needs_whole_image = false;      ///< ignored pixels cannot be left out, such as of a spectrum
   int smallest = 1;                    ///< least width and height
   Sizes sizes = Sizes::Same;           ///< required of reference and test
   std::span<const Param> params = {};  ///< what may follow the name: ppd of `flip:ppd=30`

@@ -23,6 +23,9 @@ struct Picture {
   /// 1 where a surface was hidden, or outside the image, in the frame before. Only of references that the renderer has
   /// made as frames of a sequence; otherwise empty.
   Plane<std::uint8_t> is_uncovered = {};
+  /// Of references: 1 at pixels that are not measured; empty if all are. Metrics measure the others: those that look at
+  /// neighbours find the reference at ignored pixels of both images, and pool the pixels that remain.
+  Plane<std::uint8_t> is_ignored = {};
   std::string flaw = {};  ///< damage of its file that the decoder passed over, after the file's name; empty if none
   /// What the values of its file mean: `display` has codes of this space, and `linear` light of its primaries. Null:
   /// sRGB and Rec.709, as metrics expect it (in_srgb, metrics/file/picture_file.h).

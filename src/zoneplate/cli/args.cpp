@@ -276,9 +276,11 @@ bool parse(Syntax& syntax, std::span<const std::string> arguments) {
   for (std::size_t i = 0; i < parsers.size(); ++i) {
     if (parsers[i]->count() == 0) continue;
     const Option& option = syntax.options[i];
-    const std::string& text = parsers[i]->results().back();
-    if (option.value.empty() && text != "true") refuse_value(option);
-    set(option, option.value.empty() ? "" : text);
+    // In order: the last value counts, unless the option collects them.
+    for (const std::string& text : parsers[i]->results()) {
+      if (option.value.empty() && text != "true") refuse_value(option);
+      set(option, option.value.empty() ? "" : text);
+    }
   }
   return true;
 }

@@ -9,6 +9,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/metrics/backdrop.h"
+#include "zoneplate/metrics/ignored.h"
 
 namespace zoneplate::metrics {
 namespace {
@@ -29,6 +30,7 @@ std::string objection(const Metric& metric, const Picture& reference, const Pict
   if (std::min(test.width(), test.height()) < metric.smallest) {
     return fmt::format("has {} pixels, expected {} × {} at least", size_of(test), metric.smallest, metric.smallest);
   }
+  if (metric.needs_whole_image && !reference.is_ignored.empty()) return "has ignored regions, expected a whole image";
   const int n = reference.width() / test.width();
   const bool is_multiple = n >= 1 && reference.width() == n * test.width() && reference.height() == n * test.height();
   if (!is_multiple || (metric.sizes == Sizes::Same && n != 1)) {
@@ -187,6 +189,7 @@ Comparison compare(const Comparands& pictures, std::span<const Choice> choices, 
   bool has_any_alpha = false;
   for (std::size_t i = 0; i < pictures.count; ++i) {
     Picture next_reference = pictures.reference(i), next_test = pictures.test(i);
+    hide_ignored(next_reference, next_test);
     out.are_same = out.are_same && has_same_values(next_reference, next_test);
     next_reference = finite(std::move(next_reference)), next_test = finite(std::move(next_test));
     if (pictures.are_frames && i > 0) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "zoneplate/metrics/ignored.h"
 #include "zoneplate/metrics/power.h"
 #include "zoneplate/metrics/rows.h"
 
@@ -44,7 +45,7 @@ std::optional<EventResponse> event_response(Frames reference, Frames test) {
   const int width = reference[0].width(), height = reference[0].height();
   Plane<std::uint8_t> mask(width, height);
   for_rows(height, [&](int y) {
-    for (int x = 0; x < width; ++x) mask(x, y) = is_event(reference, x, y) ? 1 : 0;
+    for (int x = 0; x < width; ++x) mask(x, y) = is_measured(reference[0], x, y) && is_event(reference, x, y) ? 1 : 0;
   });
   const auto sum_over_event = [&](const auto& term) {
     return sum_rows(height, [&](int y) {

@@ -6,19 +6,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "zoneplate/metrics/ignored.h"
 #include "zoneplate/metrics/metric.h"
 #include "zoneplate/metrics/rows.h"
 
 namespace zoneplate::metrics {
 namespace {
 
-double root_mean_square(const Plane<double>& plane) {
+/// Over the pixels of a plane that are measured.
+double root_mean_square(const Plane<double>& plane, const Picture& reference) {
   const double sum = sum_rows(plane.height(), [&](int y) {
     double row = 0;
-    for (const double v : plane.row(y)) row += v * v;
+    for (int x = 0; x < plane.width(); ++x)
+      if (is_measured(reference, x, y)) row += plane(x, y) * plane(x, y);
     return row;
   });
-  return std::sqrt(sum / static_cast<double>(plane.values().size()));
+  return std::sqrt(sum / measured_pixels(reference));
 }
 
 /// The change of luma from one frame to the next.
@@ -33,14 +36,15 @@ Score measure(Frames reference, Frames test) {
   const Plane<double> expected = change(reference);
   Plane<double> found = change(test);
   Score score;
-  score.more = {{"change", root_mean_square(found), "code"}, {"reference_change", root_mean_square(expected), "code"}};
+  score.more = {{"change", root_mean_square(found, reference[1]), "code"},
+                {"reference_change", root_mean_square(expected, reference[1]), "code"}};
   score.map = Plane<float>(found.width(), found.height());
   for (std::size_t i = 0; i < found.values().size(); ++i) {
     double& excess = found.values()[i];
     excess -= expected.values()[i];
     score.map.values()[i] = static_cast<float>(std::min(1.0, std::abs(excess)));
   }
-  score.value = root_mean_square(found);
+  score.value = root_mean_square(found, reference[1]);
   return score;
 }
 

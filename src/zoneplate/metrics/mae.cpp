@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "zoneplate/metrics/ignored.h"
 #include "zoneplate/metrics/metric.h"
 #include "zoneplate/metrics/rows.h"
 
@@ -20,7 +21,8 @@ Difference difference(Display a, Display b) {
   return {(r + g + blue) / 3, std::max({r, g, blue})};
 }
 
-Score measure(const DisplayImage& reference, const DisplayImage& test) {
+Score measure(const Picture& whole_reference, const DisplayImage& test) {
+  const DisplayImage& reference = whole_reference.display;
   Score score;
   score.map = Plane<float>(reference.width(), reference.height());
   std::vector<double> greatest(static_cast<std::size_t>(reference.height()), 0.0);
@@ -36,7 +38,10 @@ Score measure(const DisplayImage& reference, const DisplayImage& test) {
   });
 
   // The 99th percentile measures the worst regions without a few outliers.
-  std::vector<float> sorted(score.map.values().begin(), score.map.values().end());
+  std::vector<float> sorted;
+  for (int y = 0; y < reference.height(); ++y)
+    for (int x = 0; x < reference.width(); ++x)
+      if (is_measured(whole_reference, x, y)) sorted.push_back(score.map(x, y));
   const std::size_t rank = (sorted.size() - 1) * 99 / 100;
   std::ranges::nth_element(sorted, sorted.begin() + static_cast<std::ptrdiff_t>(rank));
   score.value = sum / static_cast<double>(sorted.size());
@@ -52,7 +57,7 @@ Metric mae() {
           .source = "the definition",
           .unit = "code",
           .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
-            return measure(reference[0].display, test[0].display);
+            return measure(reference[0], test[0].display);
           }};
 }
 

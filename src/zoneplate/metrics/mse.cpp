@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "zoneplate/metrics/ignored.h"
 #include "zoneplate/metrics/metric.h"
 #include "zoneplate/metrics/rows.h"
 
@@ -17,17 +18,25 @@ double squared_difference(Codes a, Codes b) {
   return r * r + g * g + blue * blue;
 }
 
-}  // namespace
-
-double mean_squared_error(const DisplayImage& reference, const DisplayImage& test) {
-  const double sum = sum_rows(reference.height(), [&](int y) {
+/// Over pixels and colours.
+double sum_of_squares(const DisplayImage& reference, const DisplayImage& test) {
+  return sum_rows(reference.height(), [&](int y) {
     double row = 0;
     for (int x = 0; x < reference.width(); ++x) {
       row += squared_difference(codes_on_black(reference(x, y)), codes_on_black(test(x, y)));
     }
     return row;
   });
-  return sum / (3.0 * static_cast<double>(reference.values().size()));
+}
+
+}  // namespace
+
+double mean_squared_error(const DisplayImage& reference, const DisplayImage& test) {
+  return sum_of_squares(reference, test) / (3.0 * static_cast<double>(reference.values().size()));
+}
+
+double mean_squared_error(const Picture& reference, const Picture& test) {
+  return sum_of_squares(reference.display, test.display) / (3.0 * measured_pixels(reference));
 }
 
 Plane<float> squared_error_map(const DisplayImage& reference, const DisplayImage& test) {
@@ -46,7 +55,7 @@ Metric mse() {
           .source = "the definition",
           .unit = "code²",
           .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
-            const double mse = mean_squared_error(reference[0].display, test[0].display);
+            const double mse = mean_squared_error(reference[0], test[0]);
             return Score{.value = mse,
                          .more = {{"rmse", std::sqrt(mse), "code"}},
                          .map = squared_error_map(reference[0].display, test[0].display)};

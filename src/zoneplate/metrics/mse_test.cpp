@@ -36,17 +36,18 @@ TEST(PixelMetrics, ByHand) {
   const TwoPixels p;
   constexpr double mse = (0.25 + 0.0625) / 6;
   EXPECT_EQ(mean_squared_error(p.reference, p.test), mse);
-  EXPECT_NEAR(peak_signal_to_noise(p.reference, p.test), 12.83301228703605, 1e-12);
+  EXPECT_NEAR(peak_signal_to_noise(make_picture(p.reference), make_picture(p.test)), 12.83301228703605, 1e-12);
   const Score mae = measure("mae", p.reference, p.test);
   EXPECT_EQ(mae.value, 0.125);
   EXPECT_EQ(mae.more[0].value, 0.5);
   EXPECT_EQ(mae.map(0, 0), 0);
   EXPECT_EQ(mae.map(1, 0), 0.5f);
   const double luma_difference = 0.2126 * 0.5 - 0.0722 * 0.25;
-  EXPECT_NEAR(luma_peak_signal_to_noise(p.reference, p.test), psnr_of_mse(luma_difference * luma_difference / 2),
-              1e-12);
+  EXPECT_NEAR(luma_peak_signal_to_noise(make_picture(p.reference), make_picture(p.test)),
+              psnr_of_mse(luma_difference * luma_difference / 2), 1e-12);
   const double older = 0.299 * 0.5 - 0.114 * 0.25;
-  EXPECT_NEAR(luma_peak_signal_to_noise(p.reference, p.test, rec601_luma), psnr_of_mse(older * older / 2), 1e-12);
+  EXPECT_NEAR(luma_peak_signal_to_noise(make_picture(p.reference), make_picture(p.test), rec601_luma),
+              psnr_of_mse(older * older / 2), 1e-12);
   EXPECT_NEAR(measure("psnr_luma:rec=601", p.reference, p.test).value, psnr_of_mse(older * older / 2), 1e-12);
 }
 
@@ -58,7 +59,7 @@ TEST(PixelMetrics, TransparentPicturesLieOnBlack) {
 TEST(PixelMetrics, PublishedPeakSignalToNoise) {
   const auto psnr = [](int which) {
     const ChartPair pair = chart_pair(which);
-    return peak_signal_to_noise(as_codes(pair.reference), as_codes(pair.test));
+    return peak_signal_to_noise(make_picture(as_codes(pair.reference)), make_picture(as_codes(pair.test)));
   };
   EXPECT_NEAR(psnr(0), 31.97445, 1e-5);
   EXPECT_NEAR(psnr(1), 9.02749, 1e-5);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "zoneplate/metrics/ignored.h"
 #include "zoneplate/metrics/metric.h"
 #include "zoneplate/metrics/rows.h"
 
@@ -18,7 +19,8 @@ double codes_apart(Display a, Display b) {
   return 255 * std::max({std::abs(p.r - q.r), std::abs(p.g - q.g), std::abs(p.b - q.b), alpha});
 }
 
-Score measure(const DisplayImage& reference, const DisplayImage& test, double tolerance) {
+Score measure(const Picture& whole_reference, const DisplayImage& test, double tolerance) {
+  const DisplayImage& reference = whole_reference.display;
   // A difference of whole codes equals the tolerance; in floats it may be greater by a rounding error.
   constexpr double rounding = 1e-3;
   Score score;
@@ -35,7 +37,7 @@ Score measure(const DisplayImage& reference, const DisplayImage& test, double to
     }
     return row;
   });
-  score.value = 100 * count / static_cast<double>(reference.values().size());
+  score.value = 100 * count / measured_pixels(whole_reference);
   score.more = {{"pixels", count, ""}, {"max", std::ranges::max(greatest), "8-bit code"}};
   return score;
 }
@@ -52,7 +54,7 @@ Metric pixels() {
           .is_default = false,
           .params = params,
           .measure = [](Frames reference, Frames test, const Settings& settings) -> std::optional<Score> {
-            return measure(reference[0].display, test[0].display, settings.number("tolerance"));
+            return measure(reference[0], test[0].display, settings.number("tolerance"));
           }};
 }
 

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "zoneplate/metrics/ignored.h"
 #include "zoneplate/metrics/metric.h"
 #include "zoneplate/metrics/mse.h"
 #include "zoneplate/metrics/power.h"
@@ -17,7 +18,7 @@ namespace zoneplate::metrics {
 
 double psnr_of_mse(double mse) { return mse > 0 ? -10 * decimal_log(mse) : std::numeric_limits<double>::infinity(); }
 
-double peak_signal_to_noise(const DisplayImage& reference, const DisplayImage& test) {
+double peak_signal_to_noise(const Picture& reference, const Picture& test) {
   return psnr_of_mse(mean_squared_error(reference, test));
 }
 
@@ -35,7 +36,7 @@ Metric psnr() {
           .better = Better::Higher,
           .perfect = std::numeric_limits<double>::infinity(),
           .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
-            return Score{.value = peak_signal_to_noise(reference[0].display, test[0].display),
+            return Score{.value = peak_signal_to_noise(reference[0], test[0]),
                          .map = squared_error_map(reference[0].display, test[0].display)};
           },
           .pool = pool_psnr};

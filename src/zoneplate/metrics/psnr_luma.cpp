@@ -2,13 +2,15 @@
 // Peak signal-to-noise ratio of luma: it ignores errors of hue, and correlates better with the visibility of edges.
 #include <limits>
 
+#include "zoneplate/metrics/ignored.h"
 #include "zoneplate/metrics/metric.h"
 #include "zoneplate/metrics/psnr.h"
 #include "zoneplate/metrics/rows.h"
 
 namespace zoneplate::metrics {
 
-double luma_peak_signal_to_noise(const DisplayImage& reference, const DisplayImage& test, LumaWeights weights) {
+double luma_peak_signal_to_noise(const Picture& whole_reference, const Picture& whole_test, LumaWeights weights) {
+  const DisplayImage &reference = whole_reference.display, &test = whole_test.display;
   const double sum = sum_rows(reference.height(), [&](int y) {
     double row = 0;
     for (int x = 0; x < reference.width(); ++x) {
@@ -17,7 +19,7 @@ double luma_peak_signal_to_noise(const DisplayImage& reference, const DisplayIma
     }
     return row;
   });
-  return psnr_of_mse(sum / static_cast<double>(reference.values().size()));
+  return psnr_of_mse(sum / measured_pixels(whole_reference));
 }
 
 Metric psnr_luma() {
@@ -33,7 +35,7 @@ Metric psnr_luma() {
           .params = params,
           .measure = [](Frames reference, Frames test, const Settings& settings) -> std::optional<Score> {
             const LumaWeights weights = settings.number("rec") == 601 ? rec601_luma : rec709_luma;
-            return Score{.value = luma_peak_signal_to_noise(reference[0].display, test[0].display, weights)};
+            return Score{.value = luma_peak_signal_to_noise(reference[0], test[0], weights)};
           },
           .pool = pool_psnr};
 }

@@ -5,6 +5,7 @@
 // so that it depends on where the sequence ends.
 #include <limits>
 
+#include "zoneplate/metrics/ignored.h"
 #include "zoneplate/metrics/metric.h"
 #include "zoneplate/metrics/psnr.h"
 
@@ -20,7 +21,7 @@ Metric recpsnr() {
           .is_default = false,
           .frames = 2,
           .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
-            return Score{.value = peak_signal_to_noise(reference.back().display, test.back().display)};
+            return Score{.value = peak_signal_to_noise(reference.back(), test.back())};
           },
           .pool = [](std::span<const double> values) { return values.back(); }};
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "zoneplate/metrics/ignored.h"
 #include "zoneplate/metrics/metric.h"
 #include "zoneplate/metrics/psnr.h"
 #include "zoneplate/metrics/rows.h"
@@ -38,7 +39,7 @@ Score measure_change(Frames reference, Frames test) {
     }
     return row;
   });
-  score.value = psnr_of_mse(sum / (3 * static_cast<double>(r1.values().size())));
+  score.value = psnr_of_mse(sum / (3 * measured_pixels(reference[1])));
   return score;
 }
 

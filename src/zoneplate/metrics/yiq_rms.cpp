@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "zoneplate/metrics/ignored.h"
 #include "zoneplate/metrics/metric.h"
 #include "zoneplate/metrics/power.h"
 #include "zoneplate/metrics/rows.h"
@@ -43,14 +44,17 @@ double distance(Codes p, Codes q) {
   return 0.5053 * y * y + 0.299 * i * i + 0.1957 * c * c;
 }
 
-std::optional<Score> measure(const DisplayImage& reference, const DisplayImage& test, bool ignores_empty) {
-  const auto is_seen = [&](const Display& c) { return !ignores_empty || c.a > 0; };
+std::optional<Score> measure(const Picture& whole_reference, const DisplayImage& test, bool ignores_empty) {
+  const DisplayImage& reference = whole_reference.display;
+  const auto is_seen = [&](int x, int y) {
+    return is_measured(whole_reference, x, y) && (!ignores_empty || test(x, y).a > 0);
+  };
   Score score;
   score.map = Plane<float>(reference.width(), reference.height());
   const double sum = sum_rows(reference.height(), [&](int y) {
     double row = 0;
     for (int x = 0; x < reference.width(); ++x) {
-      if (!is_seen(test(x, y))) continue;
+      if (!is_seen(x, y)) continue;
       const double d = distance(codes_of(reference(x, y), ignores_empty), codes_of(test(x, y), ignores_empty));
       row += d * d;
       score.map(x, y) = static_cast<float>(std::sqrt(d / greatest_distance));
@@ -59,7 +63,7 @@ std::optional<Score> measure(const DisplayImage& reference, const DisplayImage& 
   });
   const double count = sum_rows(test.height(), [&](int y) {
     double row = 0;
-    for (const Display& c : test.row(y)) row += is_seen(c) ? 1 : 0;
+    for (int x = 0; x < test.width(); ++x) row += is_seen(x, y) ? 1 : 0;
     return row;
   });
   if (count == 0) return std::nullopt;
@@ -95,7 +99,7 @@ Metric yiq_rms() {
           .defines_alpha = [](const Settings& settings) { return settings.number("empty") == 1; },
           .params = params,
           .measure = [](Frames reference, Frames test, const Settings& settings) -> std::optional<Score> {
-            return measure(reference[0].display, test[0].display, settings.number("empty") == 1);
+            return measure(reference[0], test[0].display, settings.number("empty") == 1);
           },
           .pool = pool};
 }

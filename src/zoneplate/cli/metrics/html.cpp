@@ -49,6 +49,7 @@ class JudgementPage {
     else
       for (const JudgedItem& item : judgement_.items) add_pair(item);
     std::string text = fmt::format("Test images: {}. References: {}.", shown(paths_.test), shown(paths_.reference));
+    if (!judgement_.ignored.empty()) text += fmt::format(" Ignored: {}.", shown(joined(judgement_.ignored)));
     if (!judgement_.not_compared.empty()) text += fmt::format(" Not compared: {}.", joined(judgement_.not_compared));
     if (!judgement_.pooled_message.empty()) text += fmt::format(" All images: {}.", judgement_.pooled_message);
     Json::Array tables;
@@ -78,16 +79,25 @@ class JudgementPage {
         Json::Object{{"name", "test"}, {"facts", facts}, {"frames", std::move(test)}, {"errors", std::move(errors)}}};
   }
 
+  /// The images of a pair that exist.
+  Json::Array images_of(const Evidence& evidence) {
+    Json::Array both =
+        images_of({add(evidence.reference)}, {add(evidence.test)}, {add(evidence.errors)}, evidence.error_text);
+    if (evidence.test.png.empty()) both.pop_back();
+    if (evidence.reference.png.empty()) both.erase(both.begin());
+    return both;
+  }
+
   void add_pair(const JudgedItem& item) {
     const auto scene = static_cast<std::uint64_t>(scenes_.size());
     targets_.emplace_back(Json());
-    if (item.evidence.test.png.empty()) return;
+    const Evidence& evidence = item.evidence;
+    if (evidence.test.png.empty() && evidence.reference.png.empty()) return;
     targets_.back() = Json::Object{{"scene", scene}, {"failed", !item.passed()}};
     scenes_.emplace_back(Json::Object{{"name", shown(item.name)},
                                       {"text", shown(reason_of(item))},
                                       {"failed", !item.passed()},
-                                      {"images", images_of({add(item.evidence.reference)}, {add(item.evidence.test)},
-                                                           {add(item.evidence.errors)}, item.evidence.error_text)}});
+                                      {"images", images_of(evidence)}});
   }
 
   void add_sequence() {

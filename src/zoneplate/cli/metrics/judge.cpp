@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/deadline.h"
@@ -55,6 +56,24 @@ std::string pairing_of(const metrics::PictureSet& reference, const metrics::Pict
                      b.back());
 }
 
+/// The pairs, and those of images that are neither there nor have a reference because they could not be rendered. A
+/// pair has the name of its failed image, which its reference may have with another extension.
+std::vector<metrics::PicturePair> with_failed(std::vector<metrics::PicturePair> pairs, const FailedRenders& failed) {
+  const auto without_extension = [](const std::string& name) {
+    return std::filesystem::path(name).replace_extension().string();
+  };
+  for (const auto& [name, cause] : failed) {
+    const auto pair = std::ranges::find_if(pairs, [&](const metrics::PicturePair& p) {
+      return p.name == name || (!p.test && without_extension(p.name) == without_extension(name));
+    });
+    if (pair == pairs.end())
+      pairs.push_back({.name = name});
+    else
+      pair->name = name;
+  }
+  return pairs;
+}
+
 /// Judges one pair after another; everything else of the Judgement follows from the items.
 class Judge {
  public:
@@ -88,7 +107,14 @@ class Judge {
       item.outcome = Outcome::Unreadable;
       item.message = pair.name + ": needs more memory than the limit (--max-memory)";
     }
+    if (!item.passed() && item.width == 0) keep_single(pair, item);
     item.seconds = watch.ms() / 1000;
+    out_.items.push_back(std::move(item));
+  }
+
+  void add_failed(const metrics::PicturePair& pair, const std::string& cause) {
+    JudgedItem item{.name = pair.name, .outcome = Outcome::NotRendered, .message = cause};
+    keep_single(pair, item);
     out_.items.push_back(std::move(item));
   }
 
@@ -124,6 +150,7 @@ class Judge {
   void measure(std::size_t reference_index, std::size_t test_index, JudgedItem& item) {
     const metrics::ImageFile reference_file = reference_.open(reference_index), test_file = test_.open(test_index);
     Picture reference = reference_.decode(reference_file), test = test_.decode(test_file);
+    metrics::mark_ignored(reference, verdicts_.ignored);
     item.width = test.width(), item.height = test.height();
     item.stored = metrics::compare_stored(reference_file, reference, test_file, test);
     if (!metrics::share_space(reference, test))
@@ -136,6 +163,7 @@ class Judge {
     if (!sizes.empty() && std::ranges::none_of(singles_, takes_any)) {
       item.outcome = Outcome::Failed;
       item.message = sizes;
+      if (keeps_evidence_) keep_evidence(reference, test, {}, item.evidence);
       return;
     }
     Comparison comparison;
@@ -194,14 +222,34 @@ class Judge {
     if (keeps_evidence_ && (keeps_passed_ || !item.passed())) keep_evidence(reference, test, results, item.evidence);
   }
 
+  /// Keeps what can be decoded of a pair that was not measured: of an image that is new, missing or unreadable, the
+  /// other one.
+  void keep_single(const metrics::PicturePair& pair, JudgedItem& item) {
+    if (!keeps_evidence_) return;
+    const auto decoded = [](const metrics::PictureSet& set, const std::optional<std::size_t>& index) {
+      try {
+        return index ? std::optional(set.load(*index)) : std::nullopt;
+      } catch (const Error&) {  // the item's message has the cause
+        return std::optional<Picture>();
+      } catch (const std::bad_alloc&) {
+        return std::optional<Picture>();
+      }
+    };
+    const bool is_made = item.outcome != Outcome::NotRendered;  // a file of its name is of an earlier run
+    keep_evidence(decoded(reference_, pair.reference), is_made ? decoded(test_, pair.test) : std::nullopt, {},
+                  item.evidence);
+  }
+
   /// The error map is that of FLIP, or else of the first metric that has one.
-  void keep_evidence(const Picture& reference, const Picture& test, const std::vector<Result>& results, Evidence& out) {
+  void keep_evidence(const std::optional<Picture>& reference, const std::optional<Picture>& test,
+                     const std::vector<Result>& results, Evidence& out) {
     if (evidence_bytes_ >= most_evidence_bytes) {
       out.is_left_out = true;
       return;
     }
-    const auto encoded = [](const Picture& stored) {
-      const Picture p = metrics::in_srgb(stored);
+    const auto encoded = [](const std::optional<Picture>& stored) {
+      if (!stored) return PagePicture{};
+      const Picture p = metrics::in_srgb(*stored);
       return p.is_scene_linear ? page_picture(p.linear) : page_picture(p.display);
     };
     out.reference = encoded(reference), out.test = encoded(test);
@@ -243,7 +291,12 @@ class Judge {
     }
     const metrics::Comparands frames{
         .count = pairs.size(),
-        .reference = [&](std::size_t i) { return metrics::in_srgb(reference_.load(*pairs[i].reference)); },
+        .reference =
+            [&](std::size_t i) {
+              Picture picture = metrics::in_srgb(reference_.load(*pairs[i].reference));
+              metrics::mark_ignored(picture, verdicts_.ignored);
+              return picture;
+            },
         .test = [&](std::size_t i) { return metrics::in_srgb(test_.load(*pairs[i].test)); },
         .are_frames = is_sequence,
         .name = [&](std::size_t i) { return pairs[i].name; }};
@@ -284,14 +337,17 @@ bool Judgement::is_identical() const { return std::ranges::all_of(items, &Judged
 Judgement judge(const metrics::PictureSet& reference, const metrics::PictureSet& test,
                 const std::vector<Choice>& choices, const Verdicts& verdicts, bool keeps_evidence,
                 const std::function<void(double)>& progress) {
-  const std::vector<metrics::PicturePair> pairs = metrics::pair_pictures(reference, test);
+  const FailedRenders& failed_renders = verdicts.failed_renders;
+  const std::vector<metrics::PicturePair> pairs = with_failed(metrics::pair_pictures(reference, test), failed_renders);
   Judge all(reference, test, choices, verdicts, keeps_evidence, pairs.size() == 1);
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     progress(static_cast<double>(i) / static_cast<double>(pairs.size()));
-    all.add(pairs[i]);
+    const auto failed = failed_renders.find(pairs[i].name);
+    failed == failed_renders.end() ? all.add(pairs[i]) : all.add_failed(pairs[i], failed->second);
     check_deadline();  // its error ends the run, not the pair
   }
   Judgement out = all.finish(pairs);
+  out.ignored = verdicts.ignored_texts;
   out.not_compared = reference.others;
   for (const std::string& other : test.others)
     if (std::ranges::find(out.not_compared, other) == out.not_compared.end()) out.not_compared.push_back(other);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/metrics/compare.h"
 #include "zoneplate/metrics/file/picture_set.h"
+#include "zoneplate/metrics/ignored.h"
 #include "zoneplate/report/html_page.h"
 
 namespace zoneplate::cli {
@@ -20,12 +22,18 @@ struct Bound {
   double value = 0;
 };
 
-/// The limits of the values that decide whether images pass.
+/// The test images that the renderer could not make, by their names, with the causes.
+using FailedRenders = std::map<std::string, std::string>;
+
+/// What decides whether images pass.
 struct Verdicts {
-  std::vector<Bound> bounds;     ///< none: images pass if they are identical
-  bool judges_mean = false;      ///< the bounds hold for the pooled values of all images, not for each image
-  bool allows_unpaired = false;  ///< an image that only one side has does not fail
-  bool refuses_unfit = false;    ///< an image that a metric cannot measure fails
+  std::vector<Bound> bounds;          ///< none: images pass if they are identical
+  bool judges_mean = false;           ///< the bounds hold for the pooled values of all images, not for each image
+  bool allows_unpaired = false;       ///< an image that only one side has does not fail
+  bool refuses_unfit = false;         ///< an image that a metric cannot measure fails
+  FailedRenders failed_renders = {};  ///< these fail, whether or not there is a file or a reference of their name
+  metrics::IgnoredRegions ignored = {};
+  std::vector<std::string> ignored_texts = {};  ///< as they were given
 };
 
 enum class Outcome {
@@ -34,6 +42,7 @@ enum class Outcome {
   Missing,  ///< there is a reference, but no test image
   New,      ///< there is a test image, but no reference
   Unreadable,
+  NotRendered,  ///< the renderer reports that it could not make the test image
 };
 
 /// The images of a pair for the report. Pictures that do not exist have no bytes.
@@ -71,6 +80,7 @@ struct PooledResult {
 
 struct Judgement {
   std::vector<JudgedItem> items;
+  std::vector<std::string> ignored;       ///< regions, as they were given
   std::vector<std::string> not_compared;  ///< files of the directories, in formats that are not read there
   bool is_sequence = false;               ///< the items are frames of equal size
   std::vector<PooledResult> pooled;

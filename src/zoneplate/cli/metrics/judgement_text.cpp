@@ -105,7 +105,8 @@ Json json_of(const JudgedItem& item) {
 }  // namespace
 
 std::string_view name_of(Outcome outcome) {
-  constexpr std::array<std::string_view, 5> names = {"passed", "failed", "missing", "new", "unreadable"};
+  constexpr std::array<std::string_view, 6> names = {"passed", "failed",     "missing",
+                                                     "new",    "unreadable", "not rendered"};
   return names[static_cast<std::size_t>(outcome)];
 }
 
@@ -144,6 +145,7 @@ std::string text_of(const Judgement& judgement) {
     text.erase(text.find_last_not_of(' ') + 1);
     text += '\n';
   }
+  if (!judgement.ignored.empty()) text += fmt::format("ignored: {}\n", printable(joined(judgement.ignored)));
   if (!judgement.not_compared.empty())
     text += fmt::format("not compared: {}\n", printable(joined(judgement.not_compared)));
   for (const JudgedItem& item : judgement.items) {
@@ -178,6 +180,7 @@ Json json_of(const Judgement& judgement, const ComparedPaths& paths) {
   out.emplace_back("identical", judgement.is_identical());
   out.emplace_back("passed", judgement.passed());
   out.emplace_back("failed", static_cast<std::uint64_t>(judgement.failures()));
+  if (!judgement.ignored.empty()) out.emplace_back("ignored", json_texts(judgement.ignored));
   if (!judgement.not_compared.empty()) out.emplace_back("not_compared", json_texts(judgement.not_compared));
   out.emplace_back("metrics", std::move(rows));
   out.emplace_back("items", std::move(items));

@@ -35,7 +35,7 @@ std::string joined(const std::vector<std::string>& texts);
 /// What standard error reports if something failed: one line; empty if everything passed.
 std::string failure_of(const Judgement& judgement);
 
-/// "passed", "failed", "missing", "new" or "unreadable".
+/// "passed", "failed", "missing", "new", "unreadable" or "not rendered".
 std::string_view name_of(Outcome outcome);
 
 }  // namespace zoneplate::cli

@@ -20,6 +20,11 @@ std::string values_of(const JudgedItem& item) {
   return text;
 }
 
+/// True if there was no image to measure: in JUnit an error, not a failure.
+bool is_error(const JudgedItem& item) {
+  return item.outcome == Outcome::Unreadable || item.outcome == Outcome::NotRendered;
+}
+
 /// What the metrics do not say of the images that pass: of a test case that passes, the format has no text.
 std::string remarks_of_passed(const Judgement& judgement) {
   std::string text;
@@ -33,7 +38,7 @@ std::string remarks_of_passed(const Judgement& judgement) {
 }  // namespace
 
 std::string junit_of(const Judgement& judgement, const ComparedPaths& paths, const std::string& time) {
-  const auto errors = std::ranges::count(judgement.items, Outcome::Unreadable, &JudgedItem::outcome);
+  const auto errors = std::ranges::count_if(judgement.items, is_error);
   const bool has_pooled_case = !judgement.pooled_message.empty();
   const std::size_t failures = judgement.failures() - static_cast<std::size_t>(errors) + has_pooled_case;
   double seconds = 0;
@@ -52,7 +57,7 @@ std::string junit_of(const Judgement& judgement, const ComparedPaths& paths, con
       text += "/>\n";
       continue;
     }
-    const std::string_view kind = item.outcome == Outcome::Unreadable ? "error" : "failure";
+    const std::string_view kind = is_error(item) ? "error" : "failure";
     text += fmt::format(">\n      <{} type=\"{}\" message=\"{}\">{}</{}>\n    </testcase>\n", kind,
                         name_of(item.outcome), escape_markup(item.message), escape_markup(values_of(item)), kind);
   }

@@ -2,19 +2,24 @@
 // zoneplate metrics: the difference between images and a reference, by any of the catalogue's metrics.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <ctime>
+#include <filesystem>
 #include <optional>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/args.h"
+#include "zoneplate/cli/batch/manifest.h"
 #include "zoneplate/cli/metrics/judge.h"
 #include "zoneplate/cli/metrics/judgement_text.h"
 #include "zoneplate/cli/process/confined.h"
+#include "zoneplate/cli/process/ignore_args.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/codec/png.h"
+#include "zoneplate/formats/json/json.h"
 #include "zoneplate/metrics/flip/magma.h"
 #include "zoneplate/metrics/metrics.h"
 #include "zoneplate/os/file.h"
@@ -34,12 +39,13 @@ using metrics::Choice;
 using metrics::Metric;
 
 struct MetricsArgs {
-  std::string metric_names, map_path, threshold, junit_path, report_path;
+  std::string metric_names, map_path, threshold, junit_path, report_path, renders_path;
   std::optional<double> map_gain;  ///< none: the map alone, in magma
   bool judges_mean = false, allows_missing = false, is_quiet = false, prints_json = false;
   int threads = 0;
   std::optional<ProgressKind> progress;  ///< none: a bar on a terminal
   ReadingLimits limits;
+  IgnoreArgs ignored;
 };
 
 std::vector<Choice> choose(const std::string& names) {
@@ -136,6 +142,13 @@ Syntax make_syntax(MetricsArgs& args) {
           "Rec.709 primaries. Those with alpha are measured over black and over white, and the worse value\n"
           "counts. NaN in any channel, and infinities in a colour, are counted and miss every threshold.\n"
           "\n"
+          "Pixels that --ignore names have no part in the comparison: stored values, metrics, NaN and maps are those "
+          "of\n"
+          "the pixels that remain. For metrics with windows (ssim, ms_ssim, flip, edge_error, cvvdp) both images have\n"
+          "the reference's pixels there, and the windows at remaining pixels count; a pixel of a coarser scale is "
+          "ignored\n"
+          "if all of its pixels are. Spectra and edge_response need the whole image, and are left out.\n"
+          "\n"
           "Exit codes, as of diff and cmp:\n"
           "  0  without --threshold: the images are identical; with it: every image reaches it\n"
           "  1  an image failed: it differs, misses the threshold, has another size, is missing or unreadable\n"
@@ -154,6 +167,10 @@ Syntax make_syntax(MetricsArgs& args) {
        }},
       {"--allow-missing", "", "Images and frames that only one side has do not fail", "Options", false,
        [&](auto&) { args.allows_missing = true; }},
+      ignore_option(args.ignored, "Options"),
+      {"--rendered", "FILE.jsonl",
+       "Lines that render printed while it made the folder TEST: an image that it could not make fails with the cause",
+       "Options", true, [&](auto& text) { args.renders_path = text; }},
       {"--map", "FILE",
        "Write the error map of the first metric that has one, as PNG; of several images, the worst one's", "Reports",
        true, [&](auto& text) { args.map_path = text; }},
@@ -182,6 +199,42 @@ ProgramLimits decoder_limits(const ReadingLimits& limits) {
   out.bytes = static_cast<std::size_t>(std::min<std::uint64_t>(out.bytes, limits.load.memory));
   if (limits.seconds * 1000 < out.milliseconds) out.milliseconds = static_cast<int>(limits.seconds * 1000) + 1;
   return out;
+}
+
+/// The images that render could not make, from the lines that it printed (cli/render/batch.h), by their paths within
+/// the folder `test`.
+FailedRenders read_failed_renders(const std::string& path, const std::string& test, const LoadLimits& limits) {
+  FailedRenders out;
+  if (path.empty()) return out;
+  namespace fs = std::filesystem;
+  const Manifest lines(path, limits.memory / 2);
+  for (std::uint64_t i = 0; i < lines.size(); ++i) {
+    const std::string_view text = lines.text(i);
+    ImportBudget budget(lines.place(i), limits);
+    const JsonValue line = parse_json({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, budget);
+    const JsonView view(line, lines.place(i));
+    if (view.text("format") != "zoneplate-render") view.fail("is no line of zoneplate render");
+    if (view.text("status") != "failed") continue;
+    const std::string output = view.text("not_written");
+    const std::string name =
+        output.empty() ? "" : fs::weakly_canonical(output).lexically_relative(fs::weakly_canonical(test)).string();
+    if (name.empty() || name.starts_with(".."))
+      view.fail(fmt::format("failed, and would have made no image in {}: {}", test, view.text("error")));
+    out.emplace(name, view.text("error"));
+  }
+  return out;
+}
+
+/// The images of an operand. With --rendered, a folder may be empty: before the first references are accepted, and if
+/// render made none. Every image of the other folder then fails.
+metrics::PictureSet open_operand(const std::string& operand, const MetricsArgs& args) {
+  namespace fs = std::filesystem;
+  const auto is_empty = [&] {
+    const auto is_file = [](const fs::directory_entry& entry) { return !entry.is_directory(); };
+    return std::none_of(fs::recursive_directory_iterator(operand), {}, is_file);
+  };
+  if (!args.renders_path.empty() && fs::is_directory(operand) && is_empty()) return {.is_directory = true};
+  return metrics::open_pictures(operand, decoder_limits(args.limits));
 }
 
 /// The same images, each of which is decoded within the limits.
@@ -216,28 +269,34 @@ void run_metrics(std::span<const std::string> arguments) {
   const ComparedPaths paths{syntax.found_operands[0], syntax.found_operands[1]};
   const std::vector<Choice> choices = choose(args.metric_names);
   const bool are_named = !args.metric_names.empty() && args.metric_names != "all";
-  const Verdicts verdicts{.bounds = parse_bounds(args.threshold, choices),
-                          .judges_mean = args.judges_mean,
-                          .allows_unpaired = args.allows_missing,
-                          .refuses_unfit = are_named};
+  Verdicts verdicts{.bounds = parse_bounds(args.threshold, choices),
+                    .judges_mean = args.judges_mean,
+                    .allows_unpaired = args.allows_missing,
+                    .refuses_unfit = are_named,
+                    .ignored_texts = args.ignored.texts};
   if (args.judges_mean && verdicts.bounds.empty()) throw Error(ErrorKind::Usage, "--aggregate: requires --threshold");
   if (args.map_gain && args.map_path.empty()) throw Error(ErrorKind::Usage, "--map-gain: requires --map");
   for (const std::string& path : {args.map_path, args.report_path, args.junit_path})
     if (!path.empty()) check_savable(path);
 
   with_threads(args.threads, [&] {
-    const ProgramLimits decoder = decoder_limits(args.limits);
-    const metrics::PictureSet reference = metrics::open_pictures(paths.reference, decoder);
-    const metrics::PictureSet test = metrics::open_pictures(paths.test, decoder);
+    const metrics::PictureSet reference = open_operand(paths.reference, args), test = open_operand(paths.test, args);
+    verdicts.failed_renders = read_failed_renders(args.renders_path, paths.test, args.limits.load);
+    if (!args.renders_path.empty() && !test.is_directory)
+      throw Error(ErrorKind::Usage, "--rendered: TEST is no folder");
+    if (reference.names.empty() && test.names.empty() && verdicts.failed_renders.empty())
+      throw Error(ErrorKind::Input, fmt::format("{} and {}: hold no image", paths.reference, paths.test));
     if (reference.is_directory != test.is_directory)
       throw Error(ErrorKind::Usage, fmt::format("{}: expected {} as the reference", paths.test,
                                                 reference.is_directory ? "a directory" : "a file"));
     ConfinedRun run{.name = paths.test, .limits = args.limits, .readable = reference.files};
     run.readable.insert(run.readable.end(), test.files.begin(), test.files.end());
+    run.readable.insert(run.readable.end(), args.ignored.masks.begin(), args.ignored.masks.end());
     run.outputs = {args.map_path, args.report_path, args.junit_path};
     Progress progress(args.is_quiet ? ProgressKind::None : args.progress ? *args.progress : parse_progress("auto"));
     run.progress = &progress;
     run_confined(run, [&](Delivery& out) {
+      verdicts.ignored = read_ignored(args.ignored, out);
       const Judgement judgement = judge(within_limits(reference, out), within_limits(test, out), choices, verdicts,
                                         !args.report_path.empty(), [&](double done) { out.progress("compare", done); });
       // Of two files, not of folders that hold one image each.

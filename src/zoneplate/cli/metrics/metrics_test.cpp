@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <vector>
 
@@ -198,6 +199,10 @@ TEST_F(Regression, EveryImageIsJudgedByItself) {
   EXPECT_TRUE(contains(content, "{\"name\":\"a/shot8.png\",\"text\":\"ssim is "));
   EXPECT_TRUE(contains(report, "class=\"picture\" data-values=\"errors\">"));
   EXPECT_TRUE(contains(content, "\"b/extra & more.png\",\"new\""));
+  // Both images of two pairs, the reference of what is missing or unreadable, and what is new.
+  std::size_t pictures = 0;
+  for (std::size_t at = 0; (at = report.find("data-values=\"codes\"", at)) != report.npos; ++at) ++pictures;
+  EXPECT_EQ(pictures, 2u + 2 + 1 + 1 + 1);
   EXPECT_FALSE(contains(report, place.string()) || contains(content, place.string()));
   run("'" + at("golden") + "' '" + at("made") + "' --metric ssim --threshold 0.95 --report again.html -q");
   EXPECT_TRUE(contains(content, "Test images: made. References: golden."));
@@ -215,6 +220,39 @@ TEST_F(Regression, TheMeanAndUnpairedImagesAreOptions) {
   EXPECT_EQ(run("golden made --metric ssim --threshold 0.95 -q --allow-missing --aggregate mean").code, 0);
   EXPECT_EQ(run("golden made --metric ssim --threshold 0.95 -q --aggregate mean").code, 1);
   EXPECT_EQ(run("golden golden -q").out, "");
+}
+
+TEST_F(MetricsVerb, DoesNotCompareIgnoredRegions) {
+  Rgba8Image image(16, 16, {51, 51, 51, 255}), mask(16, 16, {0, 0, 0, 255});
+  image(3, 4) = {255, 0, 0, 255}, image(9, 9) = {0, 255, 0, 255}, mask(9, 9) = {255, 255, 255, 255};
+  save_bytes(at("spots.png"), encode_png(image));
+  save_bytes(at("mask.png"), encode_png(mask));
+  EXPECT_EQ(run("grey.png spots.png").code, 1);
+  const ProgramAnswer both = run("grey.png spots.png --ignore 2,3,4,4 --ignore mask.png");
+  EXPECT_EQ(both.code, 0) << both.out;
+  EXPECT_TRUE(contains(both.out, "identical") && contains(both.out, "ignored: 2,3,4,4, mask.png")) << both.out;
+  const ProgramAnswer one = run("grey.png spots.png --ignore 2,3,4,4 --metric pixels --json");
+  EXPECT_EQ(one.code, 1);
+  EXPECT_EQ(parsed_json(one.out.substr(0, one.out.find('\n')))["metrics"]["pixels"]["figures"]["pixels"], 1);
+  // NaN there is no failure.
+  const auto save_pfm = [&](const std::string& name, float first) {
+    std::ofstream file(at(name), std::ios::binary);
+    file << "Pf\n16 16\n-1.0\n";
+    for (int i = 0; i < 256; ++i) {
+      const float value = i == 0 ? first : 0.5f;  // the lowest row is the first
+      file.write(reinterpret_cast<const char*>(&value), sizeof value);
+    }
+  };
+  save_pfm("finite.pfm", 0.5f), save_pfm("nan.pfm", NAN);
+  EXPECT_EQ(run("finite.pfm nan.pfm --metric mae --threshold 1").code, 1);
+  EXPECT_EQ(run("finite.pfm nan.pfm --metric mae --threshold 0 --ignore 0,15,1,1").code, 0);
+  // A region that is no region is an error, and so is one that leaves nothing.
+  EXPECT_EQ(run("grey.png spots.png --ignore 1,2,3").code, 2);
+  EXPECT_EQ(run("grey.png spots.png --ignore masc.png").code, 3);
+  const ProgramAnswer all = run("grey.png spots.png --ignore 0,0,99,99");
+  EXPECT_TRUE(all.code != 0 && contains(all.out, "all pixels are ignored")) << all.out;
+  const ProgramAnswer edge = run("grey.png spots.png --ignore 2,3,4,4 --metric edge_response");
+  EXPECT_TRUE(edge.code != 0 && contains(edge.out, "has ignored regions, expected a whole image")) << edge.out;
 }
 
 TEST_F(MetricsVerb, TheMapLiesOverItsReference) {

@@ -204,7 +204,7 @@ class Batch {
     Group& group = groups_.front();
     for (const Item& item : group.items) {
       const Stopwatch watch;
-      report(item.error           ? failure(item.name, item.error)
+      report(item.error           ? failure(item, item.error)
              : item.is_rendered   ? render(item, group)
              : common_.is_dry_run ? planned(item)
                                   : skipped(item),
@@ -226,7 +226,7 @@ class Batch {
       line.emplace_back("seconds", summary.total_ms() / 1000);
       return line;
     } catch (const std::exception&) {
-      return failure(item.name, std::current_exception());
+      return failure(item, std::current_exception());
     }
   }
 
@@ -240,16 +240,18 @@ class Batch {
     return plan_json(item.args, is_left_out ? "skipped" : "planned");
   }
 
-  Json::Object failure(const std::string& name, const std::exception_ptr& error) {
+  Json::Object failure(const Item& item, const std::exception_ptr& error) {
     ++failed_;
-    const std::string cause = cause_of(name, error);
+    const std::string cause = cause_of(item.name, error);
     progress_.clear();
     say_error(cause);
+    const std::string& output = item.args.output;
     return {{"format", "zoneplate-render"},
             {"version", report_version},
-            {"input", name},
+            {"input", item.name},
             {"output", Json()},
             {"status", "failed"},
+            {"not_written", output.empty() ? Json() : Json(output)},
             {"error", cause}};
   }
 

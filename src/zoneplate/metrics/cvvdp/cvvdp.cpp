@@ -67,19 +67,23 @@ double norm(std::span<const double> values, double p) {
   return outer(sum);
 }
 
-/// The root mean square of `value_at(index)` over the pixels of a band.
+using Mask = Plane<std::uint8_t>;  ///< 1 at ignored pixels; empty if there are none
+
+/// The root mean square of `value_at(index)` over the pixels of a band that are measured.
 template <class ValueAt>
-double pooled(int width, int height, const ValueAt& value_at) {
+double pooled(int width, int height, const Mask& is_ignored, const ValueAt& value_at) {
   constexpr double epsilon = 1e-5;  // SoftPower(2) is x² + 2 e x
   const double sum = sum_rows(height, [&](int y) {
     double row = 0;
     for (int x = 0; x < width; ++x) {
+      if (!is_ignored.empty() && is_ignored(x, y) != 0) continue;
       const double value = value_at(x, y);
       row += value * (value + 2 * epsilon);
     }
     return row;
   });
-  return SoftPower(0.5)(sum / (static_cast<double>(width) * height));
+  const auto ignored = static_cast<double>(std::ranges::count(is_ignored.values(), std::uint8_t{1}));
+  return SoftPower(0.5)(sum / (static_cast<double>(width) * height - ignored));
 }
 
 /// One level of an image's pyramid as contrast, and the luminance that the contrast is relative to.
@@ -178,7 +182,7 @@ OpponentPlanes make_masks(const Band& reference, const Band& test) {
 }
 
 /// The visible difference of one band, by channel.
-std::vector<double> difference_in_band(const Band& reference, const Band& test) {
+std::vector<double> difference_in_band(const Band& reference, const Band& test, const Mask& is_ignored) {
   const OpponentPlanes masks = make_masks(reference, test);
   const SoftPower raise(difference_exponent);
   const double greatest = ten_to(greatest_difference_decades);
@@ -187,7 +191,7 @@ std::vector<double> difference_in_band(const Band& reference, const Band& test) 
   for (std::size_t c = 0; c < count; ++c) {
     std::array<double, 4> weight{};
     for (std::size_t k = 0; k < count; ++k) weight[k] = natural_exp(mask_weight[k][c] * std::numbers::ln2);
-    out.push_back(pooled(masks[0].width(), masks[0].height(), [&](int x, int y) {
+    out.push_back(pooled(masks[0].width(), masks[0].height(), is_ignored, [&](int x, int y) {
       double mask = 0;
       for (std::size_t k = 0; k < count; ++k) mask += masks[k](x, y) * weight[k];
       const double d = raise(std::abs(test.contrast[c](x, y) - reference.contrast[c](x, y))) / (1 + mask);
@@ -208,13 +212,13 @@ double mean_of_plane(const Plane<double>& plane) {
 
 /// The difference of the pyramid's base band: contrast relative to the mean luminance, without masking.
 std::vector<double> difference_in_baseband(const OpponentPlanes& reference, const OpponentPlanes& test,
-                                           double frequency) {
+                                           double frequency, const Mask& is_ignored) {
   const double expected = std::max(least_luminance, mean_of_plane(reference[0]));
   const double found = std::max(least_luminance, mean_of_plane(test[0]));
   std::vector<double> out;
   for (std::size_t c = 0; c < reference.size(); ++c) {
     const double weight = Sensitivity(static_cast<int>(c), frequency).at(expected) * ten_to(sensitivity_decibels / 20);
-    const double whole = pooled(reference[c].width(), reference[c].height(), [&](int x, int y) {
+    const double whole = pooled(reference[c].width(), reference[c].height(), is_ignored, [&](int x, int y) {
       return std::abs(test[c](x, y) / found - reference[c](x, y) / expected) * weight;
     });
     out.push_back(whole * baseband_weight[c]);
@@ -228,10 +232,19 @@ OpponentPlanes reduced(const OpponentPlanes& planes) {
   return out;
 }
 
+Mask reduced(const Mask& mask) {
+  Mask out((mask.width() + 1) / 2, (mask.height() + 1) / 2);
+  std::ranges::fill(out.values(), std::uint8_t{1});
+  for (int y = 0; y < mask.height(); ++y)
+    for (int x = 0; x < mask.width(); ++x)
+      if (mask(x, y) == 0) out(x / 2, y / 2) = 0;
+  return out;
+}
+
 }  // namespace
 
 std::vector<double> visible_difference(const OpponentPlanes& reference, const OpponentPlanes& test,
-                                       const Viewing& viewing) {
+                                       const Viewing& viewing, Mask is_ignored) {
   const std::vector<double> frequencies =
       band_frequencies(reference[0].width(), reference[0].height(), viewing.pixels_per_degree);
   std::vector<std::vector<double>> bands(reference.size());
@@ -239,14 +252,14 @@ std::vector<double> visible_difference(const OpponentPlanes& reference, const Op
   for (std::size_t i = 0; i < frequencies.size(); ++i) {
     std::vector<double> differences;
     if (i + 1 == frequencies.size()) {
-      differences = difference_in_baseband(a, b, frequencies[i]);
+      differences = difference_in_baseband(a, b, frequencies[i], is_ignored);
     } else {
       OpponentPlanes a_below = reduced(a), b_below = reduced(b);
       const double factor = i == 0 ? 1 : 2;
       Band expected = make_band(a, a_below, factor), found = make_band(b, b_below, factor);
       weigh(expected, found, frequencies[i]);
-      differences = difference_in_band(expected, found);
-      a = std::move(a_below), b = std::move(b_below);
+      differences = difference_in_band(expected, found, is_ignored);
+      a = std::move(a_below), b = std::move(b_below), is_ignored = reduced(is_ignored);
     }
     for (std::size_t c = 0; c < bands.size(); ++c) bands[c].push_back(differences[c] * channel_weight[c]);
   }
@@ -289,8 +302,9 @@ Metric cvvdp() {
             // Fitted by the authors: a still has a smaller weight than a sequence.
             constexpr double still = 0.577918291091919;
             const Viewing viewing = viewing_of(settings);
-            const std::vector<double> channels = visible_difference(opponent_planes(reference[0].linear, viewing),
-                                                                    opponent_planes(test[0].linear, viewing), viewing);
+            const std::vector<double> channels =
+                visible_difference(opponent_planes(reference[0].linear, viewing),
+                                   opponent_planes(test[0].linear, viewing), viewing, reference[0].is_ignored);
             return Score{.value = quality_of(pool_channels(channels) * still), .more = channel_figures(channels)};
           }};
 }

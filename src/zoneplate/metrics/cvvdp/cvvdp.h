@@ -33,13 +33,15 @@ OpponentPlanes opponent_planes(const LinearImage& image, const Viewing& viewing)
 
 /// The visible difference by channel, pooled over the image and all frequency bands.
 ///
+/// `is_ignored`: 1 at pixels that do not count in the pooling of a band; empty if there are none. A pixel of a coarser
+/// band is ignored if all of its pixels are.
 /// Requires  3 or 4 planes of one size, at least 16 × 16.
 /// Edges     0 in each channel in which the images agree. Not symmetric: the eye is adapted to the reference's
 ///           luminance.
 /// Source    Mantiuk, Hanji, Ashraf, Asano, Chapiro, ColorVideoVDP: A Visual Difference Predictor for Image, Video and
 ///           Display Distortions, SIGGRAPH 2024; parameters of version 0.5.6.
 std::vector<double> visible_difference(const OpponentPlanes& reference, const OpponentPlanes& test,
-                                       const Viewing& viewing);
+                                       const Viewing& viewing, Plane<std::uint8_t> is_ignored = {});
 
 /// The norm of `visible_difference` over the channels.
 double pool_channels(std::span<const double> channels);

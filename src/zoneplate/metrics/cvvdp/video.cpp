@@ -102,7 +102,8 @@ Metric cvvdp_video() {
             const Viewing viewing = viewing_of(settings);
             const double rate = settings.number("fps");
             const std::vector<double> channels =
-                visible_difference(seen_in_time(reference, viewing, rate), seen_in_time(test, viewing, rate), viewing);
+                visible_difference(seen_in_time(reference, viewing, rate), seen_in_time(test, viewing, rate), viewing,
+                                   reference.back().is_ignored);
             return Score{.value = quality_of(pool_channels(channels)), .more = channel_figures(channels)};
           },
           .pool = pool};

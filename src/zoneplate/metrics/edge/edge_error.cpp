@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "zoneplate/math/angle.h"
+#include "zoneplate/metrics/ignored.h"
 #include "zoneplate/metrics/metric.h"
 
 namespace zoneplate::metrics {
@@ -74,12 +75,13 @@ std::optional<double> EdgeError::rms(int first, int last) const {
   return std::sqrt(squares / static_cast<double>(pixels));
 }
 
-EdgeError measure_edge_error(const DisplayImage& reference, const DisplayImage& test) {
-  const Plane<double> truth = luma_plane(reference), seen = luma_plane(test);
+EdgeError measure_edge_error(const Picture& reference, const Picture& test) {
+  const Plane<double> truth = luma_plane(reference.display), seen = luma_plane(test.display);
   const Plane<Tensor> around = tensors(truth);
   EdgeError out;
   for (int y = reach; y + reach < truth.height(); ++y)
     for (int x = reach; x + reach < truth.width(); ++x) {
+      if (!is_measured(reference, x, y)) continue;
       const double gx = (truth(x + 1, y) - truth(x - 1, y)) / 2, gy = (truth(x, y + 1) - truth(x, y - 1)) / 2;
       if (gx * gx + gy * gy < least_slope * least_slope) continue;
       const Tensor& t = around(x, y);
@@ -101,7 +103,7 @@ Metric edge_error() {
           .unit = "code",
           .smallest = 2 * reach + 1,
           .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
-            const EdgeError error = measure_edge_error(reference[0].display, test[0].display);
+            const EdgeError error = measure_edge_error(reference[0], test[0]);
             const std::optional<double> all = error.rms();
             if (!all) return std::nullopt;
             Score score{.value = *all};

@@ -28,11 +28,11 @@ struct EdgeError {
 ///
 /// Requires  equal sizes.
 /// Units     luma of sRGB codes, in [0, 1].
-/// Edges     the two outermost pixels are ignored.
+/// Edges     the two outermost pixels are ignored, and those that the reference ignores.
 /// Exact     a straight edge with box-filtered pixels is assigned to its bin or an adjacent one; the same bits
 ///           everywhere.
 /// Source    structure tensor: Förstner and Gülch, A Fast Operator for Detection and Precise Location of Distinct
 ///           Points, Corners and Centres of Circular Features, ISPRS 1987.
-EdgeError measure_edge_error(const DisplayImage& reference, const DisplayImage& test);
+EdgeError measure_edge_error(const Picture& reference, const Picture& test);
 
 }  // namespace zoneplate::metrics

@@ -8,6 +8,10 @@
 namespace zoneplate::metrics {
 namespace {
 
+EdgeError edge_error_of(const DisplayImage& reference, const DisplayImage& test) {
+  return measure_edge_error(make_picture(reference), make_picture(test));
+}
+
 /// A bright half-plane with box-filtered pixels whose edge has this angle; partially covered pixels are too bright by
 /// `off`.
 DisplayImage half_plane(double degrees, bool is_upright, float off = 0) {
@@ -31,7 +35,7 @@ DisplayImage half_plane(double degrees, bool is_upright, float off = 0) {
 TEST(EdgeError, EveryAngleFallsIntoItsBin) {
   for (const bool is_upright : {false, true})
     for (const double degrees : {1.0, 7.0, 12.0, 22.0, 33.0, 38.0, 44.0}) {
-      const EdgeError error = measure_edge_error(half_plane(degrees, is_upright), half_plane(degrees, is_upright));
+      const EdgeError error = edge_error_of(half_plane(degrees, is_upright), half_plane(degrees, is_upright));
       std::uint64_t all = 0, near = 0;
       const int own = static_cast<int>(degrees / 5);
       for (int i = 0; i < EdgeError::bins; ++i) {
@@ -46,7 +50,7 @@ TEST(EdgeError, EveryAngleFallsIntoItsBin) {
 
 TEST(EdgeError, AKnownErrorIsFound) {
   // Pixels on the edge have an error of 0.1; the adjacent ones, which are also on the gradient, have none.
-  const EdgeError error = measure_edge_error(half_plane(22, false), half_plane(22, false, 0.1f));
+  const EdgeError error = edge_error_of(half_plane(22, false), half_plane(22, false, 0.1f));
   const double rms = error.rms().value();
   EXPECT_GT(rms, 0.06);
   EXPECT_LT(rms, 0.1);
@@ -54,14 +58,14 @@ TEST(EdgeError, AKnownErrorIsFound) {
 
 TEST(EdgeError, WhereThereIsNoEdgeThereIsNoAnswer) {
   DisplayImage flat(40, 30, Display{0.5f, 0.5f, 0.5f, 1}), checks(40, 30);
-  EXPECT_FALSE(measure_edge_error(flat, flat).rms().has_value());
+  EXPECT_FALSE(edge_error_of(flat, flat).rms().has_value());
   // A gradient without a dominant direction is not an edge.
   for (int y = 0; y < 30; ++y)
     for (int x = 0; x < 40; ++x) {
       const float code = (x / 2 + y / 2) % 2 ? 0.9f : 0.1f;
       checks(x, y) = {code, code, code, 1};
     }
-  EXPECT_FALSE(measure_edge_error(checks, checks).rms().has_value());
+  EXPECT_FALSE(edge_error_of(checks, checks).rms().has_value());
 }
 
 }  // namespace

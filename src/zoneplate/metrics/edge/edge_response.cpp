@@ -229,6 +229,7 @@ Metric edge_response() {
           .better = Better::Higher,
           .perfect = std::nullopt,
           .is_default = false,
+          .needs_whole_image = true,
           .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
             const auto expected = measure_edge(reference[0].linear), found = measure_edge(test[0].linear);
             if (!expected || !found) return std::nullopt;

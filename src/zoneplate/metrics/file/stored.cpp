@@ -51,16 +51,22 @@ Layers layers_of(const ImageFile& file) {
 /// Bits of a channel; empty if the file lacks it.
 using Bits = Plane<std::uint32_t>;
 
-std::size_t count_different(const Bits& a, const Bits& b) {
+/// Pixels to leave out: 1 at ignored ones; empty if there are none.
+using Mask = std::span<const std::uint8_t>;
+
+bool is_ignored(const Mask& mask, std::size_t pixel) { return !mask.empty() && mask[pixel] != 0; }
+
+std::size_t count_different(const Bits& a, const Bits& b, const Mask& mask) {
   std::size_t count = 0;
-  for (std::size_t i = 0; i < a.values().size(); ++i) count += a.values()[i] != b.values()[i];
+  for (std::size_t i = 0; i < a.values().size(); ++i) count += !is_ignored(mask, i) && a.values()[i] != b.values()[i];
   return count;
 }
 
 void count_not_finite(const std::string& name, std::span<const float> values, std::size_t step, bool is_color,
-                      NotFinite& out) {
+                      const Mask& mask, NotFinite& out) {
   std::size_t infinite = 0, undefined = 0;
   for (std::size_t i = 0; i < values.size(); i += step) {
+    if (is_ignored(mask, i / step)) continue;
     infinite += std::isinf(values[i]);
     undefined += std::isnan(values[i]);
   }
@@ -108,11 +114,12 @@ class StoredComparison {
     constexpr std::array<const char*, 4> channels = {"R", "G", "B", "A"};
     is_same_size_ = reference.width() == test.width() && reference.height() == test.height();
     if (!is_same_size_) out_.is_identical = false;
+    if (is_same_size_) mask_ = reference.is_ignored.values();
     for (std::size_t side = 0; side < 2; ++side) {
       const LinearImage& light = (side == 0 ? reference : test).linear;
       const std::span<const float> values(&light.values()[0].r, 4 * light.values().size());
       for (std::size_t c = 0; c < 4; ++c)
-        count_not_finite(channels[c], values.subspan(c), 4, true, side == 0 ? out_.reference : out_.test);
+        count_not_finite(channels[c], values.subspan(c), 4, true, mask_, side == 0 ? out_.reference : out_.test);
     }
     if (reference.is_scene_linear != test.is_scene_linear) {
       const auto kind = [](const Picture& p) { return p.is_scene_linear ? "linear light" : "sRGB codes"; };
@@ -126,7 +133,8 @@ class StoredComparison {
                          : std::bit_cast<std::array<std::uint32_t, 4>>(p.display.values()[i])[c];
       };
       std::size_t different = 0;
-      for (std::size_t i = 0; i < test.linear.values().size(); ++i) different += bits(reference, i) != bits(test, i);
+      for (std::size_t i = 0; i < test.linear.values().size(); ++i)
+        different += !is_ignored(mask_, i) && bits(reference, i) != bits(test, i);
       count(channels[c], different);
     }
   }
@@ -180,7 +188,7 @@ class StoredComparison {
     for (const auto& [name, reference] : bits[0]) {
       const auto test = bits[1].find(name);
       if (test == bits[1].end()) continue;
-      const std::size_t different = count_different(reference, test->second);
+      const std::size_t different = count_different(reference, test->second, mask_);
       count(name, different);
       if (different == 0) out_.equal_layers.push_back(name);
     }
@@ -190,7 +198,7 @@ class StoredComparison {
     if (layer.is_number) return;
     std::vector<float> values(bits.values().size());
     std::ranges::transform(bits.values(), values.begin(), [](std::uint32_t v) { return std::bit_cast<float>(v); });
-    count_not_finite(name, values, 1, false, side == 0 ? out_.reference : out_.test);
+    count_not_finite(name, values, 1, false, mask_, side == 0 ? out_.reference : out_.test);
   }
 
   void compare_meanings(const Picture& reference, const Picture& test) {
@@ -211,6 +219,7 @@ class StoredComparison {
 
   std::array<const ImageFile*, 2> files_;
   bool is_same_file_, is_same_size_ = true;
+  Mask mask_;
   StoredDifference out_;
 };
 

@@ -45,7 +45,8 @@ struct StoredDifference {
 };
 
 /// Compares what two image files store: every channel of every part before any conversion, the meaning of the values
-/// (color_space_of), and the number of frames. `reference` and `test` are the decoded files.
+/// (color_space_of), and the number of frames. `reference` and `test` are the decoded files; pixels that the reference
+/// ignores are left out.
 ///
 /// Exact     equal values are equal bits: NaN equals only the same NaN. Codes of 8 and of 16 bits are equal if they are
 ///           the same share of the range.

@@ -14,6 +14,7 @@
 #include "zoneplate/metrics/flip/color.h"
 #include "zoneplate/metrics/flip/filters.h"
 #include "zoneplate/metrics/flip/weighted_sums.h"
+#include "zoneplate/metrics/ignored.h"
 #include "zoneplate/metrics/power.h"
 #include "zoneplate/metrics/rows.h"
 
@@ -159,13 +160,19 @@ Plane<float> flip_map(const LinearImage& reference, const LinearImage& test, dou
   return map;
 }
 
-Score score_of_flip(Plane<float> map) {
+Score score_of_flip(Plane<float> map, const Picture& reference) {
+  std::vector<float> sorted;
+  for (int y = 0; y < map.height(); ++y)
+    for (int x = 0; x < map.width(); ++x)
+      if (is_measured(reference, x, y))
+        sorted.push_back(map(x, y));
+      else
+        map(x, y) = 0;
   const double total = sum_rows(map.height(), [&](int y) {
     double row = 0;
     for (const float value : map.row(y)) row += value;
     return row;
   });
-  std::vector<float> sorted(map.values().begin(), map.values().end());
   std::ranges::sort(sorted);
   auto weighted = [&, below = 0.0, at = std::size_t{0}](double share) mutable {
     while (at + 1 < sorted.size() && below + sorted[at] < total * share) below += sorted[at++];
@@ -193,7 +200,7 @@ Metric flip() {
           .unit = "",
           .params = params,
           .measure = [](Frames reference, Frames test, const Settings& settings) -> std::optional<Score> {
-            return score_of_flip(flip_map(reference[0].linear, test[0].linear, settings.number("ppd")));
+            return score_of_flip(flip_map(reference[0].linear, test[0].linear, settings.number("ppd")), reference[0]);
           }};
 }
 

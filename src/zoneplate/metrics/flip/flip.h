@@ -36,7 +36,7 @@ Plane<float> hdr_flip_map(const LinearImage& reference, const LinearImage& test,
 
 /// The score of a FLIP map: its mean as the value, and additionally the weighted quartiles and the weighted median
 /// (pixels up to these values contain a quarter, a half and three quarters of the total error), the 99th percentile,
-/// the minimum and the maximum.
-Score score_of_flip(Plane<float> map);
+/// the minimum and the maximum. Pixels that the reference ignores do not count, and are 0 in the map.
+Score score_of_flip(Plane<float> map, const Picture& reference = {});
 
 }  // namespace zoneplate::metrics

@@ -86,7 +86,8 @@ Metric flip_hdr() {
           .is_default = false,
           .params = params,
           .measure = [](Frames reference, Frames test, const Settings& settings) -> std::optional<Score> {
-            Score score = score_of_flip(hdr_flip_map(reference[0].linear, test[0].linear, settings.number("ppd")));
+            Score score =
+                score_of_flip(hdr_flip_map(reference[0].linear, test[0].linear, settings.number("ppd")), reference[0]);
             const std::vector<double> exposures = flip_exposures(reference[0].linear);
             score.more.push_back({"exposures", static_cast<double>(exposures.size()), ""});
             score.more.push_back({"start", exposures.front(), "stops"});

@@ -96,6 +96,7 @@ Metric above_nyquist() {
           .unit = "dB",
           .perfect = -std::numeric_limits<double>::infinity(),
           .is_default = false,
+          .needs_whole_image = true,
           .smallest = 16,
           .sizes = Sizes::ReferenceMultiple,
           .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {

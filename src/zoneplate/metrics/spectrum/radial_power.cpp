@@ -94,6 +94,7 @@ Metric radial_power() {
           .source = "the definition; Hann window",
           .unit = "code",
           .is_default = false,
+          .needs_whole_image = true,
           .smallest = 16,
           .measure = [](Frames reference, Frames test, const Settings&) -> std::optional<Score> {
             return measure(reference[0].display, test[0].display);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -74,9 +75,9 @@ void filter_row(std::span<const double> a, std::span<const double> b, const Wind
   }
 }
 
-/// SSIM and its contrast-structure factor, of one window.
+/// SSIM and its contrast-structure factor, of one window or summed over `count` windows.
 struct Terms {
-  double ssim = 0, contrast = 0;
+  double ssim = 0, contrast = 0, count = 1;
 };
 
 Terms terms_of(const Moments& m, double unbias) {
@@ -89,7 +90,7 @@ Terms terms_of(const Moments& m, double unbias) {
 
 /// Computes rows [begin, end) of the map, and each row's sums over the windows that are inside the image.
 void measure_rows(const Plane<double>& a, const Plane<double>& b, int begin, int end, const Window& window,
-                  Plane<float>& map, std::span<Terms> row_sums) {
+                  const Plane<std::uint8_t>& is_ignored, Plane<float>& map, std::span<Terms> row_sums) {
   const int width = a.width(), height = a.height();
   const int reach = window.before + window.behind;
   Plane<Moments> rows(width, end - begin + reach);
@@ -102,47 +103,50 @@ void measure_rows(const Plane<double>& a, const Plane<double>& b, int begin, int
       Moments sum;
       for (int i = 0; i <= reach; ++i) sum += window.weights[static_cast<std::size_t>(i)] * rows(x, y - begin + i);
       const Terms terms = terms_of(sum, window.unbias);
-      map(x, y) = static_cast<float>(terms.ssim);
-      if (x < window.before || x >= width - window.behind) continue;
-      row_sums[static_cast<std::size_t>(y)].ssim += terms.ssim;
-      row_sums[static_cast<std::size_t>(y)].contrast += terms.contrast;
+      const bool is_measured = is_ignored.empty() || is_ignored(x, y) == 0;
+      map(x, y) = is_measured ? static_cast<float>(terms.ssim) : 1.0f;
+      if (!is_measured || x < window.before || x >= width - window.behind) continue;
+      Terms& row = row_sums[static_cast<std::size_t>(y)];
+      row.ssim += terms.ssim, row.contrast += terms.contrast, row.count += 1;
     }
   }
 }
 
 }  // namespace
 
-Similarity structural_similarity(const Plane<double>& reference, const Plane<double>& test, SimilarityWindow choice) {
+Similarity structural_similarity(const Plane<double>& reference, const Plane<double>& test, SimilarityWindow choice,
+                                 const Plane<std::uint8_t>& is_ignored) {
   const int width = reference.width(), height = reference.height();
   assert(width >= most_side && height >= most_side && test.width() == width && test.height() == height);
   const Window window = make_window(choice);
   Similarity out;
   out.map = Plane<float>(width, height);
-  std::vector<Terms> row_sums(static_cast<std::size_t>(height));
+  std::vector<Terms> row_sums(static_cast<std::size_t>(height), Terms{.count = 0});
   parallel_ranges(static_cast<std::size_t>(height), block_rows, [&](std::size_t begin, std::size_t end) {
-    measure_rows(reference, test, static_cast<int>(begin), static_cast<int>(end), window, out.map, row_sums);
+    measure_rows(reference, test, static_cast<int>(begin), static_cast<int>(end), window, is_ignored, out.map,
+                 row_sums);
   });
 
-  Terms sum;
+  Terms sum{.count = 0};
   for (int y = window.before; y < height - window.behind; ++y) {
     sum.ssim += row_sums[static_cast<std::size_t>(y)].ssim;
     sum.contrast += row_sums[static_cast<std::size_t>(y)].contrast;
+    sum.count += row_sums[static_cast<std::size_t>(y)].count;
   }
-  const int reach = window.before + window.behind;
-  const double count = static_cast<double>(width - reach) * (height - reach);
-  out.ssim = sum.ssim / count;
-  out.contrast = sum.contrast / count;
+  out.ssim = sum.ssim / sum.count;
+  out.contrast = sum.contrast / sum.count;
   return out;
 }
 
 namespace {
 
 /// SSIM of a grey image, or the mean of SSIM over red, green and blue, with the value and the map.
-Score similarity_score(const Picture& reference, const Picture& test, const Settings& settings) {
+std::optional<Score> similarity_score(const Picture& reference, const Picture& test, const Settings& settings) {
   static constexpr LumaWeights channels[] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   const SimilarityWindow window{static_cast<int>(settings.number("window")), settings.number("unbiased") != 0};
   const auto of = [&](LumaWeights w) {
-    return structural_similarity(luma_plane(reference.display, w), luma_plane(test.display, w), window);
+    return structural_similarity(luma_plane(reference.display, w), luma_plane(test.display, w), window,
+                                 reference.is_ignored);
   };
   Similarity s = of(settings.number("rgb") != 0 ? channels[0] : rec709_luma);
   if (settings.number("rgb") != 0) {
@@ -154,6 +158,7 @@ Score similarity_score(const Picture& reference, const Picture& test, const Sett
     s.ssim /= 3;
     for (float& value : s.map.values()) value /= 3;
   }
+  if (std::isnan(s.ssim)) return std::nullopt;
   for (float& value : s.map.values()) value = (1 - value) / 2;
   return Score{.value = s.ssim, .map = std::move(s.map)};
 }
