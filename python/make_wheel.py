@@ -23,7 +23,7 @@ def platform_of(module):
     """The platform tag: manylinux by the newest version of glibc that the module requires (PEP 600)."""
     report = subprocess.run(["objdump", "-T", "-p", module], check=True, capture_output=True, text=True).stdout
     needed = set(re.findall(r"NEEDED +(\S+)", report))
-    allowed = {"libc.so.6", "libm.so.6", "ld-linux-x86-64.so.2", "libpthread.so.0", "libdl.so.2"}
+    allowed = {"libc.so.6", "libm.so.6", "ld-linux-x86-64.so.2", "ld-linux-aarch64.so.1", "libpthread.so.0", "libdl.so.2"}
     machine = os.uname().machine
     if not needed <= allowed:
         raise SystemExit(f"make_wheel: {module} needs {', '.join(sorted(needed - allowed))}, which a wheel may not")
