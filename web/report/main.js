@@ -1,6 +1,6 @@
 // The page: header, overview, the images of a scene, and its tables and plot.
 import { element, list } from './dom.js';
-import { makePlot } from './plot.js';
+import { makePlot, usablePoints } from './plot.js';
 import { Stage } from './stage.js';
 import { makeTable } from './table.js';
 
@@ -39,7 +39,7 @@ const nav = element('nav', { 'aria-label': 'Scenes', hidden: scenes.length < 2 }
 
 function findings({ tables = [], plot }) {
   const parts = [...tables.map((table) => makeTable(table, go))];
-  if (plot?.points.some((point) => point.x > 0 && point.y > 0)) parts.push(makePlot(plot, go));
+  if (plot && usablePoints(plot).length) parts.push(makePlot(plot, go));
   return parts;
 }
 

@@ -1,4 +1,4 @@
-// Error against cost: points on logarithmic axes, with the Pareto front. Every point is a button with a name.
+// A metric against cost: points on logarithmic axes, or on a linear one for values of which more is better, with the Pareto front. Every point is a button with a name.
 import { drawing, element } from './dom.js';
 
 /// Ticks of a logarithmic axis: powers of ten, and multiples of them if there are few.
@@ -12,26 +12,44 @@ function ticksOf(low, high) {
   return [[1], [1, 2, 5]].map(make).find((ticks) => ticks.length > 3) ?? make([1, 1.5, 2, 3, 4, 5, 7]);
 }
 
-export function makePlot({ title, x: xLabel, y: yLabel, points }, go) {
+/// Ticks of a linear axis: three to eight multiples of 1, 2 or 5 times a power of ten.
+function linearTicksOf(low, high) {
+  const power = 10 ** Math.floor(Math.log10((high - low) / 3));
+  const step = power * [5, 2, 1].find((factor) => (high - low) / (factor * power) >= 3);
+  const ticks = [];
+  for (let i = Math.ceil(low / step); i * step <= high; ++i) ticks.push(+(i * step).toPrecision(12));
+  return ticks;
+}
+
+/// The points that have a place: of a logarithmic axis, those above 0.
+export const usablePoints = ({ points, is_linear: isLinear }) =>
+  points.filter(({ x, y }) => x > 0 && (isLinear ? y !== null : y > 0));
+
+export function makePlot({ title, x: xLabel, y: yLabel, points, is_linear: isLinear }, go) {
   const room = element('div', { class: 'plot' });
-  const usable = points.filter((point) => point.x > 0 && point.y > 0);
+  const usable = usablePoints({ points, is_linear: isLinear });
   const range = (name) => {
     const values = usable.map((point) => point[name]);
     return [Math.min(...values) / 1.25, Math.max(...values) * 1.25];
   };
-  const [x0, x1] = range('x'), [y0, y1] = range('y');
+  const linearRange = (values) => {
+    const low = Math.min(...values), high = Math.max(...values), margin = (high - low) / 8 || 1;
+    return [low - margin, high + margin];
+  };
+  const [x0, x1] = range('x'), [y0, y1] = isLinear ? linearRange(usable.map(({ y }) => y)) : range('y');
 
   function draw() {
     const width = Math.max(300, room.clientWidth), height = Math.round(Math.min(360, Math.max(280, width * 0.62)));
     const box = { left: 52, right: width - 14, top: 14, bottom: height - 44 };
     const atX = (v) => box.left + Math.log(v / x0) / Math.log(x1 / x0) * (box.right - box.left);
-    const atY = (v) => box.bottom - Math.log(v / y0) / Math.log(y1 / y0) * (box.bottom - box.top);
+    const share = isLinear ? (v) => (v - y0) / (y1 - y0) : (v) => Math.log(v / y0) / Math.log(y1 / y0);
+    const atY = (v) => box.bottom - share(v) * (box.bottom - box.top);
     const number = (v) => String(+v.toPrecision(3));
     const svg = drawing('svg', { width, height, viewBox: `0 0 ${width} ${height}`, role: 'group', 'aria-label': `${title}: ${usable.length} points` });
     for (const tick of ticksOf(x0, x1))
       svg.append(drawing('line', { class: 'grid', x1: atX(tick), x2: atX(tick), y1: box.top, y2: box.bottom }),
         drawing('text', { class: 'tick', x: atX(tick), y: box.bottom + 17, 'text-anchor': 'middle' }, number(tick)));
-    for (const tick of ticksOf(y0, y1))
+    for (const tick of isLinear ? linearTicksOf(y0, y1) : ticksOf(y0, y1))
       svg.append(drawing('line', { class: 'grid', x1: box.left, x2: box.right, y1: atY(tick), y2: atY(tick) }),
         drawing('text', { class: 'tick', x: box.left - 7, y: atY(tick) + 4, 'text-anchor': 'end' }, number(tick)));
     svg.append(drawing('text', { class: 'axis', x: (box.left + box.right) / 2, y: height - 6, 'text-anchor': 'middle' }, xLabel),
@@ -41,7 +59,7 @@ export function makePlot({ title, x: xLabel, y: yLabel, points }, go) {
     svg.append(drawing('polyline', { class: 'front', points: front.map((point) => `${atX(point.x)},${atY(point.y)}`).join(' ') }));
     // Names are placed greedily, those of the front first; a name that would cover another one or a point is left out.
     const taken = usable.map((point) => ({ left: atX(point.x) - 5, right: atX(point.x) + 5, top: atY(point.y) - 5, bottom: atY(point.y) + 5 }));
-    const order = [...usable].sort((a, b) => b.is_on_front - a.is_on_front || a.y - b.y);
+    const order = [...usable].sort((a, b) => b.is_on_front - a.is_on_front || (isLinear ? b.y - a.y : a.y - b.y));
     for (const point of order) {
       const x = atX(point.x), y = atY(point.y), text = drawing('text', {}, point.name), long = 6.4 * point.name.length;
       const mark = drawing('g', { role: 'button', tabindex: 0, class: `point${point.is_on_front ? ' on-front' : ''}`,

@@ -75,6 +75,8 @@ class Renderer {
   /// Renders a still image: as many frames of the same scene and camera as the method needs to settle
   /// (Request::settling_frames), as a sequence of its own. Returns the last of them, with the sum of all counts.
   RenderedImage render_still(const Camera& camera, const RenderSettings& settings);
+  /// The number of frames of the last still image: more than 1 by a method with history.
+  int still_frames() const { return settling_frames_; }
 
   /// Renders the next frame with motion blur: the mean of `count` moments in linear light. `moment(i)` is called once
   /// for each, in order. Requires: no data passes in `settings.planes`.

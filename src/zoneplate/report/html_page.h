@@ -54,8 +54,8 @@ Json page_table(const Table& table, std::string_view title, Json::Array targets 
 ///     fps, frame       frames per second; the frame that is displayed first
 ///     tables, plot     as those of the page
 ///   tables             page_table()
-///   plot               { title, x, y, points }: labels of the axes, and { name, x, y, is_on_front, target } for each
-///                      point
+///   plot               { title, x, y, is_linear, points }: labels of the axes, true for a linear axis of y, and
+///                      { name, x, y, is_on_front, target } for each point, y perhaps null
 ///   error_name         the metric of the error maps
 /// A target is { scene, image, frame }: indices, of which any may be absent.
 ///

@@ -86,8 +86,8 @@ std::string marks_of(const Curve& curve, const std::string& block, std::size_t p
 
 std::string drawing_of(const Curve& curve, const std::string& block, std::size_t place, const Terminal& terminal) {
   std::string text = marks_of(curve, block, place, terminal);
-  const char* place_of_labels =
-      curve.labels_are == Curve::Beside::RightAbove ? "left offset 0.8,0.35" : "right offset -0.8,-0.45";
+  constexpr const char* places[] = {"left offset 0.8,0.35", "right offset -0.8,-0.45", "right offset -0.8,0.35"};
+  const char* place_of_labels = places[static_cast<std::size_t>(curve.labels_are)];
   if (!curve.labels.empty())
     text += fmt::format(", {} using 1:2:3 with labels {} font 'DejaVu Sans,{}' textcolor rgb '{}' notitle", block,
                         place_of_labels, label_px * terminal.font, hex_color(curve_color(curve, place)));

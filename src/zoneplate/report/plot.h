@@ -32,7 +32,7 @@ struct Curve {
   int color = -1;
   double opacity = 0.25;                 ///< opacity of an Area
   std::vector<std::string> labels = {};  ///< texts next to the points: one per point (some may be empty), or none
-  enum class Beside { RightAbove, LeftBelow } labels_are = Beside::RightAbove;
+  enum class Beside { RightAbove, LeftBelow, LeftAbove } labels_are = Beside::RightAbove;
   static constexpr int grey = -2;
 };
 

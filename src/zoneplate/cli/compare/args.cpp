@@ -35,10 +35,11 @@ constexpr const char* notes =
     "replaces; it is created completely or not at all, and no other file changes:\n"
     "  compare.txt, compare.csv, compare.json   the results; the JSON contains all of them, and a version number\n"
     "  compare.md                               all methods on all scenes as a Markdown table\n"
-    "  cost.svg                                 mean error against mean cost, with the Pareto front\n"
+    "  cost.svg                                 mean value of the first metric against mean cost, with the Pareto "
+    "front\n"
     "  SCENE/reference.png, SCENE/METHOD.png    the images; METHOD.error.png: FLIP error maps; METHOD.worst.png: the\n"
     "                                           regions of greatest error, enlarged 8 times\n"
-    "  SCENE/crops.png, SCENE/cost.svg          the same region by every method; error against cost\n"
+    "  SCENE/crops.png, SCENE/cost.svg          the same region by every method; the first metric against cost\n"
     "With --frames, every method renders one sequence of the scene's animation, 24 frames per second; metrics are "
     "those\n"
     "of all frames, images are the last frame, and in addition:\n"
@@ -46,11 +47,22 @@ constexpr const char* notes =
     "  SCENE/METHOD.difference.png              8 times the difference from the reference, about grey, animated\n"
     "  SCENE/METHOD.slice.png                   the middle row of all frames, time running downwards\n"
     "\n"
-    "Times are the minimum of several turns, from the scene in memory to the 8-bit image; stage times belong to the\n"
-    "fastest turn. Compare only times of the same run. A method whose turns take more than 1.5 s gets fewer turns,\n"
-    "as the report states. The cost of the reference is printed next to its name.\n"
-    "Memory is the increase of the process's resident memory in the first turn. All other results are the same on\n"
-    "every machine.\n";
+    "The reference renders the same scene with 256 samples per pixel, each shaded: its cost and its own estimate of "
+    "its\n"
+    "error (standard error of the mean, root mean square over the pixels, in linear light) are printed next to its\n"
+    "name. Where methods are nearer to it than that, take more: --reference converged has 1024 samples, and\n"
+    "converged:samples=16384 the most; analytic is exact for edges, but not within textures and highlights.\n"
+    "\n"
+    "Methods are ranked by the first metric: FLIP, or of sequences the quality in JOD that people would give them.\n"
+    "Times and samples are those of a frame. A still image by a method with history is the last of the frames in "
+    "which\n"
+    "it settles, whose number is in the table. Times are the minimum of several turns, or the median of the frames of "
+    "a\n"
+    "sequence, from the scene in memory to the 8-bit image; stage times belong to the fastest turn. Compare only "
+    "times\n"
+    "of the same run. A method whose turns take more than 1.5 s gets fewer turns, as the report states. Memory is the\n"
+    "increase of the process's resident memory in the first turn, with the history: a method needs it for each frame.\n"
+    "All other results are the same on every machine.\n";
 
 bool is_method(std::string_view text) {
   const std::string_view name = text.substr(0, text.find(':'));
@@ -80,13 +92,16 @@ std::vector<std::string> methods_of(const std::string& text) {
   return out;
 }
 
-/// The reference that is valid for all scenes. `analytic` is exact for edges, but it shades each surface of a pixel
-/// once and tests alpha on a grid, so that textures, highlights and alpha tests are aliased as in the tested methods.
-constexpr const char* best_reference = "converged";
+/// The default reference is valid for all scenes, at a quarter of the cost of `converged`. `analytic` is exact for
+/// edges, but it shades each surface of a pixel once and tests alpha on a grid, so that textures, highlights and alpha
+/// tests are aliased as in the tested methods.
+constexpr const char* usual_reference = "converged:samples=256";
 
 std::vector<metrics::Choice> metrics_of(const std::string& text, int frames) {
   std::vector<metrics::Choice> out;
-  const char* const usual = frames > 1 ? "psnr,tpsnr,flicker" : "psnr,ssim,flip,edge_error";
+  // The first one ranks. The rate of a sequence is that at which it is rendered.
+  const std::string usual = frames > 1 ? fmt::format("cvvdp_video:fps={:g},psnr,tpsnr,flicker", trial_frame_rate)
+                                       : "flip,psnr,ssim,edge_error";
   for (const std::string& item : split_specs(text.empty() ? usual : text)) {
     out.push_back(metrics::choose_metric(metrics::metrics(), item));
     const metrics::Metric& metric = *out.back().metric;
@@ -121,12 +136,13 @@ Syntax compare_syntax(CompareArgs& args) {
        "Methods, for example none,msaa:n=4 (zoneplate list methods), or all; default all", group, true,
        [&](auto& text) { args.methods = text; }},
       {"--reference", "REF",
-       "Reference: a method (analytic, converged, ssaa:n=16, ...) or an image file; default converged", group, true,
-       [&](auto& text) { args.reference = text; }},
+       "Reference: a method (converged, analytic, ssaa:n=16, ...) or an image file; default converged:samples=256",
+       group, true, [&](auto& text) { args.reference = text; }},
       {"--metric", "LIST",
-       "Metrics (zoneplate metrics --help), default psnr,ssim,flip,edge_error, or of sequences "
-       "psnr,tpsnr,flicker; flip is always included",
+       "Metrics (zoneplate metrics --help), of which the first ranks; default flip,psnr,ssim,edge_error, or of "
+       "sequences cvvdp_video,psnr,tpsnr,flicker; flip is always included",
        group, false, [&](auto& text) { args.metrics = text; }},
+      ignore_option(args.ignored, group),
       {"--frames", "N", "Frames of a sequence that each method renders; default 1, a still image", group, false,
        [&](auto& text) { args.frames = parse_whole(text, 1, 1000); }},
       {"--turns", "N", "Frames rendered by each method, of which the fastest counts; default 3", group, false,
@@ -151,7 +167,7 @@ Syntax compare_syntax(CompareArgs& args) {
 TrialOptions trial_options(const CompareArgs& args) {
   TrialOptions out{
       .methods = methods_of(args.methods), .turns = args.turns, .metrics = metrics_of(args.metrics, args.frames)};
-  out.reference = args.reference.empty() ? best_reference : args.reference;
+  out.reference = args.reference.empty() ? usual_reference : args.reference;
   std::error_code ignored;
   if (is_method(out.reference))
     upscale::make_method(out.reference);

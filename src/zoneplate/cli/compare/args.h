@@ -6,6 +6,7 @@
 
 #include "zoneplate/cli/args.h"
 #include "zoneplate/cli/compare/trial.h"
+#include "zoneplate/cli/process/ignore_args.h"
 #include "zoneplate/cli/render/args.h"
 
 namespace zoneplate::cli {
@@ -14,6 +15,7 @@ namespace zoneplate::cli {
 struct CompareArgs {
   RenderArgs render;  ///< size, view, lights, tone mapping, limits: the options of `zoneplate render`
   std::vector<std::string> scenes, command;
+  IgnoreArgs ignored;
   std::string methods = "all", reference, page, metrics;
   bool replaces = false;  ///< an earlier comparison in the folder of the output
 

@@ -139,7 +139,8 @@ SceneTrials compare_scene(const CompareArgs& args, const std::string& name, cons
 }
 
 /// Runs in the confined process. The result is the text to print.
-void compare_all(const CompareArgs& args, const TrialOptions& options, const MemoryFiles& memory, Delivery& out) {
+void compare_all(const CompareArgs& args, TrialOptions options, const MemoryFiles& memory, Delivery& out) {
+  options.ignored = read_ignored(args.ignored, out);
   // A file that is invalid, or needs a library, is found before the first scene is drawn.
   if (args.scenes.size() > 1)
     for (const std::string& name : args.scenes)
@@ -170,7 +171,7 @@ void compare_all(const CompareArgs& args, const TrialOptions& options, const Mem
   out.set_result(bytes_of(args.render.prints_json ? json : text));
   if (!args.page.empty()) out.save(args.page, page.text(scenes));
   if (args.render.output.empty()) return;
-  const Plot cost = scenes.size() == 1 ? cost_plot(scenes[0]) : cost_plot(means_of(scenes));
+  const Plot cost = scenes.size() == 1 ? cost_plot(scenes[0]) : cost_plot(scenes);
   out.save_plots(folder + "cost.svg", std::vector{cost}, 1, {.width = 960, .height = 600});
   out.save(folder + "compare.txt", text);
   out.save(folder + "compare.md", report_markdown(scenes));
@@ -190,6 +191,7 @@ std::vector<std::string> readable_paths_of(const CompareArgs& args, const TrialO
   if (!args.render.cache.empty()) out.push_back(args.render.cache);
   if (!args.render.default_material.texture.empty()) out.push_back(args.render.default_material.texture);
   if (options.is_reference_file) out.push_back(options.reference);
+  out.insert(out.end(), args.ignored.masks.begin(), args.ignored.masks.end());
   return out;
 }
 

@@ -31,6 +31,10 @@ class CompareVerb : public ProgramTest {
   std::string text_of(const std::string& name) const { return zoneplate::text_of(place / name); }
 };
 
+const metrics::Metric* metric_named(std::string_view name) {
+  return metrics::choose_metric(metrics::metrics(), name).metric;
+}
+
 constexpr const char* small = " --size 64x48 --turns 1 --reference ssaa:n=4 ";
 
 TEST_F(CompareVerb, WritesEverythingThatItsJsonNames) {
@@ -74,7 +78,9 @@ TEST_F(CompareVerb, WritesEverythingThatItsJsonNames) {
   EXPECT_TRUE(contains(csv, "triangles,,\"ssaa:pattern=halton,samples=8\","));
   // The most accurate method is the first, and on the Pareto front.
   const std::string table = text_of("out/compare.md");
-  EXPECT_TRUE(table.starts_with("| method | mean | triangles | cyclic | near axis % | samples/px | MB | ms |\n|---|"));
+  EXPECT_TRUE(
+      table.starts_with("| method | mean FLIP ×1000 | triangles | cyclic | PSNR dB | SSIM | edges % | near axis % | "
+                        "diagonal % | samples/px | MB | ms |\n|---|"));
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 5);
   EXPECT_TRUE(contains(table, "|---|---|\n| **`ssaa:")) << table;
   EXPECT_LT(table.find("`ssaa:pattern=halton,samples=8`"), table.find("`none`"));
@@ -151,6 +157,21 @@ TEST_F(CompareVerb, JudgesAsTheMetricsVerbDoes) {
   EXPECT_EQ(parsed_json(again.out)["scenes"][0]["methods"][0]["metrics"]["flip"]["value"], 0);
 }
 
+// The whole difference of two methods is in a region, here by a mask of it.
+TEST_F(CompareVerb, DoesNotMeasureIgnoredRegions) {
+  Rgba8Image mask(64, 48, {255, 255, 255, 255});
+  mask(0, 0) = {0, 0, 0, 255};  // the background
+  save_bytes((place / "mask.png").string(), encode_png(mask));
+  for (const std::string regions : {"--ignore mask.png", "--ignore 1,0,63,48 --ignore 0,1,1,47"}) {
+    const ProgramAnswer answer =
+        run("compare cyclic --aa none --metric mae,flip -o out --force --json " + regions + small);
+    ASSERT_EQ(answer.code, 0) << answer.out;
+    const auto json = parsed_json(answer.out);
+    EXPECT_EQ(json["scenes"][0]["methods"][0]["metrics"]["mae"]["value"], 0);
+    EXPECT_EQ(json["scenes"][0]["methods"][0]["worst_regions"][0]["error"], 0);
+  }
+}
+
 TEST_F(CompareVerb, MeasuresWhereSurfacesWereHidden) {
   const ProgramAnswer answer =
       run("compare disocclusion --aa none,ssaa:n=4 --frames 3 --size 64x48 --reference ssaa:n=4 --metric disocclusion "
@@ -193,7 +214,7 @@ TEST_F(CompareVerb, TimesOfStagesAreThoseOfTheTurnThatCounts) {
 }
 
 TEST(Report, NamesMethodsThatGotFewerTurns) {
-  SceneTrials scene{.scene = "s", .turns = 3};
+  SceneTrials scene{.scene = "s", .ranking = metric_named("flip"), .turns = 3};
   for (const char* method : {"quick", "slow", "slower"})
     scene.trials.push_back({.method = method, .pixels = 1, .frame_ms = {1, 2, 3}, .processor_ms = {1, 2, 3}});
   EXPECT_FALSE(contains(report_text({scene}), "fewer than"));
@@ -306,12 +327,17 @@ TEST_F(CompareVerb, ForceReplacesTheFilesOfAnEarlierComparisonAlone) {
 // surfaces.
 TEST_F(CompareVerb, TheDefaultReferenceIsRightInsideOfSurfacesToo) {
   const ProgramAnswer answer =
-      run("compare tiles --aa analytic,converged:samples=256 --turns 1 --size 64x48 -o out --json");
+      run("compare tiles --aa analytic,converged:samples=64 --turns 1 --size 64x48 -o out --json");
   ASSERT_EQ(answer.code, 0) << answer.out;
   const auto scene = parsed_json(answer.out)["scenes"][0];
-  EXPECT_EQ(scene["reference"]["source"], "converged");
+  EXPECT_EQ(scene["reference"]["source"], "converged:samples=256");
   EXPECT_LT(scene["methods"][0]["metrics"]["psnr"]["value"], 30);
-  EXPECT_GT(scene["methods"][1]["metrics"]["psnr"]["value"], 40);
+  EXPECT_GT(scene["methods"][1]["metrics"]["psnr"]["value"], 38);
+  // Its estimate is not below its error, which is less than that of a quarter of its samples.
+  const double estimated = scene["reference"]["estimated_error"];
+  EXPECT_GT(estimated, 1e-4);
+  EXPECT_LT(estimated, 0.02);
+  EXPECT_TRUE(contains(text_of("out/compare.txt"), ", estimated error "));
 }
 
 TEST(WorstPlaces, AreFoundInOrderAndDoNotOverlap) {
@@ -328,32 +354,84 @@ TEST(WorstPlaces, AreFoundInOrderAndDoNotOverlap) {
 }
 
 TEST(ParetoFront, HoldsWhatNothingBeats) {
-  const metrics::Metric* flip = nullptr;
-  for (const metrics::Metric& m : metrics::metrics())
-    if (m.name == "flip") flip = &m;
+  const metrics::Metric* const flip = metric_named("flip");
   const auto trial = [&](double ms, double error) {
     Trial t{.processor_ms = {ms + 1, ms}};
     t.results.push_back({.metric = flip, .value = error});
     return t;
   };
   std::vector<Trial> trials = {trial(1, 9), trial(2, 5), trial(3, 6), trial(4, 5), trial(5, 1), trial(5, 2)};
-  find_front(trials);
+  find_front(trials, *flip);
   std::vector<bool> front;
   for (const Trial& t : trials) front.push_back(t.is_on_front);
   EXPECT_EQ(front, (std::vector<bool>{true, true, false, false, true, false}));
 }
 
+// Of a metric whose greater values are better, the greatest rank first, and a method without a value last.
+TEST(Ranking, IsThatOfTheFirstMetric) {
+  const metrics::Metric* const psnr = metric_named("psnr");
+  SceneTrials scene{.scene = "s", .ranking = psnr};
+  const auto add = [&](const char* method, double ms, std::optional<double> value) {
+    scene.trials.push_back({.method = method, .pixels = 1, .frame_ms = {ms}, .processor_ms = {ms}});
+    if (value) scene.trials.back().results.push_back({.metric = psnr, .value = *value});
+  };
+  add("none", 1, 30), add("best", 9, 50), add("unmeasured", 0.5, std::nullopt), add("slow", 8, 40), add("good", 3, 42);
+  find_front(scene.trials, *psnr);
+  std::string order;
+  for (const Trial* t : ranked(scene)) order += t->method + (t->is_on_front ? "* " : " ");
+  EXPECT_EQ(order, "best* good* slow none* unmeasured ");
+  EXPECT_TRUE(contains(report_text({scene}), "no other method has less CPU time and a better psnr"));
+  const Plot plot = cost_plot(scene);
+  EXPECT_FALSE(plot.y.is_logarithmic);
+  EXPECT_EQ(plot.y.label, "PSNR dB");
+  EXPECT_EQ(plot.curves[1].labels_are, Curve::Beside::LeftAbove);
+  EXPECT_EQ(plot.curves[0].points.size() + plot.curves[1].points.size(), 4u);  // without the unmeasured one
+}
+
+// A still image by a method with history is made of many frames: its figures are those of one.
+TEST_F(CompareVerb, CountsTheCostOfAFrame) {
+  const ProgramAnswer still =
+      run("compare wires --aa none,taa:frames=8,taa:frames=16 --metric psnr,flip -o out --json" + std::string(small));
+  ASSERT_EQ(still.code, 0) << still.out;
+  const auto report = parsed_json(still.out);
+  EXPECT_EQ(report["ranked_by"], "psnr");
+  const auto& methods = report["scenes"][0]["methods"];
+  const int frames[] = {1, 8, 16};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(methods[i]["frames"], frames[i]);
+    EXPECT_NEAR(methods[i]["shaded_samples_per_pixel"].get<double>(),
+                methods[0]["shaded_samples_per_pixel"].get<double>(), 0.1);
+  }
+  EXPECT_LT(methods[2]["cpu_ms"].get<double>(), 4 * methods[1]["cpu_ms"].get<double>());
+  const std::string text = text_of("out/compare.txt");
+  EXPECT_TRUE(contains(text, "  MB  frames\n") || contains(text, " MB  frames\n")) << text;
+  // The first metric that is asked for ranks every output.
+  EXPECT_TRUE(contains(text, " PSNR dB  FLIP ×1000 ")) << text;
+  EXPECT_TRUE(text_of("out/compare.csv").starts_with("scene,class,method,psnr,flip,frame_ms,"));
+  EXPECT_TRUE(text_of("out/compare.md").starts_with("| method | mean PSNR dB | wires | FLIP ×1000 | samples/px |"));
+  EXPECT_TRUE(contains(text_of("out/cost.svg"), "PSNR dB"));
+  // Sequences are ranked by JOD unless other metrics are asked for.
+  const ProgramAnswer film = run("compare passing-fence --aa none,taa --frames 3 -o film --json" + std::string(small));
+  ASSERT_EQ(film.code, 0) << film.out;
+  const auto sequence = parsed_json(film.out);
+  EXPECT_EQ(sequence["ranked_by"], "cvvdp_video");
+  for (const auto& method : sequence["scenes"][0]["methods"]) {
+    for (const char* name : {"cvvdp_video", "psnr", "tpsnr", "flicker", "flip"})
+      EXPECT_TRUE(method["metrics"][name]["value"].is_number()) << name;
+    EXPECT_LT(method["shaded_samples_per_pixel"], 3);
+  }
+  EXPECT_TRUE(text_of("film/compare.csv").starts_with("scene,class,method,cvvdp_video,psnr,tpsnr,flicker,flip,"));
+}
+
 TEST(CostPlot, NamesMethodsOfLikeErrorAndOtherCost) {
-  const metrics::Metric* flip = nullptr;
-  for (const metrics::Metric& m : metrics::metrics())
-    if (m.name == "flip") flip = &m;
-  SceneTrials scene{.scene = "s"};
+  const metrics::Metric* const flip = metric_named("flip");
+  SceneTrials scene{.scene = "s", .ranking = flip};
   const auto add = [&](const char* method, double ms, double error) {
     scene.trials.push_back({.method = method, .pixels = 1, .frame_ms = {ms}, .processor_ms = {ms}});
     scene.trials.back().results.push_back({.metric = flip, .value = error});
   };
   add("fxaa", 4, 0.0100), add("none", 6, 0.0098), add("close", 6.1, 0.0097), add("msaa", 9, 0.0050);
-  find_front(scene.trials);
+  find_front(scene.trials, *flip);
   const Plot plot = cost_plot(scene);
   EXPECT_EQ(plot.title, "s: error against cost");
   EXPECT_EQ(plot.curves[1].labels, (std::vector<std::string>{"fxaa", "none", "", "msaa"}));

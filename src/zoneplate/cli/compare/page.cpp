@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "zoneplate/cli/compare/report.h"
@@ -18,32 +19,30 @@ Json target_of(std::optional<std::size_t> scene, std::size_t trial, bool is_on_f
   return out;
 }
 
-Json point_of(const std::string& name, double ms, double error, bool is_on_front, const Json& target) {
-  return Json::Object{{"name", name}, {"x", ms}, {"y", 1000 * error}, {"is_on_front", is_on_front}, {"target", target}};
+Json point_of(const std::string& name, double ms, const Column& column, std::optional<double> value, bool is_on_front,
+              const Json& target) {
+  return Json::Object{{"name", name},
+                      {"x", ms},
+                      {"y", value && std::isfinite(*value) ? Json(column.scale * *value) : Json()},
+                      {"is_on_front", is_on_front},
+                      {"target", target}};
 }
 
-Json plot_of(const std::string& title, Json::Array points) {
-  return Json::Object{
-      {"title", title}, {"x", "CPU time per frame (ms)"}, {"y", "mean FLIP × 1000"}, {"points", std::move(points)}};
+Json plot_of(const std::string& title, const Column& column, Json::Array points) {
+  return Json::Object{{"title", title},
+                      {"x", "CPU time per frame (ms)"},
+                      {"y", column.head},
+                      {"is_linear", !column.is_error()},
+                      {"points", std::move(points)}};
 }
 
 /// The table of the means of all scenes.
-Json means_table_of(const std::vector<MethodMeans>& means) {
-  std::vector<std::size_t> order(means.size());
-  for (std::size_t m = 0; m < order.size(); ++m) order[m] = m;
-  std::ranges::stable_sort(order, {}, [&](std::size_t m) { return means[m].error; });
-  Table table{{"method", "FLIP ×1000"}, {}};
-  for (const auto& [name, error] : means.at(0).by_class) table.head.push_back(name);
-  table.head.emplace_back("CPU ms");
+Json means_table_of(const std::vector<SceneTrials>& scenes, const std::vector<MethodMeans>& means) {
   Json::Array targets;
-  for (const std::size_t m : order) {
-    std::vector<std::string> row{means[m].method, fmt::format("{:.2f}", 1000 * means[m].error)};
-    for (const auto& [name, error] : means[m].by_class) row.push_back(fmt::format("{:.2f}", 1000 * error));
-    row.push_back(fmt::format("{:.1f}", means[m].processor_ms));
-    table.rows.push_back(std::move(row));
-    targets.push_back(target_of(std::nullopt, m, is_on_front(means[m], means)));
-  }
-  return page_table(table, "Mean of all scenes and of the classes of artifacts", std::move(targets));
+  for (const std::size_t m : ranked(means, *scenes[0].ranking))
+    targets.push_back(target_of(std::nullopt, m, means[m].is_on_front));
+  return page_table(means_table(scenes, means), "Means of all scenes, and of the classes of artifacts",
+                    std::move(targets));
 }
 
 std::string title_of(const std::vector<SceneTrials>& scenes) {
@@ -71,11 +70,10 @@ Json::Array ComparisonPage::frames_of(const std::vector<Rgba8Image>& film, const
 Json ComparisonPage::image_of(const Trial& trial, const SceneTrials& scene) {
   Json::Array frames = frames_of(trial.film, trial.picture), errors;
   for (std::size_t i = 0; i + 1 < trial.film.size(); ++i)
-    errors.push_back(std::uint64_t{add(page_errors(flip_map(scene.reference_film[i], trial.film[i])))});
+    errors.push_back(std::uint64_t{add(page_errors(flip_map(scene.reference_film[i], trial.film[i], scene.ignored)))});
   errors.push_back(std::uint64_t{add(page_errors(trial.error_map))});
   return Json::Object{{"name", trial.method},
-                      {"facts", fmt::format("FLIP {:.2f}, {:.1f} ms", 1000 * trial.value("flip").value_or(0),
-                                            trial.least_processor_ms())},
+                      {"facts", facts_of(scene, trial)},
                       {"frames", std::move(frames)},
                       {"errors", std::move(errors)}};
 }
@@ -85,12 +83,13 @@ void ComparisonPage::add(const SceneTrials& scene) {
                                   {"facts", "reference"},
                                   {"frames", frames_of(scene.reference_film, scene.reference_picture)},
                                   {"is_reference", true}}};
+  const Column column = ranking_column(*scene.ranking);
   Json::Array points, targets;
   for (std::size_t i = 0; i < scene.trials.size(); ++i) {
     const Trial& t = scene.trials[i];
     images.push_back(image_of(t, scene));
     const Json target = target_of(scenes_.size(), i, t.is_on_front);
-    points.push_back(point_of(t.method, t.least_processor_ms(), t.value("flip").value_or(0), t.is_on_front, target));
+    points.push_back(point_of(t.method, t.cpu_ms(), column, t.value(column.name), t.is_on_front, target));
   }
   for (const Trial* t : ranked(scene))
     targets.push_back(target_of(scenes_.size(), static_cast<std::size_t>(t - scene.trials.data()), t->is_on_front));
@@ -104,7 +103,7 @@ void ComparisonPage::add(const SceneTrials& scene) {
                    {"fps", trial_frame_rate},
                    {"frame", std::uint64_t{std::max<std::size_t>(scene.reference_film.size(), 1) - 1}},
                    {"tables", Json::Array{page_table(results_of(scene), scene.scene, std::move(targets))}},
-                   {"plot", plot_of(scene.scene + ": error against cost", std::move(points))}};
+                   {"plot", plot_of(scene.scene + ": error against cost", column, std::move(points))}};
   if (scene.common_worst.error > 0)
     out.emplace_back("region",
                      Json::Object{{"x", scene.common_worst.x}, {"y", scene.common_worst.y}, {"size", Place::side}});
@@ -115,21 +114,21 @@ std::string ComparisonPage::text(const std::vector<SceneTrials>& scenes) {
   const std::string title = title_of(scenes);
   Json::Object content{
       {"title", title},
-      {"text",
-       "Error: mean FLIP × 1000. Times: CPU time of a frame. ● is on the Pareto front: no other method "
-       "has less CPU time and less error."},
+      {"text", fmt::format("Ranked by {}. Times, samples and memory are those of a frame. ● is on the Pareto front: no "
+                           "other method has less CPU time and a better value.",
+                           ranking_column(*scenes.at(0).ranking).head)},
       {"error_name", "FLIP"},
       {"scenes", std::move(scenes_)}};
   if (scenes.size() > 1) {
     const std::vector<MethodMeans> means = means_of(scenes);
+    const Column column = ranking_column(*scenes[0].ranking);
     Json::Array points;
     for (std::size_t m = 0; m < means.size(); ++m) {
-      const bool is_front = is_on_front(means[m], means);
-      points.push_back(point_of(means[m].method, means[m].processor_ms, means[m].error, is_front,
-                                target_of(std::nullopt, m, is_front)));
+      points.push_back(point_of(means[m].method, means[m].cpu_ms, column, means[m].rank(), means[m].is_on_front,
+                                target_of(std::nullopt, m, means[m].is_on_front)));
     }
-    content.emplace_back("tables", Json::Array{means_table_of(means)});
-    content.emplace_back("plot", plot_of("All scenes: mean error against mean cost", std::move(points)));
+    content.emplace_back("tables", Json::Array{means_table_of(scenes, means)});
+    content.emplace_back("plot", plot_of("All scenes: mean error against mean cost", column, std::move(points)));
   }
   return html_page(title, content, pictures_);
 }

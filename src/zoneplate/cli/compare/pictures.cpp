@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "zoneplate/metrics/flip/magma.h"
 
@@ -43,45 +44,60 @@ std::string heading_of(std::string method) {
   return method;
 }
 
-std::string figures_of(const Trial& t) {
-  return fmt::format("FLIP {:.2f}, PSNR {:.1f} dB, {:.1f} ms", 1000 * t.value("flip").value_or(0),
-                     t.value("psnr").value_or(0), t.least_processor_ms());
-}
-
 /// A point of the plot.
 struct Dot {
   std::string method;
-  double ms, error;
+  double ms;
+  std::optional<double> value;  ///< of the ranking metric
   bool is_on_front;
 };
 
-Plot plot_of(const std::string& title, std::vector<Dot> dots) {
+/// The least and the greatest value.
+std::pair<double, double> range_of(const std::vector<Dot>& dots) {
+  const auto value = [](const Dot& d) { return *d.value; };
+  const auto [least, most] = std::ranges::minmax_element(dots, {}, value);
+  return {*least->value, *most->value};
+}
+
+Plot plot_of(const std::string& title, const metrics::Metric& metric, std::vector<Dot> dots) {
+  const Column column = ranking_column(metric);
+  std::erase_if(dots, [](const Dot& d) { return !d.value || !std::isfinite(*d.value); });
   std::ranges::stable_sort(dots, {}, &Dot::ms);
-  // The region to the left of and below the front is empty, so that labels fit there.
-  Curve front{
-      .name = "Pareto front", .mark = Curve::Mark::LineAndPoints, .color = 1, .labels_are = Curve::Beside::LeftBelow};
+  // The region to the left of the front, and on its better side, is empty, so that labels fit there.
+  Curve front{.name = "Pareto front",
+              .mark = Curve::Mark::LineAndPoints,
+              .color = 1,
+              .labels_are = column.is_error() ? Curve::Beside::LeftBelow : Curve::Beside::LeftAbove};
   Curve others{.name = "other methods", .mark = Curve::Mark::Points, .color = Curve::grey};
-  constexpr double lower = 0.94, later = 1.4;  // ratios of errors and of times at which names do not overlap
-  double last_error = HUGE_VAL, last_ms = 0;
+  const bool is_logarithmic = column.is_error() && std::ranges::all_of(dots, [](const Dot& d) { return *d.value > 0; });
+  const auto [least, most] = dots.empty() ? std::pair(0.0, 0.0) : range_of(dots);
+  // Ratios of errors and of times, or the part of a linear axis, at which names do not overlap.
+  constexpr double lower = 0.94, later = 1.4, part = 0.04;
+  std::optional<Dot> last;
   for (const Dot& d : dots) {
     Curve& curve = d.is_on_front ? front : others;
-    curve.points.emplace_back(d.ms, 1000 * d.error);
-    const bool is_named = !d.is_on_front || d.error <= lower * last_error || d.ms >= later * last_ms;
+    curve.points.emplace_back(d.ms, column.scale * *d.value);
+    const auto is_apart = [&] {
+      return is_logarithmic ? *d.value <= lower * *last->value
+                            : std::abs(*d.value - *last->value) >= part * (most - least);
+    };
+    const bool is_named = !d.is_on_front || !last || is_apart() || d.ms >= later * last->ms;
     curve.labels.push_back(is_named ? d.method : "");
-    if (d.is_on_front && is_named) last_error = d.error, last_ms = d.ms;
+    if (d.is_on_front && is_named) last = d;
   }
   // The names of many methods would overlap; then only those on the front are labelled.
   constexpr std::size_t few = 16;
   if (dots.size() > few) others.labels.clear();
-  const bool is_logarithmic = std::ranges::all_of(dots, [](const Dot& d) { return d.error > 0; });
   Plot plot{.title = title,
             .x = {.label = "CPU time per frame (ms)", .is_logarithmic = true},
-            .y = {.label = "mean FLIP × 1000", .is_logarithmic = is_logarithmic}};
+            .y = {.label = column.head, .is_logarithmic = is_logarithmic}};
   // Margins for the labels on both sides.
   if (!dots.empty()) plot.x.low = dots.front().ms / 2.5, plot.x.high = dots.back().ms * (dots.size() > few ? 1.3 : 2.5);
   if (is_logarithmic && !dots.empty()) {
-    const auto [least, most] = std::ranges::minmax(dots, {}, &Dot::error);
-    plot.y.low = 1000 * least.error / 1.5, plot.y.high = 1000 * most.error * 1.5;
+    plot.y.low = column.scale * least / 1.5, plot.y.high = column.scale * most * 1.5;
+  } else if (most > least) {
+    const double margin = 0.1 * (most - least);
+    plot.y.low = column.scale * (least - margin), plot.y.high = column.scale * (most + margin);
   }
   plot.curves = {std::move(others), std::move(front)};
   return plot;
@@ -97,7 +113,7 @@ Rgba8Image worst_picture(const SceneTrials& scene, const Trial& trial) {
     figure.rows[1].push_back({crop(trial.picture, p), trial.method});
     figure.rows[2].push_back({crop(errors, p), fmt::format("FLIP, mean {:.3f}", p.error)});
   }
-  figure.text = figures_of(trial) + ".";
+  figure.text = facts_of(scene, trial) + ".";
   return compose(figure);
 }
 
@@ -108,16 +124,15 @@ Rgba8Image crops_picture(const SceneTrials& scene) {
       {{with_mark(scene.reference_picture, scene.common_worst),
         fmt::format("Reference ({}); the frame marks the region of greatest mean error", scene.reference)},
        {crop(scene.reference_picture, scene.common_worst), "reference, enlarged"}});
-  std::vector<const Trial*> order;
-  for (const Trial& t : scene.trials) order.push_back(&t);
-  std::ranges::stable_sort(order, {}, [](const Trial* t) { return t->value("flip").value_or(0); });
+  const std::vector<const Trial*> order = ranked(scene);
   for (std::size_t i = 0; i < order.size(); ++i) {
     if (i % columns == 0) figure.rows.emplace_back();
-    figure.rows.back().push_back(
-        {crop(order[i]->picture, scene.common_worst), heading_of(order[i]->method) + "\n" + figures_of(*order[i])});
+    figure.rows.back().push_back({crop(order[i]->picture, scene.common_worst),
+                                  heading_of(order[i]->method) + "\n" + facts_of(scene, *order[i])});
   }
-  figure.text = "FLIP × 1000 and CPU time are those of the whole image; crops of " + std::to_string(Place::side) +
-                " pixels, enlarged 8 times, in ascending order of error.";
+  figure.text = fmt::format(
+      "{} and CPU time of a frame are those of the whole image; crops of {} pixels, enlarged 8 times, the best first.",
+      ranking_column(*scene.ranking).head, static_cast<int>(Place::side));
   if (!scene.complaint.empty()) figure.text += "\n" + scene.complaint;
   return compose(figure);
 }
@@ -145,16 +160,14 @@ std::vector<Rgba8Image> difference_film(const std::vector<Rgba8Image>& reference
 Plot cost_plot(const SceneTrials& scene) {
   std::vector<Dot> dots;
   for (const Trial& t : scene.trials)
-    dots.push_back({t.method, t.least_processor_ms(), t.value("flip").value_or(0), t.is_on_front});
-  return plot_of(scene.scene + ": error against cost", std::move(dots));
+    dots.push_back({t.method, t.cpu_ms(), t.value(scene.ranking->name), t.is_on_front});
+  return plot_of(scene.scene + ": error against cost", *scene.ranking, std::move(dots));
 }
 
-Plot cost_plot(const std::vector<MethodMeans>& means) {
+Plot cost_plot(const std::vector<SceneTrials>& scenes) {
   std::vector<Dot> dots;
-  for (const MethodMeans& m : means) {
-    dots.push_back({m.method, m.processor_ms, m.error, is_on_front(m, means)});
-  }
-  return plot_of("All scenes: mean error against mean cost", std::move(dots));
+  for (const MethodMeans& m : means_of(scenes)) dots.push_back({m.method, m.cpu_ms, m.rank(), m.is_on_front});
+  return plot_of("All scenes: mean error against mean cost", *scenes.at(0).ranking, std::move(dots));
 }
 
 }  // namespace zoneplate::cli

@@ -9,52 +9,49 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <numeric>
 
 #include "zoneplate/version.h"
 
 namespace zoneplate::cli {
 namespace {
 
-/// A column of the tables: a figure by its name, and its format.
-struct Column {
-  std::string name, head;
-  int decimals = significant;
-  double scale = 1;
-  static constexpr int significant = -1;  ///< four significant digits
-};
-
 /// The figures that have columns of their own, and their formats.
 const Column known_columns[] = {{"psnr", "PSNR dB", 2},
                                 {"ssim", "SSIM", 4},
                                 {"flip", "FLIP ×1000", 2, 1000},
+                                {"cvvdp", "cvvdp JOD", 3},
+                                {"cvvdp_video", "JOD", 3},
+                                {"flicker", "flicker %", 2, 100},
+                                {"tpsnr", "tPSNR dB", 2},
                                 {"edge_error", "edges %", 2, 100},
                                 {"edge_error.near_axis", "near axis %", 2, 100},
                                 {"edge_error.diagonal", "diagonal %", 2, 100}};
 
-/// The columns of the measured metrics, in their order.
+Column column_of(const metrics::Metric& metric, const Column& known) {
+  Column out = known;
+  out.better = metric.better;
+  return out;
+}
+
+/// The columns of the measured metrics, in their order; the first is that of the ranking metric.
 std::vector<Column> columns_of(std::span<const SceneTrials> scenes) {
-  std::vector<Column> columns;
+  std::vector<Column> columns{ranking_column(*scenes[0].ranking)};
   const auto add = [&](const Column& column) {
     if (std::ranges::find(columns, column.name, &Column::name) == columns.end()) columns.push_back(column);
   };
   for (const SceneTrials& scene : scenes)
     for (const Trial& trial : scene.trials)
       for (const metrics::Result& result : trial.results) {
-        const std::string name(result.metric->name);
-        bool is_known = false;
+        add(ranking_column(*result.metric));
         for (const Column& known : known_columns)
-          if (known.name == name || known.name.starts_with(name + ".")) add(known), is_known = true;
-        if (!is_known)
-          add({name, result.metric->unit.empty() ? name : fmt::format("{} {}", name, result.metric->unit)});
+          if (known.name.starts_with(fmt::format("{}.", result.metric->name))) add(column_of(*result.metric, known));
       }
   return columns;
 }
 
-std::string shown(std::optional<double> value, int decimals, double scale = 1) {
-  if (!value) return "-";
-  if (decimals == Column::significant) return fmt::format("{:.4g}", *value * scale);
-  return std::isfinite(*value) ? fmt::format("{:.{}f}", *value * scale, decimals) : "same";
+std::string shown(std::optional<double> value, int decimals) {
+  return value ? fmt::format("{:.{}f}", *value, decimals) : "-";
 }
 
 std::string megabytes(const std::optional<std::uint64_t>& bytes) {
@@ -65,13 +62,17 @@ Table table_of(const SceneTrials& scene, const std::vector<Column>& columns) {
   Table table{{"method"}, {}};
   for (const Column& c : columns) table.head.emplace_back(c.head);
   for (const char* name : {"ms", "CPU ms", "samples/px", "MB"}) table.head.emplace_back(name);
+  const bool has_history =
+      std::ranges::any_of(scene.trials, [](const Trial& t) { return !t.is_sequence && t.frames > 1; });
+  if (has_history) table.head.emplace_back("frames");
   for (const Trial* t : ranked(scene)) {
     std::vector<std::string> row{t->method};
-    for (const Column& c : columns) row.push_back(shown(t->value(c.name), c.decimals, c.scale));
-    row.push_back(fmt::format("{:.1f}", t->least_ms()));
-    row.push_back(fmt::format("{:.1f}", t->least_processor_ms()));
-    row.push_back(fmt::format("{:.2f}", t->shaded_per_pixel()));
+    for (const Column& c : columns) row.push_back(c.text(t->value(c.name)));
+    row.push_back(shown(t->ms(), 1));
+    row.push_back(shown(t->cpu_ms(), 1));
+    row.push_back(shown(t->shaded_per_pixel(), 2));
     row.push_back(megabytes(t->memory));
+    if (has_history) row.push_back(std::to_string(t->frames));
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -87,10 +88,12 @@ Table marked_table(const SceneTrials& scene, const std::vector<Column>& columns)
 
 /// The cost of the reference, which the methods' times do not include.
 std::string reference_cost(const SceneTrials& scene) {
-  if (!scene.reference_ms) return "";
-  const double pixels = static_cast<double>(scene.reference_picture.values().size());
-  return fmt::format(" ({:.1f} ms, {:.1f} CPU ms, {:.2f} shaded samples per pixel)", *scene.reference_ms,
-                     *scene.reference_processor_ms, static_cast<double>(scene.reference_shaded) / pixels);
+  if (!scene.reference_cost) return "";
+  const Trial& cost = *scene.reference_cost;
+  std::string text = fmt::format(" ({:.1f} ms, {:.1f} CPU ms, {:.2f} shaded samples per pixel", cost.ms(),
+                                 cost.cpu_ms(), cost.shaded_per_pixel());
+  if (scene.reference_error) text += fmt::format(", estimated error {:.2g}", *scene.reference_error);
+  return text + ")";
 }
 
 /// A note on methods with fewer turns because of their time: a minimum over fewer turns is less reliable.
@@ -106,18 +109,9 @@ std::string fewer_turns(const SceneTrials& scene) {
 std::string class_of(const SceneTrials& scene) { return scene.failure.empty() ? "other" : scene.failure; }
 
 std::string means_text(const std::vector<SceneTrials>& scenes) {
-  std::vector<MethodMeans> means = means_of(scenes);
-  std::ranges::stable_sort(means, {}, &MethodMeans::error);
-  Table table{{"method", "mean"}, {}};
-  for (const auto& [name, error] : means.at(0).by_class) table.head.push_back(name);
-  table.head.emplace_back("CPU ms");
-  for (const MethodMeans& m : means) {
-    std::vector<std::string> row{m.method, shown(m.error, 2, 1000)};
-    for (const auto& [name, error] : m.by_class) row.push_back(shown(error, 2, 1000));
-    row.push_back(fmt::format("{:.1f}", m.processor_ms));
-    table.rows.push_back(std::move(row));
-  }
-  return "All scenes: FLIP ×1000, mean and by class of artifacts; mean CPU time\n" + table_text(table);
+  const Column ranking = ranking_column(*scenes[0].ranking);
+  return fmt::format("All scenes: {}, mean and by class of artifacts; means of the other metrics and of the costs\n{}",
+                     ranking.head, table_text(means_table(scenes, means_of(scenes))));
 }
 
 Json number(std::optional<double> value) { return value && std::isfinite(*value) ? Json(*value) : Json(); }
@@ -156,18 +150,19 @@ Json trial_json(const SceneTrials& scene, const Trial& trial) {
                       {"error_map", files.error_map},
                       {"worst_regions_image", files.worst},
                       {"metrics", metrics_json(trial)},
-                      {"frame_ms", trial.least_ms()},
+                      {"frames", trial.frames},
+                      {"frame_ms", trial.ms()},
                       {"frame_ms_by_turn", numbers(trial.frame_ms)},
-                      {"cpu_ms", trial.least_processor_ms()},
+                      {"cpu_ms", trial.cpu_ms()},
                       {"cpu_ms_by_turn", numbers(trial.processor_ms)},
-                      {"stage_ms", Json::Object{{"prepare", trial.counts.prepare_ms},
-                                                {"geometry", trial.counts.geometry_ms},
-                                                {"tiles", trial.counts.tiles_ms},
-                                                {"resolve", trial.counts.resolve_ms},
-                                                {"display", trial.counts.display_ms},
-                                                {"filter", trial.counts.filter_ms}}},
+                      {"stage_ms", Json::Object{{"prepare", trial.counts.prepare_ms / trial.frames},
+                                                {"geometry", trial.counts.geometry_ms / trial.frames},
+                                                {"tiles", trial.counts.tiles_ms / trial.frames},
+                                                {"resolve", trial.counts.resolve_ms / trial.frames},
+                                                {"display", trial.counts.display_ms / trial.frames},
+                                                {"filter", trial.counts.filter_ms / trial.frames}}},
                       {"triangles", trial.counts.triangles},
-                      {"shaded_samples", trial.counts.shaded},
+                      {"shaded_samples", trial.shaded()},
                       {"shaded_samples_per_pixel", trial.shaded_per_pixel()},
                       {"peak_memory_bytes", trial.memory ? Json(*trial.memory) : Json()},
                       {"is_pareto_optimal", trial.is_on_front},
@@ -177,6 +172,7 @@ Json trial_json(const SceneTrials& scene, const Trial& trial) {
 Json scene_json(const SceneTrials& scene) {
   Json::Array trials;
   for (const Trial& t : scene.trials) trials.push_back(trial_json(scene, t));
+  const std::optional<Trial>& cost = scene.reference_cost;
   return Json::Object{{"scene", scene.scene},
                       {"folder", scene.name},
                       {"class", scene.failure.empty() ? Json() : Json(scene.failure)},
@@ -185,9 +181,10 @@ Json scene_json(const SceneTrials& scene) {
                       {"height", scene.reference_picture.height()},
                       {"reference", Json::Object{{"source", scene.reference},
                                                  {"image", scene.name + "/reference.png"},
-                                                 {"frame_ms", number(scene.reference_ms)},
-                                                 {"cpu_ms", number(scene.reference_processor_ms)},
-                                                 {"shaded_samples", scene.reference_shaded}}},
+                                                 {"frame_ms", cost ? Json(cost->ms()) : Json()},
+                                                 {"cpu_ms", cost ? Json(cost->cpu_ms()) : Json()},
+                                                 {"shaded_samples", cost ? Json(cost->shaded()) : Json()},
+                                                 {"estimated_error", number(scene.reference_error)}}},
                       {"turns", scene.turns},
                       {"worst_region", place_json(scene.common_worst)},
                       {"crops", scene.name + "/crops.png"},
@@ -196,6 +193,19 @@ Json scene_json(const SceneTrials& scene) {
 }
 
 }  // namespace
+
+std::string Column::text(std::optional<double> value) const {
+  if (!value) return "-";
+  if (decimals == significant) return fmt::format("{:.4g}", *value * scale);
+  return std::isfinite(*value) ? shown(*value * scale, decimals) : "same";
+}
+
+Column ranking_column(const metrics::Metric& metric) {
+  for (const Column& known : known_columns)
+    if (known.name == metric.name) return column_of(metric, known);
+  const std::string name(metric.name);
+  return column_of(metric, {name, metric.unit.empty() ? name : fmt::format("{} {}", name, metric.unit)});
+}
 
 std::string file_name_of(std::string_view spec) {
   std::string name;
@@ -216,43 +226,77 @@ TrialFiles files_of(const SceneTrials& scene, const Trial& trial) {
 }
 
 std::vector<MethodMeans> means_of(const std::vector<SceneTrials>& scenes) {
-  struct Sum {
-    double error = 0, count = 0;
-  };
+  const std::vector<Column> columns = columns_of(scenes);
   std::vector<std::string> classes;
   for (const SceneTrials& s : scenes)
     if (std::ranges::find(classes, class_of(s)) == classes.end()) classes.push_back(class_of(s));
   std::vector<MethodMeans> out;
   for (std::size_t m = 0; m < scenes.at(0).trials.size(); ++m) {
     MethodMeans& means = out.emplace_back(MethodMeans{.method = scenes[0].trials[m].method});
-    std::map<std::string, Sum> by_class;
-    for (const SceneTrials& s : scenes) {
-      const double error = s.trials[m].value("flip").value_or(0);
-      Sum& sum = by_class[class_of(s)];
-      sum.error += error, sum.count += 1;
-      means.error += error / static_cast<double>(scenes.size());
-      means.ms += s.trials[m].least_ms() / static_cast<double>(scenes.size());
-      means.processor_ms += s.trials[m].least_processor_ms() / static_cast<double>(scenes.size());
-    }
-    for (const std::string& c : classes) means.by_class.emplace_back(c, by_class[c].error / by_class[c].count);
+    const auto mean = [&](const auto& figure, const std::string& artifacts = "") -> std::optional<double> {
+      double sum = 0, count = 0;
+      for (const SceneTrials& s : scenes) {
+        const std::optional<double> value = figure(s.trials[m]);
+        if (value && (artifacts.empty() || class_of(s) == artifacts)) sum += *value, count += 1;
+      }
+      return count > 0 ? std::optional(sum / count) : std::nullopt;
+    };
+    for (const Column& c : columns) means.values.push_back(mean([&](const Trial& t) { return t.value(c.name); }));
+    means.ms = *mean([](const Trial& t) { return std::optional(t.ms()); });
+    means.cpu_ms = *mean([](const Trial& t) { return std::optional(t.cpu_ms()); });
+    means.shaded_per_pixel = *mean([](const Trial& t) { return std::optional(t.shaded_per_pixel()); });
+    means.memory =
+        mean([](const Trial& t) { return t.memory ? std::optional(static_cast<double>(*t.memory)) : std::nullopt; });
+    for (const std::string& c : classes)
+      means.by_class.emplace_back(c, mean([&](const Trial& t) { return t.value(columns[0].name); }, c));
   }
+  std::vector<CostPoint> points;
+  for (const MethodMeans& m : out) points.push_back({m.cpu_ms, m.rank()});
+  for (std::size_t m = 0; m < out.size(); ++m) out[m].is_on_front = is_on_front(points[m], points, *scenes[0].ranking);
   return out;
 }
 
 std::vector<const Trial*> ranked(const SceneTrials& scene) {
   std::vector<const Trial*> order;
   for (const Trial& t : scene.trials) order.push_back(&t);
-  std::ranges::stable_sort(order, {}, [](const Trial* t) { return t->value("flip").value_or(HUGE_VAL); });
+  const std::string_view name = scene.ranking->name;
+  std::ranges::stable_sort(
+      order, [&](const Trial* a, const Trial* b) { return is_better(*scene.ranking, a->value(name), b->value(name)); });
+  return order;
+}
+
+std::vector<std::size_t> ranked(const std::vector<MethodMeans>& means, const metrics::Metric& metric) {
+  std::vector<std::size_t> order(means.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(
+      order, [&](std::size_t a, std::size_t b) { return is_better(metric, means[a].rank(), means[b].rank()); });
   return order;
 }
 
 Table results_of(const SceneTrials& scene) { return table_of(scene, columns_of({&scene, 1})); }
 
-bool is_on_front(const MethodMeans& own, const std::vector<MethodMeans>& all) {
-  return std::ranges::none_of(all, [&](const MethodMeans& m) {
-    return m.error <= own.error && m.processor_ms <= own.processor_ms &&
-           (m.error < own.error || m.processor_ms < own.processor_ms);
-  });
+Table means_table(const std::vector<SceneTrials>& scenes, const std::vector<MethodMeans>& means) {
+  const std::vector<Column> columns = columns_of(scenes);
+  Table table{{"method", columns[0].head}, {}};
+  for (const auto& [name, value] : means.at(0).by_class) table.head.push_back(name);
+  for (std::size_t c = 1; c < columns.size(); ++c) table.head.push_back(columns[c].head);
+  for (const char* name : {"CPU ms", "samples/px", "MB"}) table.head.emplace_back(name);
+  for (const std::size_t i : ranked(means, *scenes[0].ranking)) {
+    const MethodMeans& m = means[i];
+    std::vector<std::string> row{m.method, columns[0].text(m.rank())};
+    for (const auto& [name, value] : m.by_class) row.push_back(columns[0].text(value));
+    for (std::size_t c = 1; c < columns.size(); ++c) row.push_back(columns[c].text(m.values[c]));
+    row.push_back(shown(m.cpu_ms, 1));
+    row.push_back(shown(m.shaded_per_pixel, 2));
+    row.push_back(m.memory ? megabytes(static_cast<std::uint64_t>(*m.memory)) : "-");
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+std::string facts_of(const SceneTrials& scene, const Trial& trial) {
+  const Column column = ranking_column(*scene.ranking);
+  return fmt::format("{} {}, {:.1f} ms", column.head, column.text(trial.value(column.name)), trial.cpu_ms());
 }
 
 std::string report_text(const std::vector<SceneTrials>& scenes) {
@@ -265,14 +309,15 @@ std::string report_text(const std::vector<SceneTrials>& scenes) {
     text += table_text(marked_table(s, columns)) + fewer_turns(s) + '\n';
   }
   if (scenes.size() > 1) text += means_text(scenes) + '\n';
-  return text + "* on the Pareto front: no other method has less CPU time and less error\n";
+  return text + fmt::format("* on the Pareto front: no other method has less CPU time and a better {}\n",
+                            scenes.at(0).ranking->name);
 }
 
 std::string report_csv(const std::vector<SceneTrials>& scenes) {
   const std::vector<Column> columns = columns_of(scenes);
   std::string text = "scene,class,method";
   for (const Column& c : columns) text += fmt::format(",{}", c.name);
-  text += ",frame_ms,cpu_ms,shaded_samples,shaded_samples_per_pixel,peak_memory_bytes,is_pareto_optimal\n";
+  text += ",frame_ms,cpu_ms,shaded_samples,shaded_samples_per_pixel,peak_memory_bytes,is_pareto_optimal,frames\n";
   // Parameters of methods contain commas, the separator of fields.
   const auto quoted = [](const std::string& s) {
     return s.find_first_of(",\"\n") == std::string::npos ? s : fmt::format("\"{}\"", s);
@@ -284,47 +329,30 @@ std::string report_csv(const std::vector<SceneTrials>& scenes) {
         const std::optional<double> value = t.value(c.name);
         text += value ? fmt::format(",{}", *value) : ",";
       }
-      text += fmt::format(",{},{},{},{},{},{}\n", t.least_ms(), t.least_processor_ms(), t.counts.shaded,
-                          t.shaded_per_pixel(), t.memory ? std::to_string(*t.memory) : "", t.is_on_front ? 1 : 0);
+      text += fmt::format(",{},{},{},{},{},{},{}\n", t.ms(), t.cpu_ms(), t.shaded(), t.shaded_per_pixel(),
+                          t.memory ? std::to_string(*t.memory) : "", t.is_on_front ? 1 : 0, t.frames);
     }
   return text;
 }
 
-namespace {
-
-/// The mean of a figure over the scenes that have it.
-template <class Figure>
-std::optional<double> mean_over(const std::vector<SceneTrials>& scenes, const Figure& figure) {
-  double sum = 0, count = 0;
-  for (const SceneTrials& s : scenes)
-    if (const std::optional<double> value = figure(s)) sum += *value, count += 1;
-  return count > 0 ? std::optional(sum / count) : std::nullopt;
-}
-
-}  // namespace
-
 std::string report_markdown(const std::vector<SceneTrials>& scenes) {
   const std::vector<MethodMeans> means = means_of(scenes);
-  std::vector<std::size_t> order(means.size());
-  for (std::size_t m = 0; m < order.size(); ++m) order[m] = m;
-  std::ranges::stable_sort(order, {}, [&](std::size_t m) { return means[m].error; });
-  std::string text = "| method | mean |", rule = "|---|---|";
-  for (const SceneTrials& s : scenes) text += fmt::format(" {} |", s.name), rule += "---|";
-  text += " near axis % | samples/px | MB | ms |\n" + rule + "---|---|---|---|\n";
-  for (const std::size_t m : order) {
-    const char* mark = is_on_front(means[m], means) ? "**" : "";
-    text += fmt::format("| {0}`{1}`{0} | {2} |", mark, means[m].method, shown(means[m].error, 1, 1000));
-    for (const SceneTrials& s : scenes) text += fmt::format(" {} |", shown(s.trials[m].value("flip"), 1, 1000));
-    const auto mean = [&](const auto& figure) {
-      return mean_over(scenes, [&](const SceneTrials& s) -> std::optional<double> { return figure(s.trials[m]); });
-    };
-    const auto near_axis = mean([](const Trial& t) { return t.value("edge_error.near_axis"); });
-    const auto bytes = mean([](const Trial& t) -> std::optional<double> {
-      return t.memory ? std::optional(static_cast<double>(*t.memory) / (1 << 20)) : std::nullopt;
-    });
-    text += fmt::format(" {} | {} | {} | {} |\n", shown(near_axis, 1, 100),
-                        shown(mean([](const Trial& t) { return std::optional(t.shaded_per_pixel()); }), 1),
-                        shown(bytes, 0), shown(means[m].processor_ms, 0));
+  const std::vector<Column> columns = columns_of(scenes);
+  std::string text = fmt::format("| method | mean {} |", columns[0].head), rule = "|---|---|";
+  const auto add_head = [&](const std::string& head) { text += fmt::format(" {} |", head), rule += "---|"; };
+  for (const SceneTrials& s : scenes) add_head(s.name);
+  for (std::size_t c = 1; c < columns.size(); ++c) add_head(columns[c].head);
+  for (const char* name : {"samples/px", "MB", "ms"}) add_head(name);
+  text += '\n' + rule + '\n';
+  for (const std::size_t i : ranked(means, *scenes[0].ranking)) {
+    const MethodMeans& m = means[i];
+    const char* mark = m.is_on_front ? "**" : "";
+    text += fmt::format("| {0}`{1}`{0} | {2} |", mark, m.method, columns[0].text(m.rank()));
+    for (const SceneTrials& s : scenes)
+      text += fmt::format(" {} |", columns[0].text(s.trials[i].value(columns[0].name)));
+    for (std::size_t c = 1; c < columns.size(); ++c) text += fmt::format(" {} |", columns[c].text(m.values[c]));
+    text += fmt::format(" {} | {} | {} |\n", shown(m.shaded_per_pixel, 1),
+                        m.memory ? shown(*m.memory / (1 << 20), 0) : "-", shown(m.cpu_ms, 0));
   }
   return text;
 }
@@ -332,14 +360,19 @@ std::string report_markdown(const std::vector<SceneTrials>& scenes) {
 Json report_json(const std::vector<SceneTrials>& scenes, const std::vector<std::string>& command) {
   Json::Array rows, means;
   for (const SceneTrials& s : scenes) rows.push_back(scene_json(s));
+  const std::vector<Column> columns = columns_of(scenes);
   for (const MethodMeans& m : means_of(scenes)) {
-    Json::Object by_class;
-    for (const auto& [name, error] : m.by_class) by_class.emplace_back(name, error);
+    Json::Object values, by_class;
+    for (std::size_t c = 0; c < columns.size(); ++c) values.emplace_back(columns[c].name, number(m.values[c]));
+    for (const auto& [name, value] : m.by_class) by_class.emplace_back(name, number(value));
     means.emplace_back(Json::Object{{"method", m.method},
-                                    {"flip", m.error},
+                                    {"metrics", std::move(values)},
+                                    {"by_class", std::move(by_class)},
                                     {"frame_ms", m.ms},
-                                    {"cpu_ms", m.processor_ms},
-                                    {"flip_by_class", std::move(by_class)}});
+                                    {"cpu_ms", m.cpu_ms},
+                                    {"shaded_samples_per_pixel", m.shaded_per_pixel},
+                                    {"peak_memory_bytes", number(m.memory)},
+                                    {"is_pareto_optimal", m.is_on_front}});
   }
   return Json::Object{{"format", "zoneplate-compare"},
                       {"version", report_version},
@@ -348,6 +381,7 @@ Json report_json(const std::vector<SceneTrials>& scenes, const std::vector<std::
                       {"threads", thread_limit()},
                       {"isa", name_of(current_isa())},
                       {"plot", "cost.svg"},
+                      {"ranked_by", scenes.at(0).ranking->name},
                       {"scenes", std::move(rows)},
                       {"means", std::move(means)}};
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -43,9 +44,9 @@ RenderSettings frame_settings(const TrialSetup& stage, int index, int count,
   return settings;
 }
 
-/// Renders the turns of one method, like consecutive frames of a program.
+/// Renders the turns of one method, like consecutive frames of a program. `error`: takes its estimate of its error.
 Trial rendered(const TrialSetup& stage, const std::string& method, int turns,
-               const std::function<void(double)>& progress) {
+               const std::function<void(double)>& progress, Plane<float>* error = nullptr) {
   Trial trial{.method = method};
   std::optional<Renderer> renderer;
   double sum_ms = 0;
@@ -54,13 +55,17 @@ Trial rendered(const TrialSetup& stage, const std::string& method, int turns,
     const double used_before = processor_ms();
     const Stopwatch watch;
     if (!renderer) renderer.emplace(stage.scene, upscale::make_method(method));
-    RenderedImage image = renderer->render_still(stage.camera, frame_settings(stage, turn, turns, progress));
+    RenderSettings settings = frame_settings(stage, turn, turns, progress);
+    settings.planes.error = error != nullptr;
+    RenderedImage image = renderer->render_still(stage.camera, settings);
     const double ms = watch.ms();
-    if (turn == 0 || ms < trial.least_ms()) trial.counts = image.counts;
-    trial.frame_ms.push_back(ms);
-    trial.processor_ms.push_back(processor_ms() - used_before);
+    trial.frames = renderer->still_frames();
+    if (turn == 0 || ms / trial.frames < trial.ms()) trial.counts = image.counts;
+    trial.frame_ms.push_back(ms / trial.frames);
+    trial.processor_ms.push_back((processor_ms() - used_before) / trial.frames);
     sum_ms += ms;
     if (turn > 0) continue;
+    if (error) *error = std::move(image.data.error);
     trial.memory = memory_watch.rise();
     trial.picture = opaque(std::move(image.display));
     trial.pixels = trial.picture.values().size();
@@ -68,9 +73,16 @@ Trial rendered(const TrialSetup& stage, const std::string& method, int turns,
   return trial;
 }
 
-/// Renders a sequence by one method.
-Trial filmed(const TrialSetup& stage, const std::string& method, const std::function<void(double)>& progress) {
-  Trial trial{.method = method};
+void add(RenderCounts& sum, const RenderCounts& c) {
+  sum.prepare_ms += c.prepare_ms, sum.geometry_ms += c.geometry_ms, sum.tiles_ms += c.tiles_ms;
+  sum.resolve_ms += c.resolve_ms, sum.display_ms += c.display_ms, sum.filter_ms += c.filter_ms;
+  sum.triangles = c.triangles, sum.shaded += c.shaded;
+}
+
+/// Renders a sequence by one method. `error` is that of the last frame.
+Trial filmed(const TrialSetup& stage, const std::string& method, const std::function<void(double)>& progress,
+             Plane<float>* error = nullptr) {
+  Trial trial{.method = method, .is_sequence = true, .frames = stage.frames};
   const MemoryWatch memory_watch(stage.memory);
   std::optional<Renderer> renderer;
   for (int i = 0; i < stage.frames; ++i) {
@@ -81,10 +93,12 @@ Trial filmed(const TrialSetup& stage, const std::string& method, const std::func
       renderer.emplace(std::move(view.scene), upscale::make_method(method));
     const double used_before = processor_ms();
     const Stopwatch watch;
-    RenderedImage image = renderer->render(view.camera, frame_settings(stage, i, stage.frames, progress));
-    const double ms = watch.ms();
-    if (i == 0 || ms < trial.least_ms()) trial.counts = image.counts;
-    trial.frame_ms.push_back(ms);
+    RenderSettings settings = frame_settings(stage, i, stage.frames, progress);
+    settings.planes.error = error != nullptr;
+    RenderedImage image = renderer->render(view.camera, settings);
+    trial.frame_ms.push_back(watch.ms());
+    add(trial.counts, image.counts);
+    if (error) *error = std::move(image.data.error);
     trial.processor_ms.push_back(processor_ms() - used_before);
     trial.film.push_back(opaque(std::move(image.display)));
   }
@@ -142,6 +156,7 @@ void judge(Trial& trial, const SceneTrials& scene, const TrialOptions& options) 
                                          [&](std::size_t i) {
                                            metrics::Picture picture =
                                                frame_of(scene.reference_film, scene.reference_picture, i);
+                                           metrics::mark_ignored(picture, options.ignored);
                                            if (i < scene.uncovered.size()) picture.is_uncovered = scene.uncovered[i];
                                            return picture;
                                          },
@@ -149,10 +164,23 @@ void judge(Trial& trial, const SceneTrials& scene, const TrialOptions& options) 
                                      .are_frames = !trial.film.empty()};
   metrics::Comparison comparison = metrics::compare(pictures, options.metrics, metrics::Unfit::Leave);
   trial.results = std::move(comparison.results);
-  if (!trial.film.empty()) trial.error_map = flip_map(scene.reference_picture, trial.picture);
+  if (!trial.film.empty()) trial.error_map = flip_map(scene.reference_picture, trial.picture, options.ignored);
   for (metrics::Result& result : trial.results)
     if (result.metric->name == "flip" && trial.error_map.empty()) trial.error_map = std::move(result.score.map);
   trial.worst = worst_places(trial.error_map, worst_count);
+}
+
+/// Whether a method estimates the error of its own image.
+bool estimates_error(const std::string& method, const RenderSettings& settings) {
+  FrameContext context;
+  context.image = {settings.options.width, settings.options.height};
+  return upscale::make_method(method)->request(context).estimates_error;
+}
+
+double root_mean_square(const Plane<float>& plane) {
+  double sum = 0;
+  for (const float v : plane.values()) sum += static_cast<double>(v) * static_cast<double>(v);
+  return std::sqrt(sum / static_cast<double>(plane.values().size()));
 }
 
 void set_reference(const TrialSetup& stage, const TrialOptions& options, const TrialProgress& progress,
@@ -160,12 +188,14 @@ void set_reference(const TrialSetup& stage, const TrialOptions& options, const T
   out.reference = options.reference;
   if (!options.is_reference_file) {
     const auto step = progress(options.reference);
-    Trial trial =
-        stage.frames > 1 ? filmed(stage, options.reference, step) : rendered(stage, options.reference, 1, step);
-    out.reference_ms = trial.frame_ms[0];
-    out.reference_processor_ms = trial.processor_ms[0];
-    out.reference_shaded = trial.counts.shaded;
+    Plane<float> error;
+    Plane<float>* const estimate = estimates_error(options.reference, stage.settings) ? &error : nullptr;
+    Trial trial = stage.frames > 1 ? filmed(stage, options.reference, step, estimate)
+                                   : rendered(stage, options.reference, 1, step, estimate);
+    if (estimate) out.reference_error = root_mean_square(error);
     out.reference_picture = std::move(trial.picture), out.reference_film = std::move(trial.film);
+    trial.picture = {}, trial.film = {};
+    out.reference_cost = std::move(trial);
     return;
   }
   out.reference_picture = opaque(quantize8(stage.load_reference().display));
@@ -179,18 +209,27 @@ void set_reference(const TrialSetup& stage, const TrialOptions& options, const T
 
 }  // namespace
 
-Plane<float> flip_map(const Rgba8Image& reference, const Rgba8Image& test) {
+Plane<float> flip_map(const Rgba8Image& reference, const Rgba8Image& test, const metrics::IgnoredRegions& ignored) {
   const metrics::Choice choice = metrics::choose_metric(metrics::metrics(), "flip");
-  const metrics::Picture pictures[] = {picture_of(reference), picture_of(test)};
+  metrics::Picture pictures[] = {picture_of(reference), picture_of(test)};
+  metrics::mark_ignored(pictures[0], ignored);
+  metrics::hide_ignored(pictures[0], pictures[1]);
   return std::move(
       choice.metric->measure(std::span(&pictures[0], 1), std::span(&pictures[1], 1), choice.settings).value().map);
 }
 
-double Trial::least_ms() const { return *std::ranges::min_element(frame_ms); }
+namespace {
 
-double Trial::least_processor_ms() const { return *std::ranges::min_element(processor_ms); }
+double time_of(std::vector<double> times, bool is_sequence) {
+  const auto place = times.begin() + (is_sequence ? static_cast<std::ptrdiff_t>(times.size() / 2) : 0);
+  std::ranges::nth_element(times, place);
+  return *place;
+}
 
-double Trial::shaded_per_pixel() const { return static_cast<double>(counts.shaded) / static_cast<double>(pixels); }
+}  // namespace
+
+double Trial::ms() const { return time_of(frame_ms, is_sequence); }
+double Trial::cpu_ms() const { return time_of(processor_ms, is_sequence); }
 
 std::optional<double> Trial::value(std::string_view name) const {
   const std::size_t dot = name.find('.');
@@ -233,20 +272,30 @@ std::vector<Place> worst_places(const Plane<float>& error, int count) {
   return found;
 }
 
-void find_front(std::vector<Trial>& trials) {
-  for (Trial& t : trials) {
-    const auto error = t.value("flip");
-    t.is_on_front = error && std::ranges::none_of(trials, [&](const Trial& other) {
-                      const auto others = other.value("flip");
-                      return others && *others <= *error && other.least_processor_ms() <= t.least_processor_ms() &&
-                             (*others < *error || other.least_processor_ms() < t.least_processor_ms());
-                    });
-  }
+bool is_better(const metrics::Metric& metric, std::optional<double> a, std::optional<double> b) {
+  if (!a || !b) return a.has_value() && !b;
+  return metric.better == metrics::Better::Lower ? *a < *b : *a > *b;
+}
+
+bool is_on_front(const CostPoint& own, std::span<const CostPoint> all, const metrics::Metric& metric) {
+  return own.value && std::ranges::none_of(all, [&](const CostPoint& other) {
+           const bool is_better_value = is_better(metric, other.value, own.value);
+           return !is_better(metric, own.value, other.value) && other.cpu_ms <= own.cpu_ms &&
+                  (is_better_value || other.cpu_ms < own.cpu_ms);
+         });
+}
+
+void find_front(std::vector<Trial>& trials, const metrics::Metric& metric) {
+  std::vector<CostPoint> points;
+  for (const Trial& t : trials) points.push_back({t.cpu_ms(), t.value(metric.name)});
+  for (std::size_t i = 0; i < trials.size(); ++i) trials[i].is_on_front = is_on_front(points[i], points, metric);
 }
 
 SceneTrials run_trials(const TrialSetup& stage, const TrialOptions& options, const TrialProgress& progress) {
   SceneTrials out;
   out.turns = stage.frames > 1 ? stage.frames : options.turns;
+  out.ignored = options.ignored;
+  out.ranking = options.metrics.at(0).metric;
   set_reference(stage, options, progress, out);
   const bool measures_uncovered = std::ranges::any_of(
       options.metrics, [](const metrics::Choice& choice) { return choice.metric->name == "disocclusion"; });
@@ -263,7 +312,7 @@ SceneTrials run_trials(const TrialSetup& stage, const TrialOptions& options, con
     out.common_worst = worst[0];
     out.common_worst.error /= static_cast<double>(options.methods.size());
   }
-  find_front(out.trials);
+  find_front(out.trials, *out.ranking);
   return out;
 }
 

@@ -3,12 +3,14 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "zoneplate/cli/usage.h"
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/metrics/compare.h"
+#include "zoneplate/metrics/ignored.h"
 #include "zoneplate/render/renderer.h"
 
 namespace zoneplate::cli {
@@ -23,21 +25,27 @@ struct Place {
 /// One method's image of one scene, with its cost and its error against the reference.
 struct Trial {
   std::string method;
-  Rgba8Image picture;                   ///< of a sequence, its last frame
-  std::vector<Rgba8Image> film;         ///< the frames of a sequence; of a still image, empty
-  std::uint64_t pixels = 0;             ///< of the image
-  std::vector<double> frame_ms;         ///< time of each turn, from the prepared scene to the 8-bit image
-  std::vector<double> processor_ms;     ///< CPU time of all threads, which other programs affect less
-  RenderCounts counts;                  ///< of the fastest turn
+  Rgba8Image picture;            ///< of a sequence, its last frame
+  std::vector<Rgba8Image> film;  ///< the frames of a sequence; of a still image, empty
+  std::uint64_t pixels = 0;      ///< of the image
+  bool is_sequence = false;
+  /// Frames that `counts` sums: of a sequence all, of a still image those in which a method with history settles.
+  int frames = 1;
+  std::vector<double> frame_ms;      ///< of a frame, from the prepared scene to the 8-bit image: by turn, or by frame
+  std::vector<double> processor_ms;  ///< CPU time of all threads, which other programs affect less
+  RenderCounts counts;               ///< of the fastest turn, or of the sequence
   std::optional<std::uint64_t> memory;  ///< increase of resident memory in the first turn, bytes
   std::vector<metrics::Result> results;
   Plane<float> error_map;  ///< FLIP
   std::vector<Place> worst;
-  bool is_on_front = false;  ///< no other trial of the scene has both less CPU time and less error
+  bool is_on_front = false;  ///< no other trial of the scene has both less CPU time and a better value
 
-  double least_ms() const;
-  double least_processor_ms() const;
-  double shaded_per_pixel() const;
+  /// The times of a frame: the least of the turns, which are the same work; of a sequence the median of its frames.
+  double ms() const;
+  double cpu_ms() const;
+  /// Means over the frames.
+  double shaded() const { return static_cast<double>(counts.shaded) / frames; }
+  double shaded_per_pixel() const { return shaded() / static_cast<double>(pixels); }
   /// The value of a metric, or of one of its additional figures ("edge_error.near_axis"); nothing if it could not be
   /// measured.
   std::optional<double> value(std::string_view name) const;
@@ -52,11 +60,13 @@ struct SceneTrials {
   Rgba8Image reference_picture;
   std::vector<Rgba8Image> reference_film;
   std::vector<Plane<std::uint8_t>> uncovered;  ///< by frame: Picture::is_uncovered; empty if no metric uses it
-  std::optional<double> reference_ms;          ///< nothing for a file
-  std::optional<double> reference_processor_ms;
-  std::uint64_t reference_shaded = 0;
-  int turns = 0;       ///< turns of each method, if its time budget suffices
-  Place common_worst;  ///< the region of the greatest mean error over all methods
+  std::optional<Trial> reference_cost;         ///< without its image; nothing for a file
+  /// Root mean square over the pixels of its own estimate of its error, in linear light; nothing if it has none.
+  std::optional<double> reference_error;
+  const metrics::Metric* ranking = nullptr;  ///< the first metric of the options
+  int turns = 0;                             ///< turns of each method, if its time budget suffices
+  metrics::IgnoredRegions ignored;           ///< not measured
+  Place common_worst;                        ///< the region of the greatest mean error over all methods
   std::vector<Trial> trials;
 };
 
@@ -66,7 +76,8 @@ struct TrialOptions {
   std::string reference;
   bool is_reference_file = false;
   int turns = 3;
-  std::vector<metrics::Choice> metrics;
+  std::vector<metrics::Choice> metrics;  ///< the first one ranks
+  metrics::IgnoredRegions ignored = {};
 };
 
 /// A scene ready for rendering.
@@ -95,12 +106,22 @@ using TrialProgress = std::function<std::function<void(double)>(const std::strin
 SceneTrials run_trials(const TrialSetup& stage, const TrialOptions& options, const TrialProgress& progress);
 
 /// The FLIP error map of an image.
-Plane<float> flip_map(const Rgba8Image& reference, const Rgba8Image& test);
+Plane<float> flip_map(const Rgba8Image& reference, const Rgba8Image& test, const metrics::IgnoredRegions& ignored);
 
 /// The `count` squares with the greatest mean errors that do not overlap, in descending order.
 std::vector<Place> worst_places(const Plane<float>& error, int count);
 
-/// Marks the trials on the Pareto front of CPU time and FLIP.
-void find_front(std::vector<Trial>& trials);
+/// True if one value of a metric is better than another; any is better than none.
+bool is_better(const metrics::Metric& metric, std::optional<double> a, std::optional<double> b);
+
+/// True if no other point has both less CPU time and a better value, one of them strictly.
+struct CostPoint {
+  double cpu_ms = 0;
+  std::optional<double> value;
+};
+bool is_on_front(const CostPoint& own, std::span<const CostPoint> all, const metrics::Metric& metric);
+
+/// Marks the trials on the Pareto front of CPU time and a metric.
+void find_front(std::vector<Trial>& trials, const metrics::Metric& metric);
 
 }  // namespace zoneplate::cli

@@ -94,7 +94,7 @@ class PlotReader {
     curve.mark = static_cast<Curve::Mark>(whole_number(0, static_cast<int>(Curve::Mark::Area)));
     curve.color = whole_number(Curve::grey, 1000);
     curve.opacity = in_.value<double>();
-    curve.labels_are = static_cast<Curve::Beside>(whole_number(0, static_cast<int>(Curve::Beside::LeftBelow)));
+    curve.labels_are = static_cast<Curve::Beside>(whole_number(0, static_cast<int>(Curve::Beside::LeftAbove)));
     constexpr std::uint64_t most_points = 1 << 20;
     for (std::uint64_t n = count(most_points); n > 0; --n) {
       const double x = in_.value<double>(), y = in_.value<double>();
