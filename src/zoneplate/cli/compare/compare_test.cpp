@@ -405,12 +405,12 @@ TEST_F(CompareVerb, CountsTheCostOfAFrame) {
   EXPECT_LT(methods[2]["cpu_ms"].get<double>(), 4 * methods[1]["cpu_ms"].get<double>());
   const std::string text = text_of("out/compare.txt");
   EXPECT_TRUE(contains(text, "  MB  frames\n") || contains(text, " MB  frames\n")) << text;
-  // The first metric that is asked for ranks every output.
+  // The first metric of the command ranks every output.
   EXPECT_TRUE(contains(text, " PSNR dB  FLIP ×1000 ")) << text;
   EXPECT_TRUE(text_of("out/compare.csv").starts_with("scene,class,method,psnr,flip,frame_ms,"));
   EXPECT_TRUE(text_of("out/compare.md").starts_with("| method | mean PSNR dB | wires | FLIP ×1000 | samples/px |"));
   EXPECT_TRUE(contains(text_of("out/cost.svg"), "PSNR dB"));
-  // Sequences are ranked by JOD unless other metrics are asked for.
+  // Sequences are ranked by JOD unless the command names metrics.
   const ProgramAnswer film = run("compare passing-fence --aa none,taa --frames 3 -o film --json" + std::string(small));
   ASSERT_EQ(film.code, 0) << film.out;
   const auto sequence = parsed_json(film.out);

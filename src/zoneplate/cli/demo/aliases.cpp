@@ -94,13 +94,21 @@ Table kernel_table(const std::array<Reduction, 2>& measured) {
   for (const Reduction& r : measured) plates.push_back(zone_plate(r.from));
   for (const KernelEntry& entry : kernels()) {
     const Kernel kernel = make_kernel(entry.name);
-    std::vector<std::string>& row = table.rows.emplace_back(1, std::string(entry.name));
+    std::vector<std::string> row(1, std::string(entry.name));
     for (std::size_t i = 0; i < plates.size(); ++i) {
       const AliasFigures found = measure_aliases(plates[i], measured[i].to, measured[i].to, kernel);
       const AliasFigures expected = predict_aliases(kernel, measured[i].factor());
       for (const double db : {found.all_db, expected.all_db, found.far_db, expected.far_db})
         row.push_back(decibels(db));
     }
+    // Kernels of two names, such as lanczos and lanczos3, have one row.
+    const auto is_same = [&](const std::vector<std::string>& other) {
+      return std::equal(row.begin() + 1, row.end(), other.begin() + 1);
+    };
+    if (const auto same = std::ranges::find_if(table.rows, is_same); same != table.rows.end())
+      same->front() += ", " + row.front();
+    else
+      table.rows.push_back(std::move(row));
   }
   return table;
 }

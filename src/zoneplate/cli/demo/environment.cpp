@@ -272,29 +272,27 @@ Lesson make(const DemoSize& size, const Settings& settings) {
        "the "
        "irradiance."},
       {table_picture(side),
-       "The lobe's reflectance\nRoughness downwards, n·v to the right: the factor of f0 in red, what Fresnel adds in "
-       "green."},
+       "The lobe's reflectance\nDown: roughness from 0 to 1. Right: n·v from 0, grazing, to 1. Red is the factor of "
+       "f0, "
+       "green what Fresnel adds."},
       {shown(split),
        fmt::format("Split sum, roughness {}\nThe mean light of the lobe, times the table: two look-ups.", rough)},
       {shown(exact),
-       fmt::format("The integral itself\n{} directions a pixel. At grazing views the lobe is longer and dimmer than "
+       fmt::format("The integral itself\n{} directions per pixel. At grazing views the lobe is longer and dimmer than "
                    "the split sum's. Difference: {}\u00a0% of the mean.",
                    samples, number(100 * rms_difference(exact_luminance, split_luminance) / mean, 1))}};
-  std::string sides;
-  for (int level = 0; level < view.levels; ++level)
-    sides += fmt::format("{}{}", level > 0 ? ", " : "", view.side[level]);
   figure.text = fmt::format(
       "The light that a surface reflects is an integral over all directions. Two approximations turn it into look-ups. "
       "First, the lobe is that of a view along the normal, so that its mean light depends on the mirror direction and "
       "the roughness only; it is computed in advance for {} levels of roughness. The levels are cube maps, with faces "
-      "of "
-      "{} texels, and their texels are the control points of one spline, quadratic in direction and roughness. Second, "
+      "of {} to {} texels a side, and their texels are the control points of one spline, quadratic in direction and "
+      "roughness. Second, "
       "the mean of the product of light and reflectance is replaced by the product of their means (Karis 2013). The "
       "filter takes seconds, so that its result is kept in a file. A background blurred by the same lobe costs one "
       "look-up a pixel. (Errors of look-ups: root mean square over 32 directions, relative to 32,768 samples of the "
       "lobe "
       "each.)",
-      view.levels, sides);
+      view.levels, view.side[0], view.side[view.levels - 1]);
   return {.frames = {figure}};
 }
 

@@ -74,9 +74,10 @@ Lesson make(const DemoSize& size, const Settings& settings) {
       fmt::format("Filtered, then sampled\nThe same blur first: it removes high frequencies before they can fold. "
                   "Aliases {}.",
                   decibels(aliases[0], aliases[2]))};
-  const char* spectra[] = {"Its spectrum\nCopies of the original’s spectrum overlap: aliases everywhere.",
-                           "Its spectrum\nDarker outside, but the aliases near the centre remain.",
-                           "Its spectrum\nThe centre is that of the original."};
+  const char* spectra[] = {
+      "Spectrum of the sampled image\nCopies of the original’s spectrum overlap: aliases everywhere.",
+      "Spectrum: sampled, then filtered\nDarker outside, but the aliases near the centre remain.",
+      "Spectrum: filtered, then sampled\nThe centre is that of the original."};
   const int x = side * 44 / 100, y = side * 37 / 100;
   Figure figure{.title = "Filter before sampling: the order matters", .rows = {{}, {}, {}}};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -89,7 +90,9 @@ Lesson make(const DemoSize& size, const Settings& settings) {
       "A wheel of {} spokes, {} × {} pixels, reduced by a factor of {}; the filter is a Gaussian of σ = {} pixels of "
       "the "
       "small image. The frames mark the regions that are enlarged {} times. Aliases: the result for frequencies above "
-      "the small image’s Nyquist limit, relative to sampling alone ({}\u00a0% of white, root mean square).",
+      "the small image’s Nyquist limit, relative to sampling alone ({}\u00a0% of white, root mean square). Spectra: "
+      "frequency 0 in the middle, half a "
+      "cycle per pixel at the borders; bright is strong, from 0\u00a0dB (pale) to −100\u00a0dB (black).",
       spokes, large, large, step, number(sigma, 1), factor, number(100 * aliases[0], 2));
   return {.frames = {figure}};
 }

@@ -84,7 +84,7 @@ Lesson make(const DemoSize& size, const Settings&) {
                               fmt::format("{}, the camera pans\n{} Error {}\u00a0%.", cure.heading, cure.words,
                                           number(error_of(last, image), 2))});
   }
-  figure.rows.push_back({{table_picture(table, size.style(), 3 * size.panel + 2 * size.style().gap_px), ""}});
+  figure.rows.push_back({{table_picture(table, size.style(), size.panel), ""}});
   figure.text =
       "The sample moves by a Halton sequence of 16 points. Error: root mean square difference from the reference, of "
       "sRGB values, white being 100 %. In a scene at rest it falls as with that many samples in one frame, at the cost "

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Texture filters where a texture is reduced, on boards to the horizon, and where it is enlarged.
+// Texture filters where a texture is reduced, on a board to the horizon.
 #include <fmt/format.h>
 
 #include <array>
@@ -8,9 +8,7 @@
 #include "zoneplate/cli/demo/demo.h"
 #include "zoneplate/cli/demo/picture.h"
 #include "zoneplate/math/transform.h"
-#include "zoneplate/shade/texture/sample.h"
-#include "zoneplate/signal/filter/kernel.h"
-#include "zoneplate/signal/filter/resample.h"
+#include "zoneplate/signal/border.h"
 #include "zoneplate/signal/pattern/pattern.h"
 
 namespace zoneplate::cli {
@@ -69,7 +67,7 @@ void add_boards(const Scene& scene, int side, int crop_y, std::array<double, 8>&
   for (std::size_t half = 0; half < 2; ++half) {
     std::vector<Panel> pictures, crops;
     for (std::size_t i = 4 * half; i < 4 * half + 4; ++i) {
-      const std::string caption = i == 7 ? "1024 samples a pixel\nThe reference."
+      const std::string caption = i == 7 ? "1024 samples per pixel\nThe reference."
                                          : fmt::format("{}\n{} Error {}\u00a0%.", reduced[i].filter, reduced[i].meaning,
                                                        number(100 * all[i].error, 1));
       const int x = side / 2, y = crop_y;
@@ -81,58 +79,24 @@ void add_boards(const Scene& scene, int side, int crop_y, std::array<double, 8>&
   }
 }
 
-constexpr std::array<Row, 4> enlarged_by = {{{"bilinear", "Continuous, with creases along the rows of texels."},
-                                             {"catmull-rom", "Smooth and sharp; slight dark and light seams at edges."},
-                                             {"b-spline", "Smoothest, without seams, but blurred."},
-                                             {"mitchell", "Between both."}}};
+constexpr std::string_view boards[] = {"checkerboard", "bricks"};
+constexpr Param params[] = {{.name = "board", .meaning = "the texture", .value = 0, .names = boards}};
 
-/// A small image enlarged by each filter, against the image that it was reduced from.
-std::array<double, 4> add_enlarged(int side, Figure& figure) {
-  const int small = side / 9;
-  const LinearImage original = shoot(scene_of("teapot"), "ssaa:n=8", side, side);
-  const Texture texture(shown(resample(original, small, small, make_kernel("mitchell"))), TexelMeaning::Color);
-  std::array<double, 4> errors{};
-  std::vector<Panel> row;
-  for (std::size_t i = 0; i < enlarged_by.size(); ++i) {
-    const TextureFilter filter = parse_texture_filter(enlarged_by[i].filter);
-    const float step = 1 / static_cast<float>(side);
-    LinearImage image(side, side);
-    for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x) {
-        const float2 uv{(static_cast<float>(x) + 0.5f) * step, (static_cast<float>(y) + 0.5f) * step};
-        const float4 c = sample(texture, {}, filter, uv, {step, 0}, {0, step});
-        image(x, y) = {c.x, c.y, c.z, 1};
-      }
-    errors[i] = rms_difference(luminance_of(image), luminance_of(original));
-    row.push_back({shown(image), fmt::format("{}, enlarged 9 times\n{} Error {}\u00a0%.", enlarged_by[i].filter,
-                                             enlarged_by[i].meaning, number(100 * errors[i], 2))});
-  }
-  figure.rows.push_back(std::move(row));
-  return errors;
-}
-
-Lesson make(const DemoSize& size, const Settings&) {
+Lesson make(const DemoSize& size, const Settings& settings) {
   const int side = size.panel;
+  const bool has_bricks = settings.chosen("board") == "bricks";
+  const Rgba8Image wall = has_bricks ? shown(make_pattern("bricks")) : Rgba8Image();
   Figure figure{.title = "Texture filters: what a pixel takes of the texture under it"};
-  std::array<double, 8> checks{}, bricks{};
-  add_boards(board(nullptr), side, side * 45 / 100, checks, figure);
-  const Rgba8Image wall = shown(make_pattern("bricks"));
-  add_boards(board(&wall), side, side * 56 / 100, bricks, figure);
-  const auto enlarged_errors = add_enlarged(side, figure);
-
-  Table table{{"filter", "checkerboard", "bricks", "enlarged"}, {}};
-  const auto percent = [](double error) { return number(100 * error, 2) + " %"; };
+  std::array<double, 8> errors{};
+  add_boards(board(has_bricks ? &wall : nullptr), side, side * (has_bricks ? 56 : 45) / 100, errors, figure);
+  Table table{{"filter", "error"}, {}};
   for (std::size_t i = 0; i < reduced.size(); ++i)
-    table.rows.push_back({reduced[i].filter, percent(checks[i]), percent(bricks[i]),
-                          i == 1 ? percent(enlarged_errors[0]) : std::string("")});
-  for (std::size_t i = 1; i < enlarged_by.size(); ++i)
-    table.rows.push_back({enlarged_by[i].filter, "", "", percent(enlarged_errors[i])});
+    table.rows.push_back({reduced[i].filter, number(100 * errors[i], 2) + " %"});
   figure.text = fmt::format(
-      "Boards of {0} × {0} pixels, turned by 45°, one sample a pixel; the frames mark the regions that are enlarged "
-      "{1} "
-      "times. Errors: root mean square of the difference from 1024 samples a pixel in linear light, in percent of "
-      "white, "
-      "below the horizon; enlarged: from the image before it was reduced to a ninth.",
+      "A board of {0} × {0} pixels, turned by 45°, one sample per pixel; the frames mark the regions that are enlarged "
+      "{1} times. Errors: root mean square of the difference from 1024 samples per pixel in linear light, in percent "
+      "of "
+      "white, below the horizon. The lesson has two boards, board=checkerboard and board=bricks.",
       side, factor);
   return {.frames = {figure}, .tables = {table}};
 }
@@ -140,7 +104,7 @@ Lesson make(const DemoSize& size, const Settings&) {
 }  // namespace
 
 Demo demo_texture_filters() {
-  return {"texture-filters", "every texture filter on boards to the horizon, with its error", make};
+  return {"texture-filters", "every texture filter on a board to the horizon, with its error", make, params};
 }
 
 }  // namespace zoneplate::cli
