@@ -70,7 +70,7 @@ cp -R "$place/rendered/." "$OUTPUT/" || exit 1
 if [ "${UPDATE:-false}" = true ]; then
   [ "$failed" -eq 0 ] || fail 1 "not every model renders: no image is accepted"
   mkdir -p "$REFERENCES" && cp -R "$place/rendered/." "$REFERENCES/" || exit 1
-  echo "accepted in $REFERENCES: $(find "$place/rendered" -type f | wc -l) images"
+  echo "images accepted in $REFERENCES: $(find "$place/rendered" -type f | wc -l)"
 fi
 references=$place/none
 if [ -n "$(find "$REFERENCES" -type f -print -quit 2>/dev/null)" ]; then
