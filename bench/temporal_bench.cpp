@@ -67,11 +67,26 @@ void measure(benchmark::State& state, const std::string& scene_name, const std::
 }  // namespace zoneplate
 
 int main(int argc, char** argv) {
-  for (const std::string method :
-       {"taa", "taa:preset=karis", "taa:preset=inside", "taa:preset=salvi", "taa:preset=three", "taa:preset=playcanvas",
-        "taa:preset=bevy", "history-guided", "oracle-taa", "smaa:mode=t2x", "bilinear:scale=2", "lanczos:scale=2",
-        "sgsr1:scale=2", "nis:scale=2", "fsr1:scale=2", "fsr2:scale=2", "fsr3:scale=2", "sgsr2:scale=2",
-        "taau:scale=2"})
+  for (const std::string method : {"taa",
+                                   "taa:preset=karis",
+                                   "taa:preset=inside",
+                                   "taa:preset=salvi",
+                                   "taa:preset=three",
+                                   "taa:preset=playcanvas",
+                                   "taa:preset=bevy",
+                                   "history-guided",
+                                   "oracle-taa",
+                                   "smaa:mode=t2x",
+                                   "bilinear:scale=2",
+                                   "lanczos:scale=2",
+                                   "sgsr1:scale=2",
+                                   "nis:scale=2",
+                                   "fsr1:scale=2",
+                                   "fsr2:scale=2",
+                                   "fsr3:scale=2",
+                                   "sgsr2:scale=2",
+                                   "taau:scale=2",
+                                   "taau:scale=2,preset=karis"})
     for (const std::string scene : {"city", "panning-wires"})
       benchmark::RegisterBenchmark((scene + "/" + method).c_str(),
                                    [scene, method](benchmark::State& s) { zoneplate::measure(s, scene, method); })

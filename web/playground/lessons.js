@@ -100,7 +100,7 @@ export const lessons = [
     steps: [
       { text: 'Both images are rendered with a quarter of the pixels. A is enlarged by a filter. B accumulates jittered frames at the size of the image. Enlarge an edge, and change the scale.',
         state: { a: 'bilinear:scale=2', b: 'fsr2:scale=2', view: '6,249,30' }, knobs: [['a', 'scale'], ['b', 'scale']] },
-      { text: 'Wires that move, from a quarter of the pixels in each frame. TAAU (A) and FSR 3 (B) move the accumulated image along, and must decide which part of it is still valid: FSR 3 clamps it to the colours of the new pixels. Press Play.',
+      { text: 'Wires that move, from a quarter of the pixels in each frame. TAAU (A) and FSR 3 (B) move the accumulated image along, and must decide which part of it is still valid: FSR 3 clamps it to the colours of the new pixels, TAAU to those of the last frames too. Press Play.',
         state: { scene: 'panning-wires', a: 'taau:scale=2', b: 'fsr3:scale=2', frame: '12', layout: 'grid', size: '480x270' }, knobs: [['b', 'scale'], ['b', 'locks'], ['b', 'rectify']] },
     ],
   },

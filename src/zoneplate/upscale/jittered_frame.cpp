@@ -8,6 +8,7 @@
 #include "zoneplate/antialias/temporal/camera_motion.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/math/elementary.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::upscale {
@@ -40,6 +41,8 @@ ImageExtent frame_size(const FrameContext& context, double scale) {
   if (const auto& given = context.given) return {given->width, given->height, std::nullopt};
   return zoneplate::frame_size(context.image, scale);
 }
+
+float footprint_of(double scale, double bias) { return exp2(static_cast<float>(bias)) / static_cast<float>(scale); }
 
 SamplePosition sample_of(const FrameContext& context, SamplePosition planned) {
   return context.given && context.given->sample ? *context.given->sample : planned;

@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "zoneplate/base/spec.h"
 #include "zoneplate/render/method.h"
 
 namespace zoneplate::upscale {
@@ -11,6 +12,19 @@ namespace zoneplate::upscale {
 
 /// The size of the frame from which the image is made: that of the context's own frame, or the image's over `scale`.
 ImageExtent frame_size(const FrameContext& context, double scale);
+
+/// The parameter `bias`, with its default.
+constexpr Param bias_param(double value) {
+  return {.name = "bias",
+          .meaning = "mip levels by which textures are blurrier (negative: sharper) than the image's pixels require",
+          .value = value,
+          .low = -4,
+          .high = 2,
+          .decimals = 2};
+}
+
+/// The texture footprint that a scale and the parameter `bias` ask for: Request::footprint.
+float footprint_of(double scale, double bias);
 
 /// Where the frame is sampled in its pixels: as the context's own frame is, or at `planned`.
 SamplePosition sample_of(const FrameContext& context, SamplePosition planned);

@@ -30,7 +30,7 @@ constexpr std::array<Step, 9> steps = {
      {"smaa+nis:scale=2", "Filters along four directions, and sharpening of luma."},
      {"smaa+fsr1:scale=2",
       "A kernel that is turned and stretched along the edge, clamped to its neighbours; sharpened."},
-     {"taau:scale=2", "32 jittered frames of that size, accumulated where history agrees with its neighbours."},
+     {"taau:scale=2", "The mean of 32 jittered frames of that size: of all samples, by their distance."},
      {"fsr2:scale=2", "The same frames; details that history has and a frame lacks are locked."},
      {"fsr3:scale=2", "The same frames; history is kept where its luma is stable, and is softer at first."}}};
 

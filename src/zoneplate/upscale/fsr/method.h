@@ -21,13 +21,16 @@ inline float corner_of(const Camera& camera, float aspect) {
   return std::sqrt(1 + x * x + y * y);
 }
 
+/// Textures with a level of detail that is finer by 1 than the image's pixels require, as AMD recommends.
+inline constexpr Param fsr_bias_param = bias_param(-1);
+
 /// The resolver of FSR 2 or FSR 3: asks for frames jittered by their sequence, and accumulates them in a `Core`, which
 /// has the constructor Core(width, height, options) and accumulate(frame).
 template <class Core, class Options>
 class FsrMethod : public Resolver {
  public:
-  FsrMethod(std::string_view name, double scale, const Options& options)
-      : name_(name), scale_(scale), options_(options) {}
+  FsrMethod(std::string_view name, const Settings& settings, const Options& options)
+      : name_(name), scale_(settings.number("scale")), bias_(settings.number("bias")), options_(options) {}
 
   bool has_history() const override { return true; }
   Request request(const FrameContext& context) override {
@@ -43,7 +46,7 @@ class FsrMethod : public Resolver {
     request.samples = {sample_};
     request.planes.depth = request.planes.motion = true;
     request.frame = frame_;
-    request.footprint = 0.5f / static_cast<float>(scale_);  // AMD's recommendation: a level of detail finer by 1
+    request.footprint = footprint_of(scale_, bias_);
     request.settling_frames = phases;
     return request;
   }
@@ -62,7 +65,7 @@ class FsrMethod : public Resolver {
 
  private:
   std::string_view name_;
-  double scale_;
+  double scale_, bias_;
   Options options_;
   FrameContext context_;
   ImageExtent frame_;

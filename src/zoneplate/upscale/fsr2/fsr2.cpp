@@ -20,6 +20,7 @@ namespace {
 constexpr std::string_view switches[] = {"off", "on"};
 constexpr Param params[] = {
     scale_param,
+    fsr_bias_param,
     real_param("sharpness", "of the sharpening pass; 0: none", 0, 0, 1),
     real_param("exposure", "factor of the colours; 0: from the mean luminance", 0, 0, 1e6),
     {.name = "locks", .meaning = "thin features keep their history", .value = 1, .names = switches},
@@ -41,7 +42,7 @@ Upscaler fsr2() {
             const auto is_on = [&](std::string_view name) { return s.chosen(name) == "on"; };
             const auto sharpness = static_cast<float>(s.number("sharpness"));
             return std::make_unique<FsrMethod<Fsr2, Fsr2Options>>(
-                "fsr2", s.number("scale"),
+                "fsr2", s,
                 Fsr2Options{.sharpens = sharpness > 0,
                             .sharpness = sharpness,
                             .locks = is_on("locks"),

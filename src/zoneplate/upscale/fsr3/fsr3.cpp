@@ -25,6 +25,7 @@ namespace {
 constexpr std::string_view switches[] = {"off", "on"};
 constexpr Param params[] = {
     scale_param,
+    fsr_bias_param,
     real_param("sharpness", "of the sharpening pass; 0: none", 0, 0, 1),
     real_param("exposure", "factor of the colours; 0: from the mean luminance", 0, 0, 1e6),
     {.name = "locks", .meaning = "thin features keep their history", .value = 1, .names = switches},
@@ -43,7 +44,7 @@ Upscaler fsr3() {
           .make_temporal = [](const Settings& s) -> std::unique_ptr<Resolver> {
             const auto is_on = [&](std::string_view name) { return s.chosen(name) == "on"; };
             const auto number = [&](std::string_view name) { return static_cast<float>(s.number(name)); };
-            return std::make_unique<FsrMethod<Fsr3, Fsr3Options>>("fsr3", s.number("scale"),
+            return std::make_unique<FsrMethod<Fsr3, Fsr3Options>>("fsr3", s,
                                                                   Fsr3Options{.sharpens = number("sharpness") > 0,
                                                                               .sharpness = number("sharpness"),
                                                                               .locks = is_on("locks"),

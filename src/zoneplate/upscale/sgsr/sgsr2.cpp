@@ -51,7 +51,7 @@ float sgsr2_depth(const Camera& camera, float distance) {
 
 class Sgsr2Method : public Resolver {
  public:
-  explicit Sgsr2Method(double scale) : scale_(scale) {}
+  Sgsr2Method(double scale, double bias) : scale_(scale), bias_(bias) {}
 
   bool has_history() const override { return true; }
   Request request(const FrameContext& context) override {
@@ -65,7 +65,7 @@ class Sgsr2Method : public Resolver {
     request.samples = {sample_};
     request.planes.depth = request.planes.motion = true;
     request.frame = frame_ = frame_size(context, scale_);
-    request.footprint = 1 / static_cast<float>(scale_);
+    request.footprint = footprint_of(scale_, bias_);
     request.settling_frames = Sgsr2::phases;
     return request;
   }
@@ -111,14 +111,14 @@ class Sgsr2Method : public Resolver {
   }
 
  private:
-  double scale_;
+  double scale_, bias_;
   FrameContext context_;
   ImageExtent frame_;
   SamplePosition sample_;
   std::optional<Sgsr2> sgsr2_;
 };
 
-constexpr Param sgsr2_params[] = {scale_param};
+constexpr Param sgsr2_params[] = {scale_param, bias_param(0)};
 
 }  // namespace
 
@@ -128,7 +128,7 @@ Upscaler sgsr2() {
           .source = "Qualcomm 2024, snapdragon-gsr v2, two compute passes",
           .params = sgsr2_params,
           .make_temporal = [](const Settings& s) -> std::unique_ptr<Resolver> {
-            return std::make_unique<Sgsr2Method>(s.number("scale"));
+            return std::make_unique<Sgsr2Method>(s.number("scale"), s.number("bias"));
           }};
 }
 

@@ -1,18 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// Temporal antialiasing that upsamples (TAAU), as in Unreal Engine 4.19 to 4.27: the parts of `taa:preset=karis` at the
-// output's resolution. An output pixel's current colour is the mean of the frame's 3 × 3 samples around it, by a kernel
-// of one output pixel's radius; the sum of the weights is the factor of the frame's share, so that a pixel far from
-// every sample keeps its history. History is clamped to the range of the samples within 1.3 to 1.51 frame pixels.
+// Temporal antialiasing that upsamples (TAAU): jittered frames of fewer pixels than the image are accumulated at the
+// image's resolution.
 //
-// Left out: responsive materials, the flag that removes ghosts of moving objects before a background at rest, the wider
-// kernel after rejection, which is of its supersampling mode, and dithering. Weaknesses: details of which a frame has
-// no sample are clamped away, thin lines flicker; at 2 × a pixel's history is a mean of some 90 frames, so that after a
-// cut the frame's own resolution stays visible for a second.
+// `preset=best` makes every pixel the mean of all samples that it has had, in linear light, with Gaussian weights by
+// their distance, and counts them by the sum of the weights (sample_mean.h), as Yang et al. count frames. History is
+// moved by the nearest of 3 × 3 surfaces, filtered by Catmull-Rom, and clamped to the extremes of 3 × 3 samples, which
+// are kept over some eight frames where the surfaces around move as one. Where eight tenths of 7 × 7 samples leave
+// these extremes in one direction, the light has changed, and the mean begins anew; where the samples differ from the
+// history by the same sign for some frames, it fades. Weaknesses: where edges between motions are as close as the
+// frame's pixels, only the extremes of one frame remain, and thin things are clamped away; light that changes in less
+// than 7 × 7 pixels is followed over some eight frames; the first frames after a cut are single samples, blurred.
+//
+// `preset=karis` has the parts of `taa:preset=karis` at the image's resolution, as Unreal Engine 4.19 to 4.27. A
+// pixel's current colour is the mean of the frame's 3 × 3 samples around it, by a kernel of one pixel's radius; the sum
+// of the weights is the factor of the frame's share, so that a pixel far from every sample keeps its history. History
+// is clamped to the range of the samples within 1.3 to 1.51 frame pixels. Left out: responsive materials, the flag that
+// removes ghosts of moving objects before a background at rest, the wider kernel after rejection, which is of its
+// supersampling mode, and dithering. Weaknesses: details of which a frame has no sample are clamped away, thin lines
+// flicker; at 2 × a pixel's history is a mean of some 90 frames, so that after a cut the frame's own resolution stays
+// visible for a second.
 //
 // A crop renders the whole image, since motion may bring any pixel into it.
 //
 // Source: Karis, High-Quality Temporal Supersampling, SIGGRAPH 2014 course; Unreal Engine 4.2x, TemporalAA.usf, pass
-// MainUpsampling at high quality.
+// MainUpsampling at high quality. Counts of samples: Yang et al., Amortized Supersampling, SIGGRAPH Asia 2009; Yang,
+// Liu and Salvi, A Survey of Temporal Antialiasing Techniques, Eurographics 2020.
 #include <algorithm>
 #include <limits>
 #include <optional>
@@ -20,15 +32,18 @@
 
 #include "zoneplate/signal/samples.h"
 #include "zoneplate/upscale/jittered_frame.h"
+#include "zoneplate/upscale/taau/sample_mean.h"
 #include "zoneplate/upscale/taau/taau_core.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::upscale {
 namespace {
 
+/// Asks for jittered frames, and accumulates them in a `Core`: Taau or SampleMean.
+template <class Core>
 class TaauMethod : public Resolver {
  public:
-  explicit TaauMethod(double scale) : scale_(scale), jitter_(halton_sequence(phases(scale))) {}
+  TaauMethod(double scale, double bias) : scale_(scale), bias_(bias), jitter_(halton_sequence(phases(scale))) {}
 
   bool has_history() const override { return true; }
   Request request(const FrameContext& context) override {
@@ -38,14 +53,14 @@ class TaauMethod : public Resolver {
     request.samples = {sample_};
     request.planes.depth = request.planes.motion = true;
     request.frame = frame_size(context, scale_);
-    request.footprint = 1 / static_cast<float>(scale_);
-    request.settling_frames = 8 * static_cast<int>(jitter_.size());  // the first frame's share is then 6 %
+    request.footprint = footprint_of(scale_, bias_);
+    request.settling_frames = Core::settling_periods * static_cast<int>(jitter_.size());
     return request;
   }
 
   LinearImage resolve(Frame& frame) override {
     const ImageExtent& image = context_.image;
-    if (context_.is_first || !taau_) taau_.emplace(image.width, image.height);
+    if (context_.is_first || !core_) core_.emplace(image.width, image.height);
     complete_background(frame, context_, sample_, std::numeric_limits<float>::infinity());
     const int width = frame.color.width(), height = frame.color.height();
     TaauInput input{.color = over_background(std::move(frame.color), frame.display, "taau"),
@@ -56,31 +71,37 @@ class TaauMethod : public Resolver {
                     .is_first = context_.is_first};
     std::ranges::transform(frame.motion.values(), input.motion_x.values().begin(), &float2::x);
     std::ranges::transform(frame.motion.values(), input.motion_y.values().begin(), &float2::y);
-    return cropped(taau_->accumulate(input), image.crop);
+    return cropped(core_->accumulate(input), image.crop);
   }
 
  private:
   /// 8 samples per output pixel.
   static int phases(double scale) { return std::max(static_cast<int>(8 * scale * scale), 1); }
 
-  double scale_;
+  double scale_, bias_;
   SamplePattern jitter_;
   FrameContext context_;
   SamplePosition sample_;
-  std::optional<Taau> taau_;
+  std::optional<Core> core_;
 };
 
-constexpr Param taau_params[] = {scale_param};
+constexpr std::string_view presets[] = {"best", "karis"};
+constexpr Param taau_params[] = {
+    scale_param,
+    bias_param(0),
+    {.name = "preset", .meaning = "mean of counted samples, or the shares of Unreal Engine 4", .names = presets}};
 
 }  // namespace
 
 Upscaler taau() {
   return {.name = "taau",
-          .summary = "temporal antialiasing that upsamples: jittered frames, weighed by distance to the output pixels",
-          .source = "Karis 2014; Unreal Engine 4, TemporalAA.usf, MainUpsampling",
+          .summary = "temporal antialiasing that upsamples: the mean of jittered samples, weighed by distance",
+          .source = "Karis 2014; Yang et al. 2009; preset karis: Unreal Engine 4, TemporalAA.usf",
           .params = taau_params,
           .make_temporal = [](const Settings& s) -> std::unique_ptr<Resolver> {
-            return std::make_unique<TaauMethod>(s.number("scale"));
+            const double scale = s.number("scale"), bias = s.number("bias");
+            if (s.chosen("preset") == "karis") return std::make_unique<TaauMethod<Taau>>(scale, bias);
+            return std::make_unique<TaauMethod<SampleMean>>(scale, bias);
           },
           .is_specification_only = true};
 }

@@ -7,27 +7,10 @@
 
 #include "zoneplate/antialias/temporal/resolve.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/upscale/taau/taau_axis.h"
 #include "zoneplate/upscale/taau/taau_row.h"
 
 namespace zoneplate::upscale {
-namespace {
-
-/// The samples around output pixels along one axis.
-struct TaauAxis {
-  std::vector<std::int32_t> around[3];  ///< pixels of the frame
-  std::vector<float> offset;            ///< of the output pixel's centre from the middle sample
-
-  TaauAxis(int to, int from, float jitter) {
-    for (int o = 0; o < to; ++o) {
-      const float place = (static_cast<float>(o) + 0.5f) * static_cast<float>(from) / static_cast<float>(to) + jitter;
-      const float floored = std::floor(place);
-      for (int k = 0; k < 3; ++k) around[k].push_back(std::clamp(static_cast<int>(floored) + k - 1, 0, from - 1));
-      offset.push_back(place - floored - 0.5f);
-    }
-  }
-};
-
-}  // namespace
 
 LinearImage Taau::accumulate(const TaauInput& frame) {
   const int frame_width = frame.color.width(), frame_height = frame.color.height();

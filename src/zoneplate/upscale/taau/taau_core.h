@@ -15,12 +15,15 @@ struct TaauInput {
   bool is_first = true;             ///< after a cut: the history is dropped
 };
 
-/// Temporal antialiasing that upsamples: jittered samples are accumulated at the output's resolution, each with a
-/// weight by its distance from the output pixel's centre.
+/// Temporal antialiasing that upsamples as in Unreal Engine 4: jittered samples are accumulated at the output's
+/// resolution, each with a weight by its distance from the output pixel's centre.
 ///
 /// Exact     the same bits for any number of threads and any instruction set; one colour stays that colour.
 class Taau {
  public:
+  /// The frames after which a still image has settled, in periods of the jitter: the first frame's share is then 6 %.
+  static constexpr int settling_periods = 8;
+
   Taau(int width, int height) : width_(width), height_(height) {}
 
   /// The output after one more frame: scene-linear, of the size given to the constructor.

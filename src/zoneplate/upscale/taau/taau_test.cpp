@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <functional>
 
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
@@ -11,42 +10,16 @@
 #include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/scene/fit.h"
 #include "zoneplate/upscale/taau/taau_core.h"
+#include "zoneplate/upscale/taau/taau_frames_for_test.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::upscale {
 namespace {
 
-constexpr int width = 40, height = 30;
-using Light = std::function<float(float x, float y)>;  // of positions in frame pixels
-
-/// A frame of a plane that moves by `motion` frame pixels a frame.
-TaauInput frame_of(const Light& light, int index, float2 motion = {0, 0}) {
-  static const SamplePattern halton = halton_sequence(32);
-  const SamplePosition at = halton[static_cast<std::size_t>(index) % halton.size()];
-  TaauInput frame{.color = LinearImage(width, height),
-                  .nearness = Plane<float>(width, height, 0.5f),
-                  .motion_x = Plane<float>(width, height, motion.x),
-                  .motion_y = Plane<float>(width, height, motion.y),
-                  .jitter = {(128 - at.x) / 256.0f, (128 - at.y) / 256.0f},
-                  .is_first = index == 0};
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
-      const float v = light(static_cast<float>(x) + 0.5f - frame.jitter.x - static_cast<float>(index) * motion.x,
-                            static_cast<float>(y) + 0.5f - frame.jitter.y - static_cast<float>(index) * motion.y);
-      frame.color(x, y) = {v, 0.5f * v, 0.25f * v, 1};
-    }
-  return frame;
-}
-
-LinearImage after(int frames, const Light& light, float2 motion = {0, 0}) {
-  Taau taau(2 * width, 2 * height);
-  LinearImage image;
-  for (int i = 0; i < frames; ++i) image = taau.accumulate(frame_of(light, i, motion));
-  return image;
-}
+using namespace taau_frames;
 
 TEST(Taau, OneColourStaysThatColour) {
-  const LinearImage image = after(5, [](float, float) { return 0.3f; }, {0.3f, -1.7f});
+  const LinearImage image = after<Taau>(5, [](double, double, int) { return 0.3; }, {0.3f, -1.7f});
   for (const Linear& c : image.values()) ASSERT_EQ(c, (Linear{0.3f, 0.15f, 0.075f, 1}));
 }
 
@@ -61,16 +34,16 @@ TEST(Taau, AnEdgeGetsTheResolutionOfTheOutput) {
     }
     return sum;
   };
-  const Light edge = [](float x, float y) { return x + 0.3f * y > 24 ? 0.8f : 0.1f; };
-  EXPECT_LT(error(after(256, edge)), 0.5 * error(after(1, edge)));
+  const LightAt edge = [](double x, double y, int) { return x + 0.3 * y > 24 ? 0.8 : 0.1; };
+  EXPECT_LT(error(after<Taau>(256, edge)), 0.5 * error(after<Taau>(1, edge)));
 }
 
 TEST(Taau, SameBitsOnEveryInstructionSet) {
-  const Light lines = [](float x, float y) { return std::sin(2 * x + 0.9f * y) > 0.6f ? 2.0f : 0.1f; };
-  const LinearImage expected = with_isa(Isa::Scalar, [&] { return after(4, lines, {0.4f, -0.3f}); });
+  const LightAt lines = [](double x, double y, int) { return std::sin(2 * x + 0.9 * y) > 0.6 ? 2.0 : 0.1; };
+  const LinearImage expected = with_isa(Isa::Scalar, [&] { return after<Taau>(4, lines, {0.4f, -0.3f}); });
   for (const Isa isa : supported_isas())
     with_isa(isa, [&] {
-      with_threads(3, [&] { EXPECT_EQ(after(4, lines, {0.4f, -0.3f}), expected) << name_of(isa); });
+      with_threads(3, [&] { EXPECT_EQ(after<Taau>(4, lines, {0.4f, -0.3f}), expected) << name_of(isa); });
     });
 }
 

@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/upscale/taau/sample_mean.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "zoneplate/antialias/temporal/resolve.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/math/elementary.h"
+#include "zoneplate/upscale/taau/sample_mean_rows.h"
+#include "zoneplate/upscale/taau/taau_axis.h"
+
+namespace zoneplate::upscale {
+namespace {
+
+/// The samples that count at most, by the sum of their weights: 190 frames at scale 2.
+constexpr float most_samples = 64;
+/// The same of a history that lies between pixels, and is filtered in every frame: a longer one is blurred more than it
+/// is worth. In a slow pan of `panning-wires` over 72 frames 3 samples, or 9 frames at scale 2, have the highest PSNR.
+constexpr float most_filtered_samples = 3, most_filtered_frames = 8;
+/// The same of a history that follows the surface beside, which drags the colours behind it along.
+constexpr float most_borrowed_samples = 1, most_borrowed_frames = 3;
+/// The sum of the weights of a frame's samples is π / 2.29 per frame pixel.
+constexpr float weight_of_frame = 1.372f;
+
+void for_rows_of(int height, const std::function<void(int)>& body) {
+  parallel_ranges(static_cast<std::size_t>(height), 16, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t y = begin; y < end; ++y) body(static_cast<int>(y));
+  });
+}
+
+std::vector<float> whole_numbers(int count) {
+  std::vector<float> out(static_cast<std::size_t>(count));
+  std::iota(out.begin(), out.end(), 0.0f);
+  return out;
+}
+
+const float* floats_of(const LinearImage& image) { return &image.values().data()->r; }
+float* floats_of(LinearImage& image, int y) { return &image.row(y).data()->r; }
+const float* floats_of(const LinearImage& image, int y) { return &image.row(y).data()->r; }
+
+/// Marks the 7 × 7 windows in which eight tenths of the changes have one sign: there the light has changed at once.
+/// Jitter brings edges and thin things, of either sign, to fewer of a window's samples. Two pixels around a window are
+/// marked too: there the new light may be one that the last frames had beside. Beyond the frame, its outermost pixels
+/// go on.
+Plane<float> restarts_of(const Plane<float>& change) {
+  constexpr int reach = 3, side = 2 * reach + 1, enough = 40, marked = reach + 2;
+  const int width = change.width(), height = change.height();
+  // Sums over rectangles that begin at (0, 0) of the plane with a border; windows are named by their first pixel there,
+  // which is three pixels before that of their middle in the frame.
+  Plane<int> sums(width + side, height + side), windows(width + 1, height + 1);
+  for (int y = 0; y + 1 < sums.height(); ++y)
+    for (int x = 0; x + 1 < sums.width(); ++x) {
+      const float own = change(std::clamp(x - reach, 0, width - 1), std::clamp(y - reach, 0, height - 1));
+      sums(x + 1, y + 1) = static_cast<int>(own) + sums(x, y + 1) + sums(x + 1, y) - sums(x, y);
+    }
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const int sum = sums(x + side, y + side) - sums(x, y + side) - sums(x + side, y) + sums(x, y);
+      if (std::abs(sum) < enough) continue;
+      const int left = std::max(x - marked, 0), right = std::min(x + marked + 1, width);
+      const int top = std::max(y - marked, 0), bottom = std::min(y + marked + 1, height);
+      ++windows(left, top), ++windows(right, bottom), --windows(right, top), --windows(left, bottom);
+    }
+  // The number of windows over each pixel is the sum of what begins and ends before it.
+  Plane<float> out(width, height);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      if (x > 0) windows(x, y) += windows(x - 1, y);
+      if (y > 0) windows(x, y) += windows(x, y - 1);
+      if (x > 0 && y > 0) windows(x, y) -= windows(x - 1, y - 1);
+      out(x, y) = windows(x, y) > 0 ? 1.0f : 0.0f;
+    }
+  return out;
+}
+
+}  // namespace
+
+/// The range of the motions that brought surfaces of each pixel of the last frame into this one: the least and the
+/// greatest along x, and along y; and their greatest reversed depth, as of this frame. A pixel whose surfaces all went
+/// out of sight has an empty range.
+struct SampleMean::Motions {
+  Plane<float> side[4], nearest;
+
+  explicit Motions(const TaauInput& frame) {
+    const int width = frame.motion_x.width(), height = frame.motion_x.height();
+    constexpr float infinity = std::numeric_limits<float>::infinity();
+    for (int k = 0; k < 4; ++k) side[k] = Plane<float>(width, height, k % 2 == 0 ? infinity : -infinity);
+    nearest = Plane<float>(width, height, -infinity);
+    for (int y = 0; y < height; ++y)
+      for (int x = 0; x < width; ++x) {
+        const float motion[2] = {frame.motion_x(x, y), frame.motion_y(x, y)};
+        const float from_x = std::floor(static_cast<float>(x) - motion[0] + 0.5f);
+        const float from_y = std::floor(static_cast<float>(y) - motion[1] + 0.5f);
+        if (!(from_x >= 0 && from_y >= 0 && from_x < static_cast<float>(width) && from_y < static_cast<float>(height)))
+          continue;
+        const int u = static_cast<int>(from_x), v = static_cast<int>(from_y);
+        nearest(u, v) = std::max(nearest(u, v), frame.nearness(x, y));
+        for (int k = 0; k < 4; ++k) {
+          float& limit = side[k](u, v);
+          limit = k % 2 == 0 ? std::min(limit, motion[k / 2]) : std::max(limit, motion[k / 2]);
+        }
+      }
+  }
+};
+
+/// Widens the boxes of this frame by those of the last one where they hold too, and finds how much history counts.
+void SampleMean::find_kept(const TaauInput& frame, const LinearImage& color, const Motions& moved, Boxes& now,
+                           Followed& followed) const {
+  const int width = color.width(), height = color.height();
+  const auto pixels = static_cast<std::size_t>(width);
+  const std::vector<float> column = whole_numbers(width);
+  Plane<float> is_uncovered(width, height), is_steady(width, height), change(width, height);
+  for_rows_of(height, [&](int y) {
+    CompareRow row{.color = floats_of(color, y),
+                   .nearest = followed.nearest.row(y).data(),
+                   .follow_x = followed.x.row(y).data(),
+                   .follow_y = followed.y.row(y).data(),
+                   .is_alike = now.alike.row(y).data(),
+                   .column = column.data(),
+                   .y = y,
+                   .moved_nearest = moved.nearest.values().data(),
+                   .past_alike = past_.alike.values().data(),
+                   .past_low = floats_of(past_.low),
+                   .past_high = floats_of(past_.high),
+                   .past_trend = past_.trend.values().data(),
+                   .width = width,
+                   .height = height,
+                   .history = floats_of(history_),
+                   .history_width = width_,
+                   .history_height = height_,
+                   .scale = {static_cast<float>(width_) / static_cast<float>(width),
+                             static_cast<float>(height_) / static_cast<float>(height)},
+                   .sample = {0.5f - frame.jitter.x, 0.5f - frame.jitter.y},
+                   .is_uncovered = is_uncovered.row(y).data(),
+                   .is_steady = is_steady.row(y).data(),
+                   .change = change.row(y).data(),
+                   .trend = now.trend.row(y).data()};
+    for (int k = 0; k < 4; ++k) row.moved[k] = moved.side[k].values().data();
+    SampleMeanKernels::of().compare(row, pixels);
+  });
+  const Plane<float> restarts = restarts_of(change);
+  for_rows_of(height, [&](int y) {
+    const WidenRow row{.follow_x = followed.x.row(y).data(),
+                       .follow_y = followed.y.row(y).data(),
+                       .is_steady = is_steady.row(y).data(),
+                       .is_uncovered = is_uncovered.row(y).data(),
+                       .restarts = restarts.row(y).data(),
+                       .column = column.data(),
+                       .y = y,
+                       .trend = now.trend.values().data(),
+                       .past_low = floats_of(past_.low),
+                       .past_high = floats_of(past_.high),
+                       .width = width,
+                       .height = height,
+                       .low = floats_of(now.low, y),
+                       .high = floats_of(now.high, y),
+                       .kept = followed.kept.row(y).data()};
+    SampleMeanKernels::of().widen(row, pixels);
+  });
+  // The trend of another light would let the next change pass.
+  for (std::size_t i = 0; i < restarts.values().size(); ++i)
+    if (restarts.values()[i] > 0) now.trend.values()[i] = 0;
+}
+
+LinearImage SampleMean::resolved(const TaauInput& frame, const LinearImage& color, const Boxes& now,
+                                 const Followed& followed) {
+  const TaauAxis columns(width_, color.width(), frame.jitter.x), rows(height_, color.height(), frame.jitter.y);
+  const bool is_first = history_.empty();
+  const float scale_x = static_cast<float>(width_) / static_cast<float>(color.width());
+  const float scale_y = static_cast<float>(height_) / static_cast<float>(color.height());
+  const float frame_weight = weight_of_frame / (scale_x * scale_y);
+  const SampleMeanFrame common{.width = width_,
+                               .height = height_,
+                               .is_first = is_first,
+                               .scale = {scale_x, scale_y},
+                               .most = most_samples,
+                               .most_filtered = std::max(most_filtered_samples, most_filtered_frames * frame_weight),
+                               .most_borrowed = std::max(most_borrowed_samples, most_borrowed_frames * frame_weight),
+                               .history = is_first ? nullptr : floats_of(history_),
+                               .count = count_.values().data()};
+  // exp(-2.29 d²), with d in output pixels: a Gaussian near to the Blackman-Harris window of Karis 2014, by axis.
+  const auto weight = [](float offset, int k, float scale) {
+    const float d = (static_cast<float>(k - 1) - offset) * scale;
+    return exp(-2.29f * (d * d));
+  };
+  std::vector<float> weights[3];
+  for (int k = 0; k < 3; ++k)
+    for (const float offset : columns.offset) weights[k].push_back(weight(offset, k, common.scale[0]));
+  const std::vector<float> column = whole_numbers(width_);
+  LinearImage out(width_, height_);
+  Plane<float> count(width_, height_);
+  for_rows_of(height_, [&](int y) {
+    const auto i = static_cast<std::size_t>(y);
+    const int middle = rows.around[1][i];
+    SampleMeanRow row{.low = floats_of(now.low, middle),
+                      .high = floats_of(now.high, middle),
+                      .follow_x = followed.x.row(middle).data(),
+                      .follow_y = followed.y.row(middle).data(),
+                      .is_borrowed = followed.borrowed.row(middle).data(),
+                      .kept = followed.kept.row(middle).data(),
+                      .column = column.data(),
+                      .y = y,
+                      .resolved = floats_of(out, y),
+                      .count = count.row(y).data()};
+    for (int k = 0; k < 3; ++k) {
+      row.color[k] = floats_of(color, rows.around[k][i]);
+      row.columns[k] = columns.around[k].data(), row.weight_x[k] = weights[k].data();
+      row.weight_y[k] = weight(rows.offset[i], k, common.scale[1]);
+    }
+    SampleMeanKernels::of().resolve(common, row, column.size());
+  });
+  count_ = std::move(count);
+  return out;
+}
+
+LinearImage SampleMean::accumulate(const TaauInput& frame) {
+  const int width = frame.color.width(), height = frame.color.height();
+  const auto pixels = static_cast<std::size_t>(width);
+  if (frame.is_first) history_ = {};
+  LinearImage color(width, height);
+  for_rows_of(height, [&](int y) {
+    antialias::TemporalKernels::of().limit(floats_of(frame.color, y), floats_of(color, y), pixels);
+  });
+  const auto plane = [&] { return Plane<float>(width, height); };
+  Followed followed{plane(), plane(), plane(), plane(), plane()};
+  Boxes now{LinearImage(width, height), LinearImage(width, height), plane(), plane()};
+  const std::vector<float> column = whole_numbers(width);
+  for_rows_of(height, [&](int y) {
+    const SurveyRow row{.color = floats_of(color),
+                        .nearness = frame.nearness.values().data(),
+                        .motion_x = frame.motion_x.values().data(),
+                        .motion_y = frame.motion_y.values().data(),
+                        .width = width,
+                        .height = height,
+                        .column = column.data(),
+                        .y = y,
+                        .low = floats_of(now.low, y),
+                        .high = floats_of(now.high, y),
+                        .nearest = followed.nearest.row(y).data(),
+                        .follow_x = followed.x.row(y).data(),
+                        .follow_y = followed.y.row(y).data(),
+                        .is_alike = now.alike.row(y).data(),
+                        .is_borrowed = followed.borrowed.row(y).data()};
+    SampleMeanKernels::of().survey(row, pixels);
+  });
+  if (!history_.empty()) find_kept(frame, color, Motions(frame), now, followed);
+  LinearImage out = resolved(frame, color, now, followed);
+  history_ = out;
+  past_ = std::move(now);
+  return out;
+}
+
+}  // namespace zoneplate::upscale

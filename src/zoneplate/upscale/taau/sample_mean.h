@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "zoneplate/image/rgb.h"
+#include "zoneplate/upscale/taau/taau_core.h"
+
+namespace zoneplate::upscale {
+
+/// Temporal antialiasing that upsamples: every output pixel is the mean of all samples that it has had, each with a
+/// Gaussian weight by its distance, and knows the sum of these weights.
+///
+/// History is clamped to the extremes of the 3 × 3 samples of this frame and, where surfaces move as one, of the frames
+/// before, whose extremes fade. Where the light changes, at once or slowly, it counts less or not at all; and where a
+/// nearer surface has left, none does.
+///
+/// Exact     the same bits for any number of threads and any instruction set; one colour stays that colour.
+class SampleMean {
+ public:
+  /// The frames after which a still image has settled, in periods of the jitter.
+  static constexpr int settling_periods = 1;
+
+  SampleMean(int width, int height) : width_(width), height_(height) {}
+
+  /// The output after one more frame: scene-linear, of the size given to the constructor.
+  ///
+  /// Requires  frames of one size, at most the output's, until the next one that is first.
+  LinearImage accumulate(const TaauInput& frame);
+
+ private:
+  /// What is known of each pixel of a frame.
+  struct Boxes {
+    LinearImage low, high;  ///< the extremes that history is clamped to
+    Plane<float> alike;     ///< 1 where the surfaces around move as one
+    Plane<float> trend;     ///< the mean over few frames of the sign of sample minus history
+  };
+  /// The surfaces whose motion history follows, and how much of it counts.
+  struct Followed {
+    Plane<float> nearest;  ///< reversed depth
+    Plane<float> x, y, kept;
+    Plane<float> borrowed;  ///< 1 where they are not the pixels' own
+  };
+  struct Motions;
+
+  void find_kept(const TaauInput& frame, const LinearImage& color, const Motions& moved, Boxes& now,
+                 Followed& followed) const;
+  LinearImage resolved(const TaauInput& frame, const LinearImage& color, const Boxes& now, const Followed& followed);
+
+  int width_, height_;
+  LinearImage history_;
+  Plane<float> count_;  ///< the sum of the weights of a pixel's samples
+  Boxes past_;
+};
+
+}  // namespace zoneplate::upscale
