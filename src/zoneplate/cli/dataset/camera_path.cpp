@@ -7,27 +7,15 @@
 #include "zoneplate/signal/functions.h"
 
 namespace zoneplate::cli {
-namespace {
 
-struct Pose {
-  Camera camera;
-  float3 focus;
-  float distance;
-};
-
-/// The camera as a perspective one, and the point at which its height of view is that of an orthographic one.
-Pose pose_of(const Camera& camera, float distance) {
-  const float3 eye = xyz(camera.world_from_camera.column[3]), forward = -xyz(camera.world_from_camera.column[2]);
-  Pose pose{camera, {}, distance};
-  pose.focus = eye + forward * pose.distance;
-  if (!camera.is_orthographic) return pose;
+Camera as_perspective(const Camera& camera, float distance) {
+  Camera out = camera;
+  if (!camera.is_orthographic) return out;
   // Of a parallel projection the scene lies anywhere before the camera, so that the eye stays where it is.
-  pose.camera.is_orthographic = false;
-  pose.camera.vertical_fov = 2 * atan2(camera.half_height, distance);
-  return pose;
+  out.is_orthographic = false;
+  out.vertical_fov = 2 * atan2(camera.half_height, distance);
+  return out;
 }
-
-}  // namespace
 
 CameraPath::CameraPath(std::uint32_t seed, std::uint32_t sequence) {
   std::uint32_t dimension = 0;
@@ -42,17 +30,21 @@ CameraPath::CameraPath(std::uint32_t seed, std::uint32_t sequence) {
 }
 
 Camera CameraPath::at(const Camera& camera, float distance, int frame) const {
-  Pose pose = pose_of(camera, distance);
-  if (yaw_ == 0) return pose.camera;
+  if (yaw_ == 0) return camera;
+  Camera out = camera;
   const auto wave = [&](float amplitude, double phase) {
     return amplitude * static_cast<float>(sin_pi(2 * (phase + rate_ * frame)));
   };
-  float4x4& world_from_camera = pose.camera.world_from_camera;
+  const float dolly = wave(dolly_, dolly_phase_);
+  float4x4& world_from_camera = out.world_from_camera;
+  const float3 eye = xyz(world_from_camera.column[3]), forward = -xyz(world_from_camera.column[2]);
+  const float3 focus = eye + forward * distance;
   const float3 up = xyz(world_from_camera.column[1]), right = xyz(world_from_camera.column[0]);
-  const float3 away = xyz(world_from_camera.column[2]) * (pose.distance * wave(dolly_, dolly_phase_));
-  world_from_camera = translation(pose.focus) * rotation(up, wave(yaw_, yaw_phase_)) *
-                      rotation(right, wave(pitch_, pitch_phase_)) * translation(away - pose.focus) * world_from_camera;
-  return pose.camera;
+  const float3 away = xyz(world_from_camera.column[2]) * (distance * (camera.is_orthographic ? 0 : dolly));
+  if (camera.is_orthographic) out.half_height = camera.half_height * (1 + dolly);
+  world_from_camera = translation(focus) * rotation(up, wave(yaw_, yaw_phase_)) *
+                      rotation(right, wave(pitch_, pitch_phase_)) * translation(away - focus) * world_from_camera;
+  return out;
 }
 
 }  // namespace zoneplate::cli

@@ -5,11 +5,12 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <sstream>
 
 #include "zoneplate/base/paths_for_test.h"
-#include "zoneplate/cli/dataset/nss.h"
+#include "zoneplate/cli/dataset/sequence.h"
 #include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/codec/exr.h"
 #include "zoneplate/os/file.h"
@@ -65,6 +66,15 @@ class DatasetVerb : public ProgramTest {
     return exr(fmt::format("data/{}/{}/{:04}.exr", name, sequence, frame), channels);
   }
   nlohmann::json json(const std::string& name) const { return parsed_json(text_of(place / name)); }
+  /// The values of an array of NumPy, after its header.
+  template <class T>
+  std::vector<T> npy(const std::string& name) const {
+    const std::string bytes = text_of(place / name);
+    const std::size_t begin = bytes.find('\n') + 1;
+    std::vector<T> out((bytes.size() - begin) / sizeof(T));
+    std::memcpy(out.data(), bytes.data() + begin, out.size() * sizeof(T));
+    return out;
+  }
 };
 
 double bilinear(const Plane<float>& p, double x, double y) {
@@ -241,7 +251,115 @@ TEST_F(DatasetVerb, SequencesHaveTheHashesOfTheRepository) {
   EXPECT_EQ(rows, 2 * 2 * 5);
 }
 
+// From the frames in files an upscaler makes the film that compare measures; its codes of 8 bits differ by rounding.
+TEST_F(DatasetVerb, TheFramesOfCompareGiveItsPsnr) {
+  for (const char* scene : {"teleport", "moving-texture"}) {  // an orthographic camera, and textures
+    std::filesystem::remove_all(place / "data");
+    const ProgramAnswer compared = run(fmt::format(
+        "compare {} --frames 6 --size 80x60 --reference converged:samples=64 --metric psnr --aa taau:scale=2 -o films "
+        "--force",
+        scene));
+    ASSERT_EQ(compared.code, 0) << compared.out;
+    ASSERT_EQ(run(fmt::format("dataset {} --layout exr -o data --sequences 1 --frames 6 --rate 24 --size 80x60 --start "
+                              "0 --camera own --reference converged:samples=64",
+                              scene))
+                  .code,
+              0);
+    const ProgramAnswer filtered =
+        run("filter data/x2/color/0000 --depth data/x2/depth/0000 --motion data/x2/motion/0000 --jitter "
+            "data/jitter/0000.txt --upscale taau:scale=2 -o out --force");
+    ASSERT_EQ(filtered.code, 0) << filtered.out;
+    const ProgramAnswer measured = run("metrics data/ground_truth/0000/####.exr out/####.exr --metric psnr --json");
+    const double found =
+        parsed_json(measured.out.substr(0, measured.out.find('\n')))["metrics"]["psnr"]["value"].get<double>();
+    const nlohmann::json result = json("films/compare.json")["scenes"][0]["methods"][0]["metrics"];
+    EXPECT_NEAR(found, result["psnr"]["value"].get<double>(), 0.03) << scene;
+  }
+}
+
+TEST_F(DatasetVerb, ArraysHaveThePlanesOfTheImages) {
+  const std::string usual =
+      "dataset passing-fence --sequences 1 --frames 2 --size 40x30 --reference ssaa:n=2 --passes object-id,count ";
+  ASSERT_EQ(run(usual + "--layout exr -o data").code, 0);
+  ASSERT_EQ(run(usual + "--layout npy -o arrays").code, 0);
+  EXPECT_EQ(json("data/0000.json")["Frames"], json("arrays/0000.json")["Frames"]);
+  EXPECT_EQ(text_of(place / "data/jitter/0000.txt"), text_of(place / "arrays/jitter/0000.txt"));
+  for (const auto& [name, channels] : {std::pair("ground_truth", std::vector<std::string>{"R", "G", "B"}),
+                                       {"motion_gt", {"R", "G"}},
+                                       {"object_id_gt", {"R"}},
+                                       {"count_gt", {"R"}},
+                                       {"x2/color", {"R", "G", "B"}},
+                                       {"x2/depth", {"R"}},
+                                       {"x2/motion", {"R", "G"}},
+                                       {"x2/object_id", {"R"}},
+                                       {"x2/count", {"R"}}}) {
+    const std::string file = fmt::format("{}/0000/0001", name);
+    const FileBytes image((place / "data" / (file + ".exr")).string());
+    const std::vector<Plane<float>> planes = decode_exr_channels(image.bytes(), name, channels);
+    const bool is_number = channels.size() == 1 && std::string_view(name).find("depth") == std::string_view::npos;
+    std::vector<float> found;
+    if (is_number)
+      for (const std::uint32_t n : npy<std::uint32_t>("arrays/" + file + ".npy"))
+        found.push_back(static_cast<float>(n));
+    else
+      found = npy<float>("arrays/" + file + ".npy");
+    ASSERT_EQ(found.size(), channels.size() * planes[0].values().size()) << name;
+    for (std::size_t i = 0; i < found.size(); ++i)
+      ASSERT_EQ(found[i], planes[i % channels.size()].values()[i / channels.size()]) << name;
+  }
+}
+
+TEST_F(DatasetVerb, CamerasKeepTheirProjectionButInTheGymsLayout) {
+  const std::string usual = "dataset teleport teapot --sequences 2 --frames 2 --size 32x24 --reference none --layout ";
+  ASSERT_EQ(run(usual + "npy -o data").code, 0);
+  ASSERT_EQ(run(usual + "nss -o gym").code, 0);
+  const nlohmann::json parallel = json("data/0000.json")["Frames"], perspective = json("data/0001.json")["Frames"];
+  EXPECT_TRUE(parallel[0].contains("HalfHeight") && !parallel[0].contains("FovY"));
+  EXPECT_NE(parallel[0]["HalfHeight"], parallel[1]["HalfHeight"]);
+  EXPECT_NE(parallel[0]["WorldFromCamera"], parallel[1]["WorldFromCamera"]);
+  EXPECT_TRUE(perspective[0].contains("FovY") && !perspective[0].contains("HalfHeight"));
+  EXPECT_GT(json("gym/0000.json")["Frames"][0]["FovY"].get<double>(), 0);
+}
+
+TEST_F(DatasetVerb, CountsAreThoseOfSurfacesInView) {
+  const std::string usual =
+      "--layout npy --sequences 1 --frames 5 --size 64x48 --reference none --camera own --start 0 --passes "
+      "was-visible,count";
+  ASSERT_EQ(run("dataset tiles -o rest " + usual).code, 0);
+  const auto at_rest = npy<std::uint32_t>("rest/count_gt/0000/0004.npy");
+  const auto seen = npy<std::uint8_t>("rest/was_visible_gt/0000/0004.npy");
+  for (std::size_t i = 0; i < at_rest.size(); ++i) ASSERT_EQ(at_rest[i], seen[i] != 0 ? 5u : 1u);
+  EXPECT_GT(std::ranges::count(seen, std::uint8_t{1}), static_cast<std::ptrdiff_t>(seen.size() / 2));
+  ASSERT_EQ(run("dataset disocclusion -o data " + usual).code, 0);
+  const auto counts = npy<std::uint32_t>("data/x2/count/0000/0004.npy");
+  const auto visible = npy<std::uint8_t>("data/x2/was_visible/0000/0004.npy");
+  int hidden = 0;
+  for (std::size_t i = 0; i < counts.size(); ++i) {
+    if (visible[i] == 0) {
+      ++hidden;
+      ASSERT_EQ(counts[i], 1u);
+    }
+    ASSERT_LE(counts[i], 5u);
+  }
+  EXPECT_GT(hidden, 0);
+  EXPECT_GT(std::ranges::count(counts, 5u), static_cast<std::ptrdiff_t>(counts.size() / 2));
+}
+
+TEST_F(DatasetVerb, ABiasOfMipLevelsChangesTexturedFramesAlone) {
+  const std::string usual =
+      " --layout npy --sequences 1 --frames 2 --size 64x48 --reference none --camera own --start 0 ";
+  ASSERT_EQ(run("dataset moving-texture -o data" + usual).code, 0);
+  ASSERT_EQ(run("dataset moving-texture -o sharp --bias -1" + usual).code, 0);
+  const auto equals = [&](const std::string& file) {
+    return text_of(place / "data" / file) == text_of(place / "sharp" / file);
+  };
+  EXPECT_FALSE(equals("x2/color/0000/0001.npy"));
+  EXPECT_TRUE(equals("ground_truth/0000/0001.npy") && equals("x2/depth/0000/0001.npy"));
+}
+
 TEST_F(DatasetVerb, RefusesBeforeItRenders) {
+  EXPECT_EQ(run("dataset --layout nss -o data --passes count").code, 2);
+
   EXPECT_EQ(run("dataset -o data").code, 2);
   EXPECT_TRUE(contains(run("dataset --layout nss -o data --ratio 1.77").out, "with one decimal"));
   EXPECT_EQ(run("dataset no-such.glb --layout nss -o data").code, 3);
@@ -250,8 +368,8 @@ TEST_F(DatasetVerb, RefusesBeforeItRenders) {
 }
 
 TEST(Dataset, FoldersOfRatios) {
-  EXPECT_EQ(nss_folder_of(2), "x2");
-  EXPECT_EQ(nss_folder_of(1.7), "x1_7");
+  EXPECT_EQ(folder_of_ratio(2), "x2");
+  EXPECT_EQ(folder_of_ratio(1.7), "x1_7");
 }
 
 }  // namespace
