@@ -189,12 +189,15 @@ TEST(Pictures, ShadowsHaveTheirBits) {
 }
 
 TEST(Pictures, CropsOfShadowsHaveTheirBits) {
-  Shot shot = shadowed_shot({.method = ShadowMethod::Soft, .samples = 9});
-  const Frame whole = shot.frame("msaa:n=4");
-  shot.options.crop = Crop{37, 10, 50, 41};
-  const Frame part = shot.frame("msaa:n=4");
-  for (int y = 0; y < 41; ++y)
-    for (int x = 0; x < 50; ++x) ASSERT_EQ(part.color(x, y), whole.color(37 + x, 10 + y));
+  for (const int spacing : {1, 4}) {
+    Shot shot = shadowed_shot({.method = ShadowMethod::Soft, .samples = 9, .spacing = spacing});
+    shot.options.occlusion.spacing = spacing;
+    const Frame whole = shot.frame("msaa:n=4");
+    shot.options.crop = Crop{37, 10, 50, 41};
+    const Frame part = shot.frame("msaa:n=4");
+    for (int y = 0; y < 41; ++y)
+      for (int x = 0; x < 50; ++x) ASSERT_EQ(part.color(x, y), whole.color(37 + x, 10 + y));
+  }
 }
 
 TEST(Pictures, DataPlanesDoNotChangeTheColour) {

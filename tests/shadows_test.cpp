@@ -292,6 +292,36 @@ TEST(Ground, ReachesAsFarAsShadowsDo) {
   }
 }
 
+// Neighbours share rays where light and occlusion are smooth: the same image from a fraction of them. The error is that
+// to a reference of 1024 rays.
+TEST(Shadows, SharedRaysAreNearerToTheReference) {
+  Scene scene = floor_scene(4);
+  add_part(scene, white(), low_sphere({0, 0.5f, 0}, 0.5f, 64, 32));
+  for (Material& m : scene.materials) m.model = ShadingModel::MetallicRoughness, m.metallic = 0;
+  scene.environment.color = {0.5f, 0.5f, 0.5f};
+  scene.lights = {sun_from({0.5f, 1, 0.2f})};
+  for (const bool is_orthographic : {false, true}) {
+    if (is_orthographic) scene.cameras[0].is_orthographic = true, scene.cameras[0].half_height = 1;
+    const auto image = [&](int samples, int spacing) {
+      RenderOptions options;
+      options.shadows = {.method = ShadowMethod::Soft, .samples = samples, .angle = 0.1f, .spacing = spacing};
+      options.occlusion = {.samples = samples, .distance = 2, .spacing = spacing};
+      return frame_of(scene, options);
+    };
+    const Frame reference = image(1024, 1);
+    const auto error = [&](const Frame& frame) {
+      double sum = 0;
+      for (std::size_t i = 0; i < frame.color.values().size(); ++i)
+        sum += std::pow(frame.color.values()[i].r - reference.color.values()[i].r, 2);
+      return std::sqrt(sum / (width * height));
+    };
+    const double own = error(image(32, 1)), shared = error(image(32, 4));
+    EXPECT_LT(shared, own) << is_orthographic;
+    EXPECT_LT(shared, 0.008);
+    EXPECT_GT(shared, 1e-5);
+  }
+}
+
 TEST(ShadowsBits, AreTheSameForAllThreadsAndInstructionSets) {
   Scene scene = floating_sphere();
   RenderOptions options;
@@ -299,12 +329,15 @@ TEST(ShadowsBits, AreTheSameForAllThreadsAndInstructionSets) {
   options.occlusion = {.samples = 4};
   options.ground = GroundKind::Shadow;
   scene.environment.color = {0.2f, 0.2f, 0.3f};
-  const Frame first = with_isa(Isa::Scalar, [&] { return frame_of(scene, options); });
-  for (const Isa isa : supported_isas())
-    for (const int threads : {1, 3})
-      with_isa(isa, [&] {
-        with_threads(threads, [&] { EXPECT_TRUE(frame_of(scene, options).color == first.color) << name_of(isa); });
-      });
+  for (const int spacing : {1, 8}) {
+    options.shadows.spacing = options.occlusion.spacing = spacing;
+    const Frame first = with_isa(Isa::Scalar, [&] { return frame_of(scene, options); });
+    for (const Isa isa : supported_isas())
+      for (const int threads : {1, 3})
+        with_isa(isa, [&] {
+          with_threads(threads, [&] { EXPECT_TRUE(frame_of(scene, options).color == first.color) << name_of(isa); });
+        });
+  }
 }
 
 }  // namespace

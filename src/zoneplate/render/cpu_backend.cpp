@@ -219,7 +219,8 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
   SceneDraws draws = growing("draws", [&] { return make_draws(scene, clip_from_world, options); });
   RasterRules rules{.edge_rule = options.edge_rule, .visibility = options.visibility, .capacity = options.capacity};
   ViewUniforms view = view_uniforms_of(prepared.lighting(), scene.up, camera, clip_from_camera, options);
-  if (request.content == Content::Colour) view.visibility = shadows_.of_frame(prepared, view, options);
+  if (request.content == Content::Colour)
+    view.visibility = shadows_.of_frame(prepared, view, {camera, clip_from_camera, options}, options);
   std::optional<Ground> ground;
   if (options.ground == GroundKind::Shadow && view.visibility != nullptr) {
     ground.emplace(scene, view);

@@ -2,12 +2,16 @@
 #include "zoneplate/render/scene_shadows.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 #include "zoneplate/base/out_of_memory.h"
 #include "zoneplate/render/prepared_scene.h"
+#include "zoneplate/shade/cast/ground.h"
+#include "zoneplate/shade/shadow/receivers.h"
+#include "zoneplate/shade/surface/vertices.h"
 
 namespace zoneplate {
 namespace {
@@ -95,7 +99,77 @@ std::vector<Camera> local_cameras(const Box& box, const Light& light) {
   return cameras;
 }
 
+/// What pixels show of the scene's surfaces, transparent ones included.
+ReceiversOfPixels find_surfaces(const PreparedScene& prepared, const Bvh& bvh, const ReceiversViewer& viewer,
+                                const LinesOfSight& lines) {
+  return [=, &prepared, &bvh](std::span<const PixelPosition> pixels, Receivers& out, std::span<bool> found) {
+    const Scene& scene = prepared.scene();
+    std::array<Ray, FragmentBatch::capacity> rays;
+    std::array<RayHit, FragmentBatch::capacity> hits;
+    for (std::size_t i = 0; i < pixels.size(); ++i) rays[i] = lines.through_centre(pixels[i]);
+    RayKernels::of().nearest(view_of(bvh), rays.data(), pixels.size(), hits.data());
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      found[i] = hits[i].primitive != RayHit::none;
+      if (!found[i]) continue;
+      const Mesh& mesh = scene.meshes[static_cast<std::size_t>(scene.instances[hits[i].instance].mesh)];
+      const auto record = [&](std::size_t k) {
+        return prepared.vertices().of_instance(hits[i].instance) +
+               static_cast<std::size_t>(prepared.vertices().layout(mesh.material).floats) *
+                   mesh.index[std::size_t{3} * hits[i].primitive + k];
+      };
+      make_receiver(scene, hits[i], {record(0), record(1), record(2)}, viewer, pixels[i], out, i);
+    }
+  };
+}
+
+/// What they show of the ground's plane, whatever hides it.
+ReceiversOfPixels find_ground(const Scene& scene, const LinesOfSight& lines) {
+  return
+      [=, square = GroundSquare(scene)](std::span<const PixelPosition> pixels, Receivers& out, std::span<bool> found) {
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+          const Ray ray = lines.through_centre(pixels[i]);
+          const float3 origin{ray.origin[0], ray.origin[1], ray.origin[2]};
+          const float3 direction{ray.direction[0], ray.direction[1], ray.direction[2]};
+          const float t = dot(square.corner[0] - origin, square.up) / dot(direction, square.up);
+          const float3 at = origin + direction * t;
+          found[i] = t > 0 && is_finite(at);
+          const auto store = [i](float3 from, float(&to)[3][Receivers::capacity]) {
+            to[0][i] = from.x, to[1][i] = from.y, to[2][i] = from.z;
+          };
+          store(at, out.position), store(square.up, out.face), store(square.up, out.normal);
+          out.margin[i] = square.margin;
+          store_image_position(256 * pixels[i].x + 128, 256 * pixels[i].y + 128, out, i);
+        }
+      };
+}
+
 }  // namespace
+
+LinesOfSight::LinesOfSight(const Camera& camera, const float4x4& clip_from_camera, const RenderOptions& options) {
+  const float4x4& m = clip_from_camera;
+  const float4x4& world = camera.world_from_camera;
+  const float3 right = xyz(world.column[0]), up = xyz(world.column[1]), ahead = -xyz(world.column[2]);
+  // In clip space, pixel x is 2 x / width - 1, and y is 1 - 2 y / height.
+  const float3 dx = right * (2 / (m.column[0].x * static_cast<float>(options.width)));
+  const float3 dy = up * (-2 / (m.column[1].y * static_cast<float>(options.height)));
+  const auto first = [&](float x, float y) {
+    return right * ((-1 - x) / m.column[0].x) + up * ((1 - y) / m.column[1].y);
+  };
+  origin = xyz(world.column[3]), direction = ahead;
+  if (camera.is_orthographic) {
+    origin = origin + first(m.column[3].x, m.column[3].y);
+    origin_dx = dx, origin_dy = dy;
+  } else {
+    direction = direction + first(-m.column[2].x, -m.column[2].y);
+    direction_dx = dx, direction_dy = dy;
+  }
+}
+
+Ray LinesOfSight::through_centre(PixelPosition pixel) const {
+  const float x = static_cast<float>(pixel.x) + 0.5f, y = static_cast<float>(pixel.y) + 0.5f;
+  const float3 o = origin + origin_dx * x + origin_dy * y, d = direction + direction_dx * x + direction_dy * y;
+  return {{o.x, o.y, o.z}, {d.x, d.y, d.z}};
+}
 
 std::vector<std::vector<ShadowMap>> make_shadow_maps(const PreparedScene& prepared, const std::vector<Light>& lights,
                                                      int size) {
@@ -116,7 +190,7 @@ std::vector<std::vector<ShadowMap>> make_shadow_maps(const PreparedScene& prepar
 }
 
 const LightVisibility* SceneShadows::of_frame(const PreparedScene& prepared, const ViewUniforms& view,
-                                              const RenderOptions& options) {
+                                              const LinesOfSight& lines, const RenderOptions& options) {
   if (!has_visibility(options)) return nullptr;
   const bool has_maps = options.shadows.method == ShadowMethod::Map;
   const LightVisibility* traced = nullptr;
@@ -131,6 +205,14 @@ const LightVisibility* SceneShadows::of_frame(const PreparedScene& prepared, con
     opacity_.emplace(*scene_, prepared.textures());
     traced = &traced_.emplace(*bvh_, opacity_->of_hits(), view.lights, options.shadows, occlusion,
                               view.map ? &*view.map : nullptr);
+    const bool is_shared = std::max(options.shadows.spacing, occlusion.spacing) > 1;
+    if (is_shared && options.shading_frequency == ShadingFrequency::Fragment)
+      traced = &shared_.emplace(
+          *traced_, static_cast<int>(view.lights.size()), options.shadows, occlusion,
+          SharedVisibility::Image{
+              options.width, options.height,
+              find_surfaces(prepared, *bvh_, {view.eye, -view.view_direction, view.is_orthographic}, lines),
+              find_ground(*scene_, lines)});
   }
   if (!has_maps) return traced;
   return &mapped_.emplace(view.lights, make_shadow_maps(prepared, view.lights, options.shadows.map.size),

@@ -37,6 +37,9 @@ struct ShadowOptions {
   int samples = 32;  ///< ShadowMethod::Soft: rays from a fragment to a light; best a power of two
   /// Soft and Pcss: the angular radius, in radians, of lights whose `radius` is 0. 3 degrees by default.
   float angle = 3 * (3.14159265f / 180);
+  /// ShadowMethod::Soft: pixels between the points of a surface whose rays the fragments between them share where
+  /// shadows are smooth; 1: every fragment has its own rays.
+  int spacing = 1;
   ShadowMapOptions map;  ///< ShadowMethod::Map
 };
 
@@ -45,6 +48,7 @@ struct ShadowOptions {
 struct OcclusionOptions {
   int samples = 0;     ///< rays from a fragment, cosine-weighted about the normal; 0: no occlusion
   float distance = 0;  ///< world units beyond which nothing occludes; 0: a quarter of the diagonal of the scene
+  int spacing = 1;     ///< as ShadowOptions::spacing
 };
 
 /// What lies under the scene.

@@ -15,9 +15,13 @@ struct VisibilityRow {
   std::span<const Param> params = {};
 };
 
+constexpr Param spacing_param = {
+    "spacing", "pixels between the points of a surface whose rays the fragments between them share; 1: none share", 1,
+    1, 16};
 constexpr Param soft_params[] = {
     {"samples", "rays from a fragment to a light", 32, 1, 4096},
     real_param("angle", "angular radius in degrees of lights without a radius of their own", 3, 0.01, 89),
+    spacing_param,
 };
 constexpr std::string_view filter_names[] = {"nearest", "pcf", "pcss", "evsm"};
 constexpr Param map_params[] = {
@@ -33,6 +37,7 @@ constexpr Param ray_params[] = {
     {"samples", "rays from a fragment", 32, 1, 4096},
     real_param("distance", "world units beyond which nothing occludes; 0: a quarter of the scene's diagonal", 0, 0,
                1e9),
+    spacing_param,
 };
 constexpr VisibilityRow occlusion_rows[] = {{"none"}, {"rays", ray_params}};
 
@@ -52,6 +57,7 @@ ShadowOptions parse_shadows(const std::string& text) {
   if (spec.row.name == "soft") {
     shadows.method = ShadowMethod::Soft;
     shadows.samples = settings.integer("samples");
+    shadows.spacing = settings.integer("spacing");
     return shadows;
   }
   constexpr ShadowFilter filters[] = {ShadowFilter::Nearest, ShadowFilter::Pcf, ShadowFilter::Pcss, ShadowFilter::Evsm};
@@ -67,7 +73,8 @@ OcclusionOptions parse_occlusion(const std::string& text) {
   const auto spec = parse_spec("ambient occlusion", std::span<const VisibilityRow>(occlusion_rows), text);
   if (spec.row.name == "none") return {};
   return {.samples = spec.settings.integer("samples"),
-          .distance = static_cast<float>(spec.settings.number("distance"))};
+          .distance = static_cast<float>(spec.settings.number("distance")),
+          .spacing = spec.settings.integer("spacing")};
 }
 
 }  // namespace zoneplate::cli

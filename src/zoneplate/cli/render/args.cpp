@@ -80,8 +80,8 @@ void set_quality(RenderArgs& a, int level) {
   a.method = level == 0 ? "msaa:n=4" : level == 1 ? usual.method : "msaa:n=16,alpha=samples";
   if (level == 1) a.anisotropy.reset();
   if (level != 1) a.anisotropy = level == 0 ? 1 : 16;
-  a.options.shadows = level == 2 ? parse_shadows("soft:samples=64") : usual.options.shadows;
-  a.options.occlusion = level == 2 ? parse_occlusion("rays:samples=64") : usual.options.occlusion;
+  a.options.shadows = level == 2 ? parse_shadows("soft:samples=64,spacing=8") : usual.options.shadows;
+  a.options.occlusion = level == 2 ? parse_occlusion("rays:samples=64,spacing=8") : usual.options.occlusion;
   a.options.ground = level == 2 ? GroundKind::Shadow : usual.options.ground;
 }
 
@@ -296,8 +296,8 @@ std::vector<Option> picture_options(RenderArgs& a) {
        }},
       {"--quality", "LEVEL",
        "Sets several options, which other options change: fast is --aa msaa:n=4 --anisotropy 1; default; best is --aa "
-       "msaa:n=16,alpha=samples --anisotropy 16 --shadows soft:samples=64 --ambient-occlusion rays:samples=64 --ground "
-       "shadow; "
+       "msaa:n=16,alpha=samples --anisotropy 16 --shadows soft:samples=64,spacing=8 --ambient-occlusion "
+       "rays:samples=64,spacing=8 --ground shadow; "
        "the compression of files is --jpeg-quality and --webp-quality",
        group, true, [&](auto& text) { set_quality(a, parse_quality(text)); }, Choices{"fast", "default", "best"}},
       {"--anti-aliasing,--aa", "METHOD",

@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "zoneplate/math/lanes.h"
-#include "zoneplate/math/random.h"
 #include "zoneplate/shade/environment/lookup_lanes.h"
 #include "zoneplate/shade/shadow/light_visibility.h"
 #include "zoneplate/shade/shadow/receivers.h"
@@ -37,6 +36,8 @@ GroundSquare::GroundSquare(const Scene& scene) : up(normalize(scene.up, {0, 1, 0
   const float3 right = normalize(cross(up, std::abs(up.x) < 0.9f ? float3{1, 0, 0} : float3{0, 0, 1}));
   const float3 x = right * (reach * diagonal), y = cross(up, x);
   corner = {centre - x - y, centre + x - y, centre + x + y, centre - x + y};
+  for (const float3 p : corner)
+    margin = std::max({margin, std::abs(p.x) * 0x1p-20f, std::abs(p.y) * 0x1p-20f, std::abs(p.z) * 0x1p-20f});
 }
 
 Camera GroundSquare::enclosing(Camera camera) const {
@@ -49,7 +50,7 @@ Camera GroundSquare::enclosing(Camera camera) const {
 }
 
 Ground::Ground(const Scene& scene, const ViewUniforms& view)
-    : visibility_(*view.visibility), environment_(luminance(view.environment)), square_(scene), margin_(0) {
+    : visibility_(*view.visibility), environment_(luminance(view.environment)), square_(scene) {
   if (view.map) {
     using F = scalar::Float;
     const auto light = diffuse_light(*view.map, Vector<F>{F(square_.up.x), F(square_.up.y), F(square_.up.z)});
@@ -59,8 +60,6 @@ Ground::Ground(const Scene& scene, const ViewUniforms& view)
   // ambient light, lacks this factor.
   if (environment_ == 0) environment_ = luminance(view.ambient_light), reflectance_ = 1;
   for (const Light& light : view.lights) lights_.push_back(prepare(light));
-  for (const float3 p : square_.corner)
-    margin_ = std::max({margin_, std::abs(p.x) * 0x1p-20f, std::abs(p.y) * 0x1p-20f, std::abs(p.z) * 0x1p-20f});
 }
 
 Draw Ground::draw(const float4x4& clip_from_world, std::uint32_t instance, int material) const {
@@ -79,7 +78,8 @@ bool Ground::needs_derivatives() const { return visibility_.needs_footprint(); }
 void Ground::shade(const FragmentBatch& batch, FragmentOutputs& out) const {
   Receivers receivers;
   ShadingState p;
-  p.count = receivers.count = batch.padded();
+  p.count = receivers.count = batch.count;
+  receivers.is_ground = true;
   for (std::size_t i = 0; i < static_cast<std::size_t>(p.count); ++i) {
     const std::size_t leader = batch.leader(i);
     const auto corner = [&](std::size_t k) { return square_.corner[batch.vertex[k][leader]]; };
@@ -89,10 +89,10 @@ void Ground::shade(const FragmentBatch& batch, FragmentOutputs& out) const {
     };
     store(at, p.position), store(at, receivers.position);
     store(square_.up, receivers.face), store(square_.up, receivers.normal);
-    receivers.margin[i] = margin_;
+    receivers.margin[i] = square_.margin;
     if (visibility_.needs_footprint())
       store_footprint(batch, i, corner(1) - corner(0), corner(2) - corner(0), receivers);
-    receivers.seed[i] = hash(static_cast<std::uint32_t>(batch.x[i]), static_cast<std::uint32_t>(batch.y[i]));
+    store_image_position(batch.x[i], batch.y[i], receivers, i);
   }
 
   // The radiance of a white diffuse surface under the lights, and the part of it that arrives.

@@ -16,6 +16,7 @@ namespace zoneplate {
 struct GroundSquare {
   float3 up;
   std::array<float3, 4> corner;  ///< counter-clockwise as seen from above
+  float margin = 0;              ///< Receivers::margin
 
   explicit GroundSquare(const Scene& scene);
   /// The same camera with near and far planes that enclose what it sees of the square.
@@ -42,7 +43,6 @@ class Ground {
   float environment_;  ///< luminance
   float reflectance_ = 0.318309886f;
   GroundSquare square_;
-  float margin_;  ///< Receivers::margin
 };
 
 }  // namespace zoneplate

@@ -146,6 +146,7 @@ class TurnedSpiral {
 class DirectionsAbout {
  public:
   explicit DirectionsAbout(float3 axis) : axis_(axis), basis_(axis) {}
+  float3 axis() const { return axis_; }
 
   /// Uniform in solid angle over the cone of the directions whose cosine with the axis is at least 1 - height.
   float3 of_cone(const ShiftedDisc::Point& p, float height) const {

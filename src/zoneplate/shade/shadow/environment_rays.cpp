@@ -64,8 +64,7 @@ EnvironmentRays::EnvironmentRays(const EnvironmentView& environment) {
   }
 }
 
-EnvironmentRays::Hemisphere::Hemisphere(const EnvironmentRays& rays, float3 normal, std::uint32_t seed, int count)
-    : directions_(normal), turn_(hash(seed, 0, 2)) {
+EnvironmentRays::Hemisphere::Hemisphere(const EnvironmentRays& rays, float3 normal, int count) : directions_(normal) {
   const auto& [x, y, z] = rays.middle_;
   std::int32_t cell[cells];
   for (std::size_t c = 0; c < cells; ++c) cell[c] = folded(directions_.turned({x[c], y[c], z[c]}), side);
@@ -77,7 +76,12 @@ EnvironmentRays::Hemisphere::Hemisphere(const EnvironmentRays& rays, float3 norm
     all += sum_[r] = sum;
   }
   step_ = all / static_cast<float>(count);
+}
+
+void EnvironmentRays::Hemisphere::begin(std::uint32_t seed) {
+  turn_ = hash(seed, 0, 2);
   target_ = step_ * unit_float(hash(seed, 0, 1));
+  before_ = 0, ring_ = 0;
 }
 
 float3 EnvironmentRays::Hemisphere::next() {

@@ -36,11 +36,14 @@ class EnvironmentRays {
   class Hemisphere {
    public:
     /// Requires  the normal has unit length.
-    Hemisphere(const EnvironmentRays& rays, float3 normal, std::uint32_t seed, int count);
+    Hemisphere(const EnvironmentRays& rays, float3 normal, int count);
 
+    bool is_about(float3 normal) const { return directions_.axis() == normal; }
     /// Whether light arrives at all.
     bool is_lit() const { return step_ > 0; }
-    /// The next of `count` directions, of unit length. Requires: light arrives.
+    /// Begins the directions of a receiver.
+    void begin(std::uint32_t seed);
+    /// The next of `count` directions, of unit length. Requires: light arrives, and they have begun.
     float3 next();
 
    private:
@@ -48,7 +51,7 @@ class EnvironmentRays {
     std::array<float, cells> light_;
     std::array<float, rings> sum_;              ///< of a ring's sectors
     float step_ = 0, target_ = 0, before_ = 0;  ///< of the whole sum; the sum of the rings before the current one
-    std::uint32_t turn_;                        ///< in units of 2^-32 of a whole one
+    std::uint32_t turn_ = 0;                    ///< in units of 2^-32 of a whole one
     std::size_t ring_ = 0;
   };
 

@@ -13,6 +13,7 @@ struct Receivers {
   int count = 0;
   /// Light from below the horizon passes through the surfaces; else of_light may give 0 for it.
   bool is_transmissive = false;
+  bool is_ground = false;  ///< on the plane under the scene
 
   /// On the triangle, or outside of it where interpolated normals describe a convex surface.
   alignas(64) float position[3][capacity];
@@ -20,10 +21,16 @@ struct Receivers {
   alignas(64) float normal[3][capacity];  ///< unit normal, interpolated from the vertices
   /// A ray that begins at position + face × margin does not meet the triangle's own plane by rounding.
   alignas(64) float margin[capacity];
-  alignas(64) std::uint32_t seed[capacity];  ///< hash of the position in the image
+  alignas(64) std::int32_t x[capacity], y[capacity];  ///< in the image, as in FragmentBatch
+  alignas(64) std::uint32_t seed[capacity];           ///< hash of x and y
   /// Half of the change of the position from one pixel to the next, shortened so that position ± dx ± dy stay within
   /// the triangle; zero where LightVisibility::needs_footprint is false.
   alignas(64) float dx[3][capacity], dy[3][capacity];
+};
+
+/// A pixel, from the top-left corner of the image; it may lie outside of the image.
+struct PixelPosition {
+  std::int32_t x, y;
 };
 
 /// Which part of each light reaches a point.

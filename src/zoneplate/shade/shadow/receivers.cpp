@@ -57,6 +57,19 @@ float3 position_on(const ReceivingTriangle& t, float b1, float b2) {
   return p + mix(moved);
 }
 
+void store(float3 from, float (&to)[3][Receivers::capacity], std::size_t i) {
+  to[0][i] = from.x, to[1][i] = from.y, to[2][i] = from.z;
+}
+
+/// The point of the triangle with these weights.
+void store(const ReceivingTriangle& t, float b1, float b2, Receivers& out, std::size_t i) {
+  store(position_on(t, b1, b2), out.position, i);
+  store(t.face, out.face, i);
+  store(normalize(t.normal[0] + ((t.normal[1] - t.normal[0]) * b1 + (t.normal[2] - t.normal[0]) * b2), t.face),
+        out.normal, i);
+  out.margin[i] = t.margin;
+}
+
 }  // namespace
 
 void store_footprint(const FragmentBatch& batch, std::size_t i, float3 edge1, float3 edge2, Receivers& out) {
@@ -69,21 +82,27 @@ void store_footprint(const FragmentBatch& batch, std::size_t i, float3 edge1, fl
     const float change = std::abs(x[k]) + std::abs(y[k]);
     if (half * change > b[k]) half = std::max(b[k], 0.0f) / change;
   }
-  const auto store = [&](float3 v, float(&to)[3][Receivers::capacity]) {
-    if (!is_finite(v)) v = {};
-    to[0][i] = v.x, to[1][i] = v.y, to[2][i] = v.z;
-  };
-  store((edge1 * x[1] + edge2 * x[2]) * half, out.dx);
-  store((edge1 * y[1] + edge2 * y[2]) * half, out.dy);
+  const float3 along = (edge1 * x[1] + edge2 * x[2]) * half, down = (edge1 * y[1] + edge2 * y[2]) * half;
+  store(is_finite(along) ? along : float3{}, out.dx, i);
+  store(is_finite(down) ? down : float3{}, out.dy, i);
+}
+
+void store_image_position(std::int32_t x, std::int32_t y, Receivers& out, std::size_t i) {
+  out.x[i] = x, out.y[i] = y;
+  out.seed[i] = hash(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y));
+}
+
+void make_receiver(const Scene& scene, const RayHit& hit, const float* const (&corner)[3],
+                   const ReceiversViewer& viewer, PixelPosition pixel, Receivers& out, std::size_t i) {
+  const float4x4& world = scene.instances[hit.instance].world_from_object;
+  store(triangle_of(world, normal_matrix(world), corner, viewer), hit.b1, hit.b2, out, i);
+  store_image_position(256 * pixel.x + 128, 256 * pixel.y + 128, out, i);
 }
 
 void make_receivers(const Scene& scene, const FragmentBatch& batch, const ReceiverRecord& record,
                     const ReceiversViewer& viewer, bool has_footprint, Receivers& out) {
-  out.count = batch.padded();
+  out.count = batch.count;
   if (!has_footprint) std::memset(out.dx, 0, sizeof out.dx), std::memset(out.dy, 0, sizeof out.dy);
-  const auto store = [](float3 from, float(&to)[3][Receivers::capacity], std::size_t i) {
-    to[0][i] = from.x, to[1][i] = from.y, to[2][i] = from.z;
-  };
   ReceivingTriangle triangle;
   float4x4 normals;
   std::size_t known_leader = 0;
@@ -97,16 +116,11 @@ void make_receivers(const Scene& scene, const FragmentBatch& batch, const Receiv
       triangle = triangle_of(world, normals, corner, viewer);
       known_leader = leader, known_instance = batch.instance[leader];
     }
-    const float b1 = batch.b[0][i], b2 = batch.b[1][i];
-    store(position_on(triangle, b1, b2), out.position, i);
-    store(triangle.face, out.face, i);
-    const float3(&n)[3] = triangle.normal;
-    store(normalize(n[0] + ((n[1] - n[0]) * b1 + (n[2] - n[0]) * b2), triangle.face), out.normal, i);
-    out.margin[i] = triangle.margin;
+    store(triangle, batch.b[0][i], batch.b[1][i], out, i);
     if (has_footprint)
       store_footprint(batch, i, triangle.position[1] - triangle.position[0],
                       triangle.position[2] - triangle.position[0], out);
-    out.seed[i] = hash(static_cast<std::uint32_t>(batch.x[i]), static_cast<std::uint32_t>(batch.y[i]));
+    store_image_position(batch.x[i], batch.y[i], out, i);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "zoneplate/math/vec.h"
+#include "zoneplate/ray/trace.h"
 #include "zoneplate/shade/shadow/light_visibility.h"
 
 namespace zoneplate {
@@ -29,6 +30,14 @@ using ReceiverRecord = std::function<const float*(std::size_t k, std::size_t i)>
 /// Source    Hanika, Hacking the Shadow Terminator, Ray Tracing Gems II, 2021.
 void make_receivers(const Scene& scene, const FragmentBatch& batch, const ReceiverRecord& record,
                     const ReceiversViewer& viewer, bool has_footprint, Receivers& out);
+
+/// Sets entry i of `out`, but for its footprint, to the point at a pixel's centre where a ray from the viewer meets a
+/// triangle: `corner` are the records of its vertices.
+void make_receiver(const Scene& scene, const RayHit& hit, const float* const (&corner)[3],
+                   const ReceiversViewer& viewer, PixelPosition pixel, Receivers& out, std::size_t i);
+
+/// Sets the position in the image of entry i, in 1/256 pixel.
+void store_image_position(std::int32_t x, std::int32_t y, Receivers& out, std::size_t i);
 
 /// Sets the footprint of fragment i of a triangle with these edges from its first vertex, from the batch's derivatives.
 void store_footprint(const FragmentBatch& batch, std::size_t i, float3 edge1, float3 edge2, Receivers& out);

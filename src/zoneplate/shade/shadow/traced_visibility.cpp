@@ -99,6 +99,11 @@ float TracedVisibility::mean_visibility(const MakeRay& ray) const {
   return sum / static_cast<float>(samples);
 }
 
+bool TracedVisibility::is_lit(int k, const Receivers& receivers, int i) const {
+  const SeenLight seen = see(lights_[static_cast<std::size_t>(k)], shadows_, origin_of(receivers, i, 1));
+  return dot(at(receivers.normal, i), seen.direction) > 0;
+}
+
 void TracedVisibility::of_light(int k, const Receivers& receivers, float* visible) const {
   if (shadows_.method == ShadowMethod::None) return std::fill_n(visible, receivers.count, 1.0f), void();
   const Light& light = lights_[static_cast<std::size_t>(k)];
@@ -145,11 +150,11 @@ float TracedVisibility::of_uniform_light(const Receivers& receivers, int i, floa
 }
 
 /// The mean over equal parts of the environment's irradiance.
-float TracedVisibility::of_rays(const Receivers& receivers, int i, float3 origin) const {
+float TracedVisibility::of_rays(EnvironmentRays::Hemisphere& light, std::uint32_t seed, float3 origin) const {
   Ray rays[chunk];
   float seen[chunk];
-  EnvironmentRays::Hemisphere light(*environment_, at(receivers.normal, i), receivers.seed[i], occlusion_.samples);
   if (!light.is_lit()) return 1;
+  light.begin(seed);
   float sum = 0;
   for (int first = 0; first < occlusion_.samples; first += chunk) {
     const int count = std::min(chunk, occlusion_.samples - first);
@@ -161,11 +166,18 @@ float TracedVisibility::of_rays(const Receivers& receivers, int i, float3 origin
 }
 
 void TracedVisibility::of_environment(const Receivers& receivers, float* visible) const {
+  std::optional<EnvironmentRays::Hemisphere> light;
   for (int i = 0; i < receivers.count; ++i) {
-    const float3 origin = origin_of(receivers, i, 1);
+    const float3 origin = origin_of(receivers, i, 1), normal = at(receivers.normal, i);
     visible[i] = 1;
     if (distance_squared(bounds_, origin) > occlusion_.distance * occlusion_.distance) continue;
-    visible[i] = environment_ ? of_rays(receivers, i, origin) : of_uniform_light(receivers, i, origin);
+    if (!environment_) {
+      visible[i] = of_uniform_light(receivers, i, origin);
+      continue;
+    }
+    // The neighbours on a plane have the same normal.
+    if (!light || !light->is_about(normal)) light.emplace(*environment_, normal, occlusion_.samples);
+    visible[i] = of_rays(*light, receivers.seed[i], origin);
   }
 }
 

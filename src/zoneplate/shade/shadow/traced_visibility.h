@@ -34,6 +34,8 @@ class TracedVisibility : public LightVisibility {
                    const EnvironmentView* environment = nullptr);
 
   void of_light(int k, const Receivers& receivers, float* visible) const override;
+  /// Whether light k is above the horizon of receiver i.
+  bool is_lit(int k, const Receivers& receivers, int i) const;
   bool needs_footprint() const override { return shadows_.method == ShadowMethod::Soft; }
   bool has_occlusion() const override { return occlusion_.samples > 0; }
   void of_environment(const Receivers& receivers, float* visible) const override;
@@ -42,7 +44,7 @@ class TracedVisibility : public LightVisibility {
   template <class MakeRay>
   float mean_visibility(const MakeRay& ray) const;
   float of_uniform_light(const Receivers& receivers, int i, float3 origin) const;
-  float of_rays(const Receivers& receivers, int i, float3 origin) const;
+  float of_rays(EnvironmentRays::Hemisphere& light, std::uint32_t seed, float3 origin) const;
 
   BvhView bvh_;
   Box bounds_;  ///< of all casters

@@ -262,11 +262,17 @@ void BatchShading::find_visibility() {
                                                          plan.layers->uniforms.has_diffuse_transmission);
   constexpr std::size_t stride = FragmentBatch::padded_capacity;
   light_visibility = std::make_unique<float[]>(d.lights.size() * stride);
-  for (std::size_t k = 0; k < d.lights.size(); ++k)
+  const auto pad = [&](float* visible) {
+    std::fill(visible + batch.count, visible + batch.padded(), visible[batch.count - 1]);
+  };
+  for (std::size_t k = 0; k < d.lights.size(); ++k) {
     visibility.of_light(static_cast<int>(k), receivers, &light_visibility[k * stride]);
+    pad(&light_visibility[k * stride]);
+  }
   if (!d.lights.empty()) p.light_visibility = light_visibility.get();
   if (!visibility.has_occlusion()) return;
   visibility.of_environment(receivers, texel[0]);
+  pad(texel[0]);
   if (plan.slot(TextureSlotIndex::Occlusion).texture == nullptr)
     std::copy_n(texel[0], p.count, p.occlusion);
   else

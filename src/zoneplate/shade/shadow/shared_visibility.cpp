@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/shade/shadow/shared_visibility.h"
+
+#include <array>
+#include <utility>
+
+namespace zoneplate {
+namespace {
+
+void copy_entry(const Receivers& from, int i, Receivers& to, int k) {
+  const auto copy = [&](const float(&source)[3][Receivers::capacity], float(&target)[3][Receivers::capacity]) {
+    for (int c = 0; c < 3; ++c) target[c][k] = source[c][i];
+  };
+  copy(from.position, to.position), copy(from.face, to.face), copy(from.normal, to.normal);
+  copy(from.dx, to.dx), copy(from.dy, to.dy);
+  to.margin[k] = from.margin[i], to.seed[k] = from.seed[i];
+  to.x[k] = from.x[i], to.y[k] = from.y[i];
+}
+
+}  // namespace
+
+SharedVisibility::SharedVisibility(const TracedVisibility& rays, int lights, const ShadowOptions& shadows,
+                                   const OcclusionOptions& occlusion, Image image)
+    : rays_(rays), image_(std::move(image)) {
+  if (shadows.method == ShadowMethod::Soft && shadows.spacing > 1)
+    for (int k = 0; k < lights; ++k) lights_.push_back(make_query(shadows.spacing, shadows.samples));
+  if (occlusion.samples > 0) environment_ = make_query(occlusion.spacing, occlusion.samples);
+}
+
+SharedVisibility::Query SharedVisibility::make_query(int spacing, int samples) const {
+  Query query;
+  for (int step = spacing; step > 1; step /= 2)
+    for (Grids* const grids : {&query.surfaces, &query.ground})
+      grids->push_back(std::make_unique<VisibilityGrid>(step, image_.width, image_.height, samples));
+  return query;
+}
+
+void SharedVisibility::of_light(int k, const Receivers& receivers, float* visible) const {
+  if (lights_.empty() || receivers.is_transmissive) return rays_.of_light(k, receivers, visible);
+  share(lights_[static_cast<std::size_t>(k)], receivers,
+        {[&](const Receivers& some, float* out) { rays_.of_light(k, some, out); },
+         [&](const Receivers& some, int i) { return rays_.is_lit(k, some, i); }},
+        visible);
+}
+
+void SharedVisibility::of_environment(const Receivers& receivers, float* visible) const {
+  share(environment_, receivers,
+        {[&](const Receivers& some, float* out) { rays_.of_environment(some, out); },
+         [](const Receivers&, int) { return true; }},
+        visible);
+}
+
+void SharedVisibility::evaluate(bool is_ground, std::span<const PixelPosition> pixels, const Rays& rays,
+                                VisibilityGrid::Value* values) const {
+  Receivers seen{}, lit{};
+  std::array<bool, FragmentBatch::capacity> found{};
+  (is_ground ? image_.ground : image_.surfaces)(pixels, seen, {found.data(), pixels.size()});
+  std::array<std::size_t, FragmentBatch::capacity> from;
+  for (std::size_t k = 0; k < pixels.size(); ++k) {
+    const int i = static_cast<int>(k);
+    values[k] = {};
+    if (!found[k] || !rays.is_lit(seen, i)) continue;
+    values[k].position = {seen.position[0][k], seen.position[1][k], seen.position[2][k]};
+    values[k].normal = {seen.normal[0][k], seen.normal[1][k], seen.normal[2][k]};
+    from[static_cast<std::size_t>(lit.count)] = k;
+    copy_entry(seen, i, lit, lit.count++);
+  }
+  float visible[Receivers::capacity];
+  rays.trace(lit, visible);
+  for (int i = 0; i < lit.count; ++i) values[from[static_cast<std::size_t>(i)]].visible = visible[i];
+}
+
+void SharedVisibility::share(const Query& query, const Receivers& receivers, const Rays& rays, float* visible) const {
+  std::array<int, Receivers::capacity> open;
+  std::size_t count = 0;
+  for (int i = 0; i < receivers.count; ++i) {
+    visible[i] = 0;
+    if (rays.is_lit(receivers, i)) open[count++] = i;
+  }
+  const auto evaluated = [&](std::span<const PixelPosition> pixels, VisibilityGrid::Value* values) {
+    evaluate(receivers.is_ground, pixels, rays, values);
+  };
+  for (const auto& grid : receivers.is_ground ? query.ground : query.surfaces) {
+    float found[Receivers::capacity];
+    grid->interpolate(receivers, {open.data(), count}, evaluated, found);
+    std::size_t left = 0;
+    for (std::size_t k = 0; k < count; ++k) {
+      if (found[k] == VisibilityGrid::Value::nothing)
+        open[left++] = open[k];
+      else
+        visible[open[k]] = found[k];
+    }
+    count = left;
+  }
+
+  Receivers rest{};
+  for (; rest.count < static_cast<int>(count); ++rest.count)
+    copy_entry(receivers, open[static_cast<std::size_t>(rest.count)], rest, rest.count);
+  float own[Receivers::capacity];
+  rays.trace(rest, own);
+  for (std::size_t k = 0; k < count; ++k) visible[open[k]] = own[k];
+}
+
+}  // namespace zoneplate
