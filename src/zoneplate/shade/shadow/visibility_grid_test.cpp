@@ -30,7 +30,7 @@ struct Asked {
   std::vector<PixelPosition> evaluated;
 };
 
-/// The values at these places, in pixels, asked for in batches of this size.
+/// The values at these places, in pixels, requested in batches of this size.
 Asked ask(VisibilityGrid& grid, const Surface& surface, const std::vector<float2>& places, std::size_t batch = 100) {
   Asked out;
   const auto evaluate = [&](std::span<const PixelPosition> pixels, Value* values) {
@@ -143,7 +143,7 @@ TEST(VisibilityGrid, KeepsSurfacesApart) {
   }
 }
 
-// Whoever asks first, and whatever else is asked for.
+// Whoever requests first, and whatever else is requested.
 TEST(VisibilityGridBits, DoNotDependOnTheOrder) {
   const Surface surface = plane_with([](float x, float y) {
     const auto noise = unit_float(hash(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 9));
