@@ -9,7 +9,9 @@
 #include <string_view>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/codec/exr_header.h"
+#include "zoneplate/codec/exr/exr_dwa.h"
+#include "zoneplate/codec/exr/exr_header.h"
+#include "zoneplate/codec/exr/exr_layer.h"
 #include "zoneplate/codec/inspect/color_space.h"
 #include "zoneplate/codec/inspect/image_format.h"
 #include "zoneplate/codec/pfm.h"
@@ -36,6 +38,17 @@ void put_checksums_right(Bytes& png) {
   }
 }
 
+/// The bytes as a chunk that DWA packs, of every kind of channel.
+void unpack_dwa(const Bytes& packed) {
+  using enum zoneplate::ExrType;
+  static const zoneplate::DwaDecoder decoder;
+  const zoneplate::DwaChannel channels[] = {
+      {"A", Half, 19, 11},  {"B", Half, 19, 11},    {"G", Half, 19, 11},    {"R", Half, 19, 11},
+      {"Z", Float, 19, 11}, {"id", Number, 19, 11}, {"v.Y", Float, 19, 11}, {"w.Y", Half, 10, 6, 2, true}};
+  Bytes out(19 * 11 * (4 * 2 + 3 * 4) + 10 * 6 * 2);
+  decoder.unpack(packed, channels, 0, out);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -50,7 +63,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (std::string_view(error.what()).find('\n') != std::string_view::npos) std::abort();
   }
   zoneplate::count_frames(bytes);
-  zoneplate::read_exr_parts(bytes);
+  zoneplate::exr_layers(zoneplate::read_exr_parts(bytes));
+  if (std::string_view(ZONEPLATE_FUZZ_FORMAT) == "exr") unpack_dwa(bytes);
   try {
     if (std::string_view(ZONEPLATE_FUZZ_FORMAT) == "pfm") {
       zoneplate::decode_pfm(bytes, "image", max_pixels);  // no texture is one

@@ -6,7 +6,7 @@
 
 #include "zoneplate/codec/bitmap/pillow_files_for_test.h"
 #include "zoneplate/codec/color/icc_for_test.h"
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/codec/inspect/exif_for_test.h"
 #include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/ktx2/files_for_test.h"

@@ -10,7 +10,7 @@
 #include <set>
 
 #include "zoneplate/base/paths_for_test.h"
-#include "zoneplate/codec/exr.h"
+#include "zoneplate/codec/exr/exr.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/os/file.h"

@@ -13,7 +13,7 @@
 
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/paths_for_test.h"
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/image/half.h"

@@ -116,7 +116,8 @@ static Plane<Texel> image_of(int image) {
   return out;
 }
 
-DecodedImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+DecodedImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
+                          const std::string& /*layer*/) {
   if (const std::string_view reason = reason_of(bytes); !reason.empty())
     throw Error(ErrorKind::Input, fmt::format("{}: {}", name, reason));
   if (is_hdr(bytes)) return {decode_hdr_rgba(bytes, name, max_pixels)};

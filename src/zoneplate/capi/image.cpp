@@ -5,7 +5,7 @@
 
 #include "zoneplate/capi/arrays.h"
 #include "zoneplate/capi/handles.h"
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/render/aov.h"
 
 namespace zoneplate::cli {

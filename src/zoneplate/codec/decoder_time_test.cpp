@@ -6,8 +6,8 @@
 
 #include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
-#include "zoneplate/codec/exr.h"
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/codec/hdr.h"
 #include "zoneplate/codec/jpeg.h"
 #include "zoneplate/codec/jpeg_encode.h"

@@ -11,7 +11,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/lower_case.h"
 #include "zoneplate/codec/color/icc.h"
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"

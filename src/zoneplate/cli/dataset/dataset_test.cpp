@@ -12,7 +12,7 @@
 #include "zoneplate/base/paths_for_test.h"
 #include "zoneplate/cli/dataset/sequence.h"
 #include "zoneplate/cli/program_for_test.h"
-#include "zoneplate/codec/exr.h"
+#include "zoneplate/codec/exr/exr.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/report/json_for_test.h"
 

@@ -15,7 +15,7 @@
 #include "zoneplate/cli/dataset/npy.h"
 #include "zoneplate/cli/dataset/nss.h"
 #include "zoneplate/cli/dataset/shots.h"
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/os/file.h"

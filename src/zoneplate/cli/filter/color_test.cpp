@@ -10,9 +10,9 @@
 
 #include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/codec/color/icc_for_test.h"
-#include "zoneplate/codec/exr.h"
-#include "zoneplate/codec/exr_encode.h"
-#include "zoneplate/codec/exr_header.h"
+#include "zoneplate/codec/exr/exr.h"
+#include "zoneplate/codec/exr/exr_encode.h"
+#include "zoneplate/codec/exr/exr_header.h"
 #include "zoneplate/codec/inspect/color_space.h"
 #include "zoneplate/codec/inspect/exif_for_test.h"
 #include "zoneplate/codec/jpeg_encode.h"

@@ -10,7 +10,7 @@
 #include <filesystem>
 
 #include "zoneplate/base/paths_for_test.h"
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/metrics/backdrop.h"
 #include "zoneplate/metrics/file/picture_file.h"

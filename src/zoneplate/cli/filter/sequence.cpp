@@ -15,7 +15,7 @@
 #include "zoneplate/cli/filter/color.h"
 #include "zoneplate/cli/filter/still.h"
 #include "zoneplate/cli/log.h"
-#include "zoneplate/codec/exr.h"
+#include "zoneplate/codec/exr/exr.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/save.h"
 #include "zoneplate/image/transfer.h"

@@ -9,7 +9,7 @@
 
 #include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/codec/apng.h"
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/codec/inspect/exr_parts_for_test.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"

@@ -15,7 +15,7 @@
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/look/default_material.h"
 #include "zoneplate/cli/progress.h"
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/codec/save.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/image/tonemap.h"

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "zoneplate/cli/render/args.h"
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/scene/camera.h"
 
 namespace zoneplate::cli {

@@ -16,7 +16,7 @@
 #include "zoneplate/cli/batch/frame_name.h"
 #include "zoneplate/cli/look/solid_texture.h"
 #include "zoneplate/cli/render/exr_header.h"
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"

@@ -9,7 +9,7 @@
 
 #include "zoneplate/cli/render/args.h"
 #include "zoneplate/cli/render/summary.h"
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/render/renderer.h"
 
 namespace zoneplate::cli {

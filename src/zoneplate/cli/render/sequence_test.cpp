@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "zoneplate/cli/program_for_test.h"
-#include "zoneplate/codec/exr.h"
+#include "zoneplate/codec/exr/exr.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/formats/gltf/maker_for_test.h"
 #include "zoneplate/os/file.h"

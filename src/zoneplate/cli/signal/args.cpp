@@ -11,7 +11,7 @@
 #include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/signal/show.h"
 #include "zoneplate/cli/values.h"
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/save.h"
 #include "zoneplate/image/transfer.h"

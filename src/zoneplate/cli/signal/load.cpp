@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/codec/exr.h"
+#include "zoneplate/codec/exr/exr.h"
 #include "zoneplate/codec/hdr.h"
 #include "zoneplate/codec/inspect/color_space.h"
 #include "zoneplate/codec/pfm.h"

@@ -12,8 +12,8 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/codec/color/icc.h"
-#include "zoneplate/codec/exr_encode.h"
-#include "zoneplate/codec/exr_header.h"
+#include "zoneplate/codec/exr/exr_encode.h"
+#include "zoneplate/codec/exr/exr_header.h"
 #include "zoneplate/codec/hdr.h"
 #include "zoneplate/codec/jpeg.h"
 #include "zoneplate/codec/pfm.h"

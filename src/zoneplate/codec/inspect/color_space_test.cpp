@@ -5,7 +5,7 @@
 #include <zlib.h>
 
 #include "zoneplate/codec/color/icc_for_test.h"
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/codec/inspect/exif_for_test.h"
 #include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/pfm.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "zoneplate/codec/bitmap/tga.h"
-#include "zoneplate/codec/exr.h"
+#include "zoneplate/codec/exr/exr.h"
 #include "zoneplate/codec/hdr.h"
 #include "zoneplate/codec/jpeg.h"
 #include "zoneplate/codec/pfm.h"

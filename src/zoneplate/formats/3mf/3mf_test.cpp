@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/formats/3mf/maker_for_test.h"
 #include "zoneplate/formats/gltf/maker_for_test.h"

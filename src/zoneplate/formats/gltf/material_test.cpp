@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/formats/gltf/gltf.h"
 #include "zoneplate/formats/gltf/load_for_test.h"

@@ -10,7 +10,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/codec/bitmap/bmp.h"
 #include "zoneplate/codec/bitmap/tga.h"
-#include "zoneplate/codec/exr.h"
+#include "zoneplate/codec/exr/exr.h"
 #include "zoneplate/codec/hdr.h"
 #include "zoneplate/codec/inspect/image_format.h"
 #include "zoneplate/codec/jpeg.h"
@@ -34,14 +34,16 @@ float4 straight(Linear c) {
   return {c.r / alpha, c.g / alpha, c.b / alpha, c.a};
 }
 
-Plane<float4> decode_exr_light(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+Plane<float4> decode_exr_light(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
+                               const std::string& layer) {
   Plane<float4> image;
   int y = 0;
-  decode_exr_rows(bytes, name, max_pixels, [&](std::span<const Linear> row) {
+  const auto take_row = [&](std::span<const Linear> row) {
     check_deadline();
     if (y == 0) image = Plane<float4>(static_cast<int>(row.size()), find_exr_size(bytes)->y);
     std::transform(row.begin(), row.end(), image.row(y++).begin(), straight);
-  });
+  };
+  decode_exr_rows(bytes, name, max_pixels, take_row, layer);
   return image;
 }
 
@@ -99,14 +101,15 @@ std::uint64_t image_working_memory(std::span<const std::uint8_t> bytes) {
   return 2 * pixels * frame->samples / frame->pixels;
 }
 
-DecodedImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
+DecodedImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
+                          const std::string& layer) {
   if (is_jpeg(bytes)) {
     JpegImage image = decode_jpeg(bytes, name, max_pixels);
     return {std::move(image.pixels), std::move(image.flaw)};
   }
   if (is_webp(bytes)) return {decode_webp(bytes, name, max_pixels)};
   if (is_hdr(bytes)) return {decode_hdr_rgba(bytes, name, max_pixels)};
-  if (is_exr(bytes)) return {decode_exr_light(bytes, name, max_pixels / 4)};
+  if (is_exr(bytes)) return {decode_exr_light(bytes, name, max_pixels / 4, layer)};
   if (is_png(bytes)) return {decode_png_texels(bytes, name, max_pixels)};
   if (is_ktx2(bytes)) return {decode_ktx2(bytes, name, max_pixels)};
   if (is_pfm(bytes)) return {decode_pfm_light(bytes, name, max_pixels)};

@@ -45,10 +45,11 @@ struct DecodedImage {
 /// EXR are divided by alpha where alpha is above 0. An EXR may have a quarter of `max_pixels`, because decoding takes
 /// four times the memory per pixel.
 ///
-/// Of a damaged JPEG what can be decoded is kept.
+/// Of a damaged JPEG what can be decoded is kept. `layer` is of an EXR (codec/exr_layer.h).
 ///
 /// Errors    ErrorKind::Input with `name` in front: another format (named, if known), corrupt, more than `max_pixels`.
-DecodedImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels);
+DecodedImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
+                          const std::string& layer = {});
 
 /// The same within the limits of an import.
 ///

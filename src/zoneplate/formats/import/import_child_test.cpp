@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/formats/import/damage_for_test.h"
 #include "zoneplate/formats/import/mesh_samples_for_test.h"
 #include "zoneplate/formats/import/scene_bytes.h"

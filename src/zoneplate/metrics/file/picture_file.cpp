@@ -14,7 +14,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/codec/bitmap/bmp.h"
 #include "zoneplate/codec/bitmap/tga.h"
-#include "zoneplate/codec/exr.h"
+#include "zoneplate/codec/exr/exr.h"
 #include "zoneplate/codec/hdr.h"
 #include "zoneplate/codec/inspect/color_space.h"
 #include "zoneplate/codec/inspect/image_format.h"
@@ -185,7 +185,8 @@ Picture picture_of(DisplayImage codes, const ImageColor& color) {
 
 }  // namespace
 
-Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t most_pixels) {
+Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t most_pixels,
+                       const ExrChoice& exr) {
   const ImageColor color = read_image_color(bytes, name);
   Picture picture;
   if (is_jpeg(bytes)) {
@@ -194,7 +195,7 @@ Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& n
     picture.flaw = std::move(image.flaw);
   } else {
     picture = is_hdr(bytes)   ? make_picture(decode_hdr(bytes, name, most_pixels))
-              : is_exr(bytes) ? make_picture(decode_exr_as_stored(bytes, name, most_pixels))
+              : is_exr(bytes) ? make_picture(decode_exr_as_stored(bytes, name, most_pixels, exr))
               : is_pfm(bytes) ? make_picture(decode_pfm(bytes, name, most_pixels))
                               : picture_of(decode_display(bytes, name, most_pixels), color);
   }
@@ -221,7 +222,7 @@ ImageFile open_image(const std::string& path) {
 
 Picture decode_file(const ImageFile& file, std::uint64_t most_pixels) {
   const MappedFileWatch watch;
-  Picture picture = decode_picture(file.bytes, file.name, most_pixels);
+  Picture picture = decode_picture(file.bytes, file.name, most_pixels, file.exr);
   watch.check(file.name);
   return picture;
 }

@@ -25,9 +25,9 @@ ImageFile open_image(const std::string& path);
 /// Errors    ErrorKind::Input naming the file and the cause, also for more than `most_pixels`.
 Picture decode_file(const ImageFile& file, std::uint64_t most_pixels = std::uint64_t{1} << 28);
 
-/// The same from the bytes of a file; `name` is for messages.
+/// The same from the bytes of a file; `name` is for messages, `exr` chooses the image of an EXR.
 Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name,
-                       std::uint64_t most_pixels = std::uint64_t{1} << 28);
+                       std::uint64_t most_pixels = std::uint64_t{1} << 28, const ExrChoice& exr = {});
 
 /// The same image in sRGB codes, or light of Rec.709 primaries. Display-referred colours outside sRGB are clamped.
 Picture in_srgb(Picture picture);

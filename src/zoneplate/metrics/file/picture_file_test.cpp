@@ -9,7 +9,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/shared_files_for_test.h"
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/webp_still.h"

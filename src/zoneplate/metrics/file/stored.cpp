@@ -10,8 +10,9 @@
 #include <map>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/codec/exr.h"
-#include "zoneplate/codec/exr_header.h"
+#include "zoneplate/codec/exr/exr.h"
+#include "zoneplate/codec/exr/exr_header.h"
+#include "zoneplate/codec/exr/exr_layer.h"
 #include "zoneplate/codec/inspect/color_space.h"
 #include "zoneplate/codec/inspect/image_format.h"
 
@@ -30,18 +31,19 @@ using Layers = std::map<std::string, Layer>;
 Layers layers_of(const ImageFile& file) {
   Layers out;
   const std::vector<ExrPart> parts = read_exr_parts(file.bytes);
+  if (parts.empty()) return out;
+  const ExrLayer measured = choose_exr_layer(parts, file.exr.layer, file.name);
   for (std::size_t i = 0; i < parts.size(); ++i) {
-    const auto is_rgb = [](const ExrPartChannel& c) { return c.name == "R" || c.name == "G" || c.name == "B"; };
-    const bool is_grey = std::ranges::none_of(parts[i].channels, is_rgb);
     const auto is_measured = [&](const ExrPartChannel& c) {
-      return i == 0 && (is_rgb(c) || c.name == "A" || (is_grey && (c.name == "Y" || c.name == "RY" || c.name == "BY")));
+      return static_cast<int>(i) == measured.part &&
+             std::ranges::find(measured.channels, c.name) != measured.channels.end();
     };
     const std::string prefix = i == 0 ? "" : parts[i].name.empty() ? fmt::format("{}.", i + 1) : parts[i].name + ".";
     for (const ExrPartChannel& c : parts[i].channels) {
       if (is_measured(c)) continue;
       // "depth.Z" may be a channel of the first part, and the channel Z of the part "depth".
       std::string name = prefix + c.name;
-      while (!out.emplace(name, Layer{static_cast<int>(i), c.name, c.is_number}).second)
+      while (!out.emplace(name, Layer{static_cast<int>(i), c.name, c.type == ExrType::Number}).second)
         name = fmt::format("{}.{}", i + 1, name);
     }
   }

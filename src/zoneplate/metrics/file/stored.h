@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "zoneplate/codec/exr/exr.h"
 #include "zoneplate/metrics/picture.h"
 
 namespace zoneplate::metrics {
@@ -17,9 +18,10 @@ struct ImageFile {
   std::string name;
   std::span<const std::uint8_t> bytes;
   std::shared_ptr<const void> owner = nullptr;  ///< of the bytes
+  ExrChoice exr = {};                           ///< the image that is meant, if it is an EXR
 };
 
-/// A number of pixels of one channel: "R" of the first part, "depth.Z" of a layer, "left.R" of the part `left`.
+/// A number of pixels of one channel: "R" of the measured layer, "depth.Z" of another, "left.R" of the part `left`.
 struct ChannelCount {
   std::string channel;
   std::size_t pixels = 0;

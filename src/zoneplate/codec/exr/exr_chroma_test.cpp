@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/codec/exr_chroma.h"
+#include "zoneplate/codec/exr/exr_chroma.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/codec/exr.h"
+#include "zoneplate/codec/exr/exr.h"
 #include "zoneplate/image/half.h"
 
 namespace zoneplate {

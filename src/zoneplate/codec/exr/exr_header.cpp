@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/codec/exr_header.h"
+#include "zoneplate/codec/exr/exr_header.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <cstring>
 #include <string_view>
 
-#include "zoneplate/codec/exr.h"
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 
 namespace zoneplate {
 namespace {
@@ -32,7 +32,12 @@ std::vector<ExrPartChannel> channels_in(ExrBytes value) {
   constexpr std::size_t description = 16;  // type, linearity, sampling along x and y
   while (const auto channel = take_text(value)) {
     if (channel->empty() || value.size() < description) break;
-    out.push_back({std::string(*channel), value[0] == static_cast<std::uint8_t>(ExrType::Number)});
+    std::int32_t words[4];
+    std::memcpy(words, value.data(), sizeof words);
+    const bool is_known = words[0] >= 0 && words[0] <= static_cast<std::int32_t>(ExrType::Float);
+    out.push_back({.name = std::string(*channel),
+                   .type = is_known ? static_cast<ExrType>(words[0]) : ExrType::Float,
+                   .sampling = {std::max(words[2], 1), std::max(words[3], 1)}});
     value = value.subspan(description);
   }
   return out;
@@ -58,6 +63,8 @@ void take_attribute(std::string_view name, std::string_view type, ExrBytes value
   const std::string text(reinterpret_cast<const char*>(value.data()), value.size());
   if (name == "channels" && type == "chlist") part.channels = channels_in(value);
   if (name == "name" && type == "string") part.name = text;
+  if (name == "type" && type == "string") part.is_deep = text.starts_with("deep");
+  part.attributes.push_back({name, type, value});
   constexpr std::array<std::string_view, 3> of_color = {"chromaticities", "whiteLuminance", "adoptedNeutral"};
   std::string color;
   if (std::ranges::find(of_color, name) != of_color.end()) color = floats_in(name, value);
@@ -69,7 +76,9 @@ void take_attribute(std::string_view name, std::string_view type, ExrBytes value
 /// is cut off.
 std::optional<ExrPart> take_header(ExrBytes& bytes) {
   ExrPart part;
+  const ExrBytes whole = bytes;
   for (;;) {
+    part.header = whole.first(whole.size() - bytes.size());
     const auto name = take_text(bytes);
     if (!name) return std::nullopt;
     if (name->empty()) return part;
@@ -105,6 +114,12 @@ std::vector<ExrPart> read_exr_parts(std::span<const std::uint8_t> bytes) {
     if (!has_several) break;
   }
   return parts;
+}
+
+ExrWindow exr_whole_window(const ExrPart& part) {
+  const ExrWindow &data = part.data, &display = part.display;
+  return {std::min(data.left, display.left), std::min(data.top, display.top), std::max(data.right, display.right),
+          std::max(data.bottom, display.bottom)};
 }
 
 }  // namespace zoneplate

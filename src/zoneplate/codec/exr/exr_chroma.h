@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "zoneplate/codec/exr_encode.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/math/vec.h"
 
 namespace zoneplate {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/codec/exr.h"
+#include "zoneplate/codec/exr/exr.h"
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -11,8 +11,8 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/codec/exr_encode.h"
-#include "zoneplate/codec/exr_header.h"
+#include "zoneplate/codec/exr/exr_encode.h"
+#include "zoneplate/codec/exr/exr_header.h"
 #include "zoneplate/codec/inspect/exr_parts_for_test.h"
 #include "zoneplate/image/half.h"
 #include "zoneplate/math/random.h"
@@ -184,7 +184,8 @@ TEST(Exr, RefusalsNameTheCause) {
   EXPECT_EQ(error_of(Bytes(good.begin(), good.begin() + 100)), "a.exr: EXR: the header is wrong");
   EXPECT_EQ(error_of({1, 2, 3}), "a.exr: EXR: the header is wrong");
   const float values[4] = {};
-  EXPECT_EQ(error_of(encode_exr(2, 2, {{"Z", ExrType::Float, values}})), "a.exr: EXR: has no channel R, G, B or Y");
+  EXPECT_EQ(error_of(encode_exr(2, 2, {{"Z", ExrType::Float, values}, {"d", ExrType::Float, values}})),
+            "a.exr: EXR: has no channel R, G, B or Y, and which of its layers is the image is not stated: Z, d");
 }
 
 TEST(Exr, AClaimOfManyPixelsTakesNoMemory) {

@@ -6,27 +6,25 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "zoneplate/codec/exr/exr_encode.h"
+#include "zoneplate/math/vec.h"
+
 namespace zoneplate {
-
-/// A rectangle of pixels; both corners are inclusive.
-struct ExrWindow {
-  std::int32_t left = 0, top = 0, right = -1, bottom = -1;
-
-  std::int64_t width() const { return std::int64_t{right} - left + 1; }
-  std::int64_t height() const { return std::int64_t{bottom} - top + 1; }
-  bool is_sound() const {
-    constexpr std::int64_t most_side = 1 << 24;
-    return width() > 0 && height() > 0 && width() <= most_side && height() <= most_side;
-  }
-  std::uint64_t pixels() const { return static_cast<std::uint64_t>(width()) * static_cast<std::uint64_t>(height()); }
-};
 
 /// A channel of a part.
 struct ExrPartChannel {
   std::string name;
-  bool is_number = false;  ///< of whole numbers, not of halves or floats
+  ExrType type = ExrType::Half;
+  int2 sampling{1, 1};  ///< the columns and rows to a sample
+};
+
+/// An attribute of a header: a view of its bytes in the file.
+struct ExrAttributeView {
+  std::string_view name, type;
+  std::span<const std::uint8_t> value;
 };
 
 /// What the header of one part of an OpenEXR file states.
@@ -36,12 +34,18 @@ struct ExrPart {
   std::vector<ExrPartChannel> channels;                ///< in the order of the file
   std::optional<std::array<float, 8>> chromaticities;  ///< x and y of red, green, blue and white
   std::string color_space;  ///< the attributes that define its colours, as text; empty: Rec.709
+  bool is_deep = false;
+  std::vector<ExrAttributeView> attributes;  ///< all of them
+  std::span<const std::uint8_t> header;      ///< their bytes, without the zero that ends them
 };
 
-/// The parts of an OpenEXR file in its order; only whole headers, thus none of other bytes.
+/// The parts of an OpenEXR file in its order, which refer to its bytes; only whole headers, thus none of other bytes.
 std::vector<ExrPart> read_exr_parts(std::span<const std::uint8_t> bytes);
 
 /// The first of them.
 std::optional<ExrPart> read_exr_part(std::span<const std::uint8_t> bytes);
+
+/// The smallest window that contains the display and the data window.
+ExrWindow exr_whole_window(const ExrPart& part);
 
 }  // namespace zoneplate

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/image/plane.h"
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/math/vec.h"
@@ -20,9 +21,21 @@ bool is_exr(std::span<const std::uint8_t> bytes);
 /// Width and height of the display window of an OpenEXR image.
 std::optional<int2> find_exr_size(std::span<const std::uint8_t> bytes);
 
-/// Decodes the colour of an OpenEXR image: the channels R, G, B and A, or Y as grey, or Y, RY and BY as luminance and
-/// chroma (codec/exr_chroma.h), of its first part; scanlines or the finest tiles, any compression but DWA. Channels
-/// beside these may have any sampling.
+/// The pixels of an OpenEXR image that are decoded.
+enum class ExrArea {
+  Display,  ///< the display window: what is seen
+  Whole,    ///< the smallest window that contains the display and the data window: with overscan
+};
+
+/// The image of an OpenEXR file that is decoded.
+struct ExrChoice {
+  std::string layer = {};  ///< choose_exr_layer (codec/exr_layer.h)
+  ExrArea area = ExrArea::Display;
+};
+
+/// Decodes a layer of an OpenEXR image (codec/exr_layer.h), by default its colours: the channels R, G, B and A, or Y as
+/// grey, or Y, RY and BY as luminance and chroma (codec/exr_chroma.h); scanlines or the finest tiles, of any
+/// compression. Channels beside these may have any sampling.
 ///
 /// The library is loaded by the first call, and runs in a child process with limits; inside a LimitedChild, which has
 /// limits already, it runs in that process.
@@ -30,22 +43,22 @@ std::optional<int2> find_exr_size(std::span<const std::uint8_t> bytes);
 /// Units     as stored, premultiplied; NaN becomes 0, infinity 65504. Without A, alpha is 1.
 /// Errors    ErrorKind::Input with `name` in front: not an OpenEXR image, deep, without these channels, with fewer
 ///           samples in one than pixels (chroma: than in every second column and row), truncated, corrupt, more than
-///           `max_pixels` pixels. ErrorKind::Failed where libOpenEXRCore is not installed.
+///           `max_pixels` pixels. ErrorKind::Failed where libOpenEXRCore is not installed. Those of choose_exr_layer.
 LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& name,
                        std::uint64_t max_pixels = std::uint64_t{1} << 28);
 
-/// The same with NaN and infinities as they are stored.
+/// The same of any layer and area, with NaN and infinities as they are stored.
 LinearImage decode_exr_as_stored(std::span<const std::uint8_t> bytes, const std::string& name,
-                                 std::uint64_t max_pixels = std::uint64_t{1} << 28);
+                                 std::uint64_t max_pixels = std::uint64_t{1} << 28, const ExrChoice& choice = {});
 
 /// Decodes an image as decode_exr does, and passes it on row by row, from the top.
 void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
-                     const std::function<void(std::span<const Linear>)>& take_row);
+                     const std::function<void(std::span<const Linear>)>& take_row, const std::string& layer = {});
 
 /// The names of the channels of the first part, in the order of the file; none if the header is wrong.
 std::vector<std::string> exr_channel_names(std::span<const std::uint8_t> bytes);
 
-/// Decodes channels of any names and types as floats, at most four, in the order of `channels`.
+/// Decodes channels of the first part, of any names and types, as floats, in the order of `channels`.
 ///
 /// Shape     the display window; 0 where the data window does not reach.
 /// Units     as stored, with NaN and infinities; integers above 2²⁴ are rounded.
@@ -54,11 +67,16 @@ std::vector<Plane<float>> decode_exr_channels(std::span<const std::uint8_t> byte
                                               std::span<const std::string> channels,
                                               std::uint64_t max_pixels = std::uint64_t{1} << 28);
 
-/// The same channels of any part (codec/exr_header.h), at most four, as bits: of floats, to which halves are converted,
-/// or of whole numbers. Of channels with fewer samples than pixels, the pixels between these are 0.
+/// The same channels of any part (codec/exr_header.h) as bits: of floats, to which halves are converted, or of whole
+/// numbers. Of channels with fewer samples than pixels, the pixels between these are 0.
 std::vector<Plane<std::uint32_t>> decode_exr_bits(std::span<const std::uint8_t> bytes, const std::string& name,
                                                   int part, std::span<const std::string> channels,
                                                   std::uint64_t max_pixels = std::uint64_t{1} << 28);
+
+/// The same in any window, with halves as their 16 bits.
+std::vector<Plane<std::uint32_t>> decode_exr_stored(std::span<const std::uint8_t> bytes, const std::string& name,
+                                                    int part, std::span<const std::string> channels,
+                                                    const ExrWindow& window);
 
 /// The memory in bytes that decoding takes in addition to the rows.
 std::uint64_t exr_working_memory(std::span<const std::uint8_t> bytes);

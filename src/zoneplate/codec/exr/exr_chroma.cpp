@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/codec/exr_chroma.h"
+#include "zoneplate/codec/exr/exr_chroma.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/codec/exr.h"
+#include "zoneplate/codec/exr/exr.h"
 
 #include <dlfcn.h>
 #include <openexr.h>
@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <functional>
+#include <limits>
 #include <memory>
 #include <new>
 #include <string_view>
@@ -18,8 +20,10 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
-#include "zoneplate/codec/exr_chroma.h"
-#include "zoneplate/codec/exr_header.h"
+#include "zoneplate/codec/exr/exr_chroma.h"
+#include "zoneplate/codec/exr/exr_dwa.h"
+#include "zoneplate/codec/exr/exr_header.h"
+#include "zoneplate/codec/exr/exr_layer.h"
 #include "zoneplate/image/half.h"
 #include "zoneplate/os/library.h"
 #include "zoneplate/os/limited_child.h"
@@ -45,12 +49,6 @@ std::optional<Windows> windows_of(const std::optional<ExrPart>& part) {
 }
 
 std::optional<Windows> find_windows(std::span<const std::uint8_t> bytes) { return windows_of(read_exr_part(bytes)); }
-
-/// The file's chromaticities, or those of Rec.709, which are what a file without them has.
-ExrChromaticities find_chromaticities(std::span<const std::uint8_t> bytes) {
-  const std::optional<ExrPart> part = read_exr_part(bytes);
-  return part && part->chromaticities ? *part->chromaticities : rec709_chromaticities;
-}
 
 /// The functions of libOpenEXRCore that this file calls. The library is loaded at run time; the program is not linked
 /// to it.
@@ -87,7 +85,7 @@ struct ExrLibrary {
   }
 
   void check(exr_result_t result) const {
-    if (result == EXR_ERR_FEATURE_NOT_IMPLEMENTED) throw Refusal{"is packed in a way that is not read (DWA)"};
+    if (result == EXR_ERR_FEATURE_NOT_IMPLEMENTED) throw Refusal{"is packed in a way that is not read"};
     if (result != EXR_ERR_SUCCESS) throw Refusal{std::string("is corrupt or cut off: ") + error_text(result)};
   }
 };
@@ -127,13 +125,27 @@ class Channel {
   std::unique_ptr<float, Free> values_;
 };
 
+/// The values of channels, which are handed on as floats.
+enum class Values {
+  Finite,  ///< as floats, in which NaN becomes 0, infinity 65504
+  Floats,  ///< as floats
+  Bits,    ///< as floats, but whole numbers as their bits
+  Stored,  ///< all as their bits
+};
+
 /// What is decoded of a file.
 struct Selection {
   int part = 0;
-  std::span<const std::string> names = {};  ///< of at most four channels; none: the colour
-  bool replaces_infinite = false;           ///< NaN becomes 0, infinity 65504
-  bool keeps_numbers = false;               ///< whole numbers keep their bits, and are no floats
+  std::vector<std::string> names;  ///< of the channels; empty: one that the file lacks
+  ExrLayer::Kind kind = ExrLayer::Kind::Colors;
+  Values values = Values::Floats;
+  std::optional<Window> window;  ///< none: the display window
 };
+
+bool keeps_numbers(const Selection& selection) { return selection.values >= Values::Bits; }
+
+/// Channels are handed on four by four, as pixels.
+std::size_t groups_of(const Selection& selection) { return (selection.names.size() + 3) / 4; }
 
 /// The number of multiples of `step` from `first` on, among `count` integers.
 std::int64_t multiples(std::int64_t first, std::int64_t count, std::int64_t step) {
@@ -151,7 +163,12 @@ void copy_values(const std::uint8_t* from, std::int64_t count, const Value& valu
   }
 }
 
-void copy_values(const std::uint8_t* from, std::int64_t count, std::uint16_t type, std::int64_t step, float* out) {
+void copy_values(const std::uint8_t* from, std::int64_t count, std::uint16_t type, Values values, std::int64_t step,
+                 float* out) {
+  const auto bits = [](auto v) { return std::bit_cast<float>(std::uint32_t{v}); };
+  if (values == Values::Stored && type == EXR_PIXEL_HALF)
+    return copy_values<std::uint16_t>(from, count, bits, step, out);
+  if (values >= Values::Bits && type == EXR_PIXEL_UINT) return copy_values<std::uint32_t>(from, count, bits, step, out);
   if (type == EXR_PIXEL_HALF) return copy_values<std::uint16_t>(from, count, half_value, step, out);
   if (type == EXR_PIXEL_FLOAT)
     return copy_values<float>(
@@ -163,9 +180,15 @@ void copy_values(const std::uint8_t* from, std::int64_t count, std::uint16_t typ
 /// An open file, decoded into the channels of its data window. It exists in the child process only.
 class ExrReader {
  public:
-  ExrReader(const ExrLibrary& library, std::span<const std::uint8_t> bytes, const Window& window,
+  ExrReader(const ExrLibrary& library, std::span<const std::uint8_t> bytes, const ExrPart& part,
             const Selection& selection)
-      : library_(library), bytes_(bytes), window_(window), selection_(selection), names_(selection.names) {
+      : library_(library),
+        bytes_(bytes),
+        part_(part),
+        window_(part.data),
+        selection_(selection),
+        channels_(selection.names.size()),
+        sampling_(selection.names.size(), int2{1, 1}) {
     exr_context_initializer_t set_up{};
     set_up.size = sizeof set_up;
     set_up.error_handler_fn = say_nothing;
@@ -193,8 +216,9 @@ class ExrReader {
       read_tiles();
     else
       throw Refusal{"is deep, which is not read"};
-    if (kind_ == Kind::Chroma) {
-      const std::optional<float3> weights = luminance_weights(find_chromaticities(bytes_));
+    if (selection_.kind == ExrLayer::Kind::Chroma) {
+      const std::optional<float3> weights =
+          luminance_weights(part_.chromaticities ? *part_.chromaticities : rec709_chromaticities);
       if (!weights) throw Refusal{"has chromaticities that are those of no colours"};
       make_colors({.width = static_cast<int>(window_.width()),
                    .height = static_cast<int>(window_.height()),
@@ -205,73 +229,55 @@ class ExrReader {
     }
   }
 
-  /// Copies a row of the data window, starting at column `first`.
-  void copy_row(int y, int first, std::span<Linear> out) const {
-    const auto value = [&](std::size_t slot, std::size_t x) {
-      if (!channels_[slot]) return slot == 3 ? 1.0f : 0.0f;
+  /// Copies a row of the data window, starting at column `first`, of the four channels of a group.
+  void copy_row(int y, int first, std::size_t group, std::span<Linear> out) const {
+    const auto value = [&](std::size_t c, std::size_t x) {
+      const std::size_t slot = 4 * group + c;
+      if (slot >= channels_.size() || !channels_[slot]) return c == 3 ? 1.0f : 0.0f;
       const float v = channels_[slot](x, static_cast<std::size_t>(y));
-      return !selection_.replaces_infinite || std::isfinite(v) ? v : std::isnan(v) ? 0.0f : std::copysign(65504.0f, v);
+      if (selection_.values != Values::Finite || std::isfinite(v)) return v;
+      return std::isnan(v) ? 0.0f : std::copysign(65504.0f, v);
     };
+    const bool is_grey = selection_.kind == ExrLayer::Kind::Grey;
     for (std::size_t i = 0; i < out.size(); ++i) {
       const std::size_t x = static_cast<std::size_t>(first) + i;
       out[i].r = value(0, x);
-      out[i].g = kind_ == Kind::Grey ? out[i].r : value(1, x);
-      out[i].b = kind_ == Kind::Grey ? out[i].r : value(2, x);
+      out[i].g = is_grey ? out[i].r : value(1, x);
+      out[i].b = is_grey ? out[i].r : value(2, x);
       out[i].a = value(3, x);
     }
   }
 
  private:
-  enum class Kind { Named, Colors, Grey, Chroma };
-
   /// The slot of `channels_` that holds a channel; nothing if the channel is ignored.
   std::optional<std::size_t> slot_of(std::string_view channel) const {
-    if (kind_ == Kind::Named) {
-      const auto found = std::ranges::find(names_, channel);
-      if (found == names_.end()) return std::nullopt;
-      return static_cast<std::size_t>(found - names_.begin());
-    }
-    constexpr std::array<std::string_view, 4> colors = {"R", "G", "B", "A"}, grey = {"Y", "", "", "A"},
-                                              chroma = {"RY", "Y", "BY", "A"};
-    const auto& slots = kind_ == Kind::Colors ? colors : kind_ == Kind::Grey ? grey : chroma;
-    const auto found = std::ranges::find(slots, channel);
-    if (found == slots.end() || channel.empty()) return std::nullopt;
-    return static_cast<std::size_t>(found - slots.begin());
+    const auto found = std::ranges::find(selection_.names, channel);
+    if (found == selection_.names.end() || channel.empty()) return std::nullopt;
+    return static_cast<std::size_t>(found - selection_.names.begin());
   }
 
   void find_channels() {
     const exr_attr_chlist_t* list = nullptr;
     library_.check(library_.channels(context_, selection_.part, &list));
-    const auto find = [&](std::string_view name) -> const exr_attr_chlist_entry_t* {
-      for (int i = 0; i < list->num_channels; ++i)
-        if (list->entries[i].name.str == name) return &list->entries[i];
-      return nullptr;
-    };
-    if (!names_.empty())
-      kind_ = Kind::Named;
-    else if (find("R") || find("G") || find("B"))
-      kind_ = Kind::Colors;
-    else if (!find("Y"))
-      throw Refusal{"has no channel R, G, B or Y"};
-    else
-      kind_ = find("RY") || find("BY") ? Kind::Chroma : Kind::Grey;
-    for (const std::string& name : names_)
-      if (!find(name)) throw Refusal{"has no channel " + name};
-    for (int i = 0; i < list->num_channels; ++i) prepare(list->entries[i]);
+    const std::span entries(list->entries, static_cast<std::size_t>(list->num_channels));
+    for (const std::string& name : selection_.names)
+      if (!name.empty() && std::ranges::none_of(entries, [&](const auto& e) { return e.name.str == name; }))
+        throw Refusal{"has no channel " + name};
+    for (const exr_attr_chlist_entry_t& entry : entries) slots_.push_back(prepare(entry));
     // Chroma that the file lacks is zero.
-    if (kind_ == Kind::Chroma)
+    if (selection_.kind == ExrLayer::Kind::Chroma)
       for (const std::size_t slot : {0u, 2u})
         if (!channels_[slot]) channels_[slot] = Channel(window_), sampling_[slot] = {1, 1};
   }
 
   /// Makes the slot of a channel, if it has one.
-  void prepare(const exr_attr_chlist_entry_t& channel) {
+  std::optional<std::size_t> prepare(const exr_attr_chlist_entry_t& channel) {
     const std::string_view name = channel.name.str;
     const std::optional<std::size_t> slot = slot_of(name);
-    if (!slot) return;
-    const bool is_chroma = kind_ == Kind::Chroma && (*slot == 0 || *slot == 2);
+    if (!slot) return slot;
+    const bool is_chroma = selection_.kind == ExrLayer::Kind::Chroma && (*slot == 0 || *slot == 2);
     const int2 sampling{channel.x_sampling, channel.y_sampling};
-    const int most = selection_.keeps_numbers ? std::max(sampling.x, sampling.y) : is_chroma ? 2 : 1;
+    const int most = keeps_numbers(selection_) ? std::max(sampling.x, sampling.y) : is_chroma ? 2 : 1;
     if (sampling.x > most || sampling.y > most)
       throw Refusal{"has fewer samples in channel " + std::string(name) + " than " +
                     (is_chroma ? "in every second column and row" : "pixels") + ", which is not read"};
@@ -279,6 +285,7 @@ class ExrReader {
         window_.height() % sampling.y != 0)
       throw Refusal{"is corrupt: the data window divides the samples of channel " + std::string(name)};
     channels_[*slot] = Channel(window_), sampling_[*slot] = sampling;
+    return slot;
   }
 
   /// Decodes a chunk whose first pixel is (x, y) of the data window.
@@ -296,21 +303,16 @@ class ExrReader {
     // all, swap channels or crash where one has no destination, depending on the version.
     library_.check(library_.choose_routines(context_, selection_.part, &pipeline));
     // A chunk that compression would not make smaller is stored as it is, which B44 in some versions does not know.
-    if (chunk.packed_size == chunk.unpacked_size)
-      pipeline.decompress_fn = nullptr;
-    else if (chunk.compression == EXR_COMPRESSION_NONE)
+    const bool is_stored = chunk.packed_size == chunk.unpacked_size;
+    if (!is_stored && chunk.compression == EXR_COMPRESSION_NONE)
       throw Refusal{"is corrupt: a part has another size than its channels"};
-    struct Place {
-      ExrReader& reader;
-      std::int64_t x, y;
-    } place{*this, x, y};
-    pipeline.decoding_user_data = &place;
-    pipeline.unpack_and_convert_fn = [](exr_decode_pipeline_t* p) -> exr_result_t {
-      const auto& to = *static_cast<const Place*>(p->decoding_user_data);
-      to.reader.copy_chunk(*p, to.x, to.y);
-      return EXR_ERR_SUCCESS;
-    };
+    const bool is_dwa = chunk.compression == EXR_COMPRESSION_DWAA || chunk.compression == EXR_COMPRESSION_DWAB;
+    if (is_stored || is_dwa) pipeline.decompress_fn = nullptr;
+    pipeline.unpack_and_convert_fn = [](exr_decode_pipeline_t*) -> exr_result_t { return EXR_ERR_SUCCESS; };
     library_.check(library_.decode(context_, selection_.part, &pipeline));
+    if (is_stored || !is_dwa) return copy_chunk(pipeline, pipeline.unpacked_buffer, x, y);
+    const std::vector<std::uint8_t> unpacked = unpack_dwa(pipeline, y);
+    copy_chunk(pipeline, unpacked.data(), x, y);
   }
 
   std::int64_t columns(const exr_coding_channel_info_t& channel, std::int64_t x, std::int64_t width) const {
@@ -321,6 +323,8 @@ class ExrReader {
   /// channels to wrong places.
   void check_counts(const exr_decode_pipeline_t& pipeline, std::int64_t x, std::int64_t y) const {
     std::int64_t size = 0;
+    if (static_cast<std::size_t>(pipeline.channel_count) != slots_.size())
+      throw Refusal{"is corrupt: a part has other channels than its header"};
     for (int i = 0; i < pipeline.channel_count; ++i) {
       const exr_coding_channel_info_t& c = pipeline.channels[i];
       const std::int64_t rows = multiples(window_.top + y, pipeline.chunk.height, c.y_samples);
@@ -334,21 +338,39 @@ class ExrReader {
   }
 
   /// Copies the channels of a decompressed chunk: row by row, those that have samples in it one after the other.
-  void copy_chunk(const exr_decode_pipeline_t& pipeline, std::int64_t x, std::int64_t y) {
+  void copy_chunk(const exr_decode_pipeline_t& pipeline, const void* unpacked, std::int64_t x, std::int64_t y) {
     const std::span channels(pipeline.channels, static_cast<std::size_t>(pipeline.channel_count));
-    const auto* from = static_cast<const std::uint8_t*>(pipeline.unpacked_buffer);
+    const auto* from = static_cast<const std::uint8_t*>(unpacked);
     for (std::int64_t row = y; row < y + pipeline.chunk.height; ++row)
-      for (const exr_coding_channel_info_t& c : channels) {
+      for (std::size_t i = 0; i < channels.size(); ++i) {
+        const exr_coding_channel_info_t& c = channels[i];
         if ((window_.top + row) % c.y_samples != 0) continue;
         const std::int64_t count = columns(c, x, pipeline.chunk.width);
-        if (const std::optional<std::size_t> slot = slot_of(c.channel_name)) {
-          const std::uint16_t type = selection_.keeps_numbers && c.data_type == EXR_PIXEL_UINT
-                                         ? std::uint16_t{EXR_PIXEL_FLOAT}  // the same number of bits
-                                         : c.data_type;
-          copy_values(from, count, type, c.x_samples, channels_[*slot].row(static_cast<std::size_t>(row)) + x);
-        }
+        if (const std::optional<std::size_t> slot = slots_[i])
+          copy_values(from, count, c.data_type, selection_.values, c.x_samples,
+                      channels_[*slot].row(static_cast<std::size_t>(row)) + x);
         from += count * c.bytes_per_element;
       }
+  }
+
+  /// The bytes of a chunk that is packed by DWA.
+  std::vector<std::uint8_t> unpack_dwa(const exr_decode_pipeline_t& pipeline, std::int64_t y) {
+    if (!dwa_) dwa_.emplace();
+    std::vector<DwaChannel> channels;
+    for (const exr_coding_channel_info_t& c : std::span(pipeline.channels, slots_.size()))
+      channels.push_back({.name = c.channel_name,
+                          .type = static_cast<ExrType>(c.data_type),
+                          .width = c.width,
+                          .height = c.height,
+                          .row_step = c.y_samples,
+                          .is_linear = c.p_linear != 0});
+    const exr_chunk_info_t& chunk = pipeline.chunk;
+    std::vector<std::uint8_t> out(static_cast<std::size_t>(chunk.unpacked_size));
+    const std::span packed(static_cast<const std::uint8_t*>(pipeline.packed_buffer),
+                           static_cast<std::size_t>(chunk.packed_size));
+    if (!dwa_->unpack(packed, channels, static_cast<int>(window_.top + y), out))
+      throw Refusal{"is corrupt or cut off: a part that DWA packs"};
+    return out;
   }
 
   void read_scanlines() {
@@ -377,30 +399,38 @@ class ExrReader {
 
   const ExrLibrary& library_;
   std::span<const std::uint8_t> bytes_;
+  const ExrPart& part_;
   Window window_;
-  Selection selection_;
-  std::span<const std::string> names_;
+  const Selection& selection_;
   exr_context_t context_ = nullptr;
-  Kind kind_ = Kind::Colors;
-  /// Red or grey, green, blue, alpha, or as `names_`; those not in the file: empty. Chroma in place of red and blue,
-  /// luminance in place of green.
-  std::array<Channel, 4> channels_;
-  std::array<int2, 4> sampling_;
+  std::vector<Channel> channels_;                  ///< as the names of the selection; those not in the file: empty
+  std::vector<int2> sampling_;                     ///< of these
+  std::vector<std::optional<std::size_t>> slots_;  ///< of the file's channels
+  std::optional<DwaDecoder> dwa_;                  ///< from the first chunk on that is packed so
 };
 
-/// Calls `send(row)` for each row of the display window; pixels outside the data window are transparent black.
+/// The part of a file that is decoded, and the pixels that are handed on.
+struct Plan {
+  ExrPart part;
+  Window out;
+};
+
+/// Calls `send(row)` for each row of `plan.out`: pixels of one group of channels after the other. Those outside the
+/// data window are transparent black.
 template <class Send>
-void send_rows(const ExrReader& reader, const Windows& windows, Send& send) {
-  const Window &data = windows.data, &display = windows.display;
-  std::vector<Linear> row(static_cast<std::size_t>(display.width()));
-  const std::int64_t left = std::max(data.left, display.left), right = std::min(data.right, display.right);
-  for (std::int64_t y = display.top; y <= display.bottom; ++y) {
+void send_rows(const ExrReader& reader, const Plan& plan, std::size_t groups, Send& send) {
+  const Window &data = plan.part.data, &out = plan.out;
+  const auto width = static_cast<std::size_t>(out.width());
+  std::vector<Linear> row(groups * width);
+  const std::int64_t left = std::max(data.left, out.left), right = std::min(data.right, out.right);
+  for (std::int64_t y = out.top; y <= out.bottom; ++y) {
     check_deadline();
     std::fill(row.begin(), row.end(), Linear{0, 0, 0, 0});
     if (y >= data.top && y <= data.bottom && left <= right)
-      reader.copy_row(static_cast<int>(y - data.top), static_cast<int>(left - data.left),
-                      std::span(row).subspan(static_cast<std::size_t>(left - display.left),
-                                             static_cast<std::size_t>(right - left + 1)));
+      for (std::size_t g = 0; g < groups; ++g)
+        reader.copy_row(static_cast<int>(y - data.top), static_cast<int>(left - data.left), g,
+                        std::span(row).subspan(g * width + static_cast<std::size_t>(left - out.left),
+                                               static_cast<std::size_t>(right - left + 1)));
     send(std::span<const Linear>(row));
   }
 }
@@ -425,28 +455,37 @@ std::uint64_t exr_working_memory(std::span<const std::uint8_t> bytes) {
 
 namespace {
 
-void decode_rows(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
-                 const Selection& selection, const std::function<void(std::span<const Linear>)>& take_row) {
-  const auto fail = [&](const std::string& cause) -> Error { return {ErrorKind::Input, name + ": EXR: " + cause}; };
+Error failure(const std::string& name, const std::string& cause) {
+  return {ErrorKind::Input, name + ": EXR: " + cause};
+}
+
+Plan plan_of(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
+             const Selection& selection) {
   const std::vector<ExrPart> parts = read_exr_parts(bytes);
-  const auto part = static_cast<std::size_t>(selection.part);
-  const std::optional<Windows> windows = windows_of(part < parts.size() ? std::optional(parts[part]) : std::nullopt);
-  if (!windows) throw fail("the header is wrong");
+  const auto index = static_cast<std::size_t>(selection.part);
+  const std::optional<Windows> windows = windows_of(index < parts.size() ? std::optional(parts[index]) : std::nullopt);
+  if (!windows) throw failure(name, "the header is wrong");
   const Window &own = windows->display, &first = parts[0].display;
   if (own.width() != first.width() || own.height() != first.height())
-    throw fail("part " + parts[part].name + " has another size than the first one, which is not read");
-  for (const Window& window : {windows->display, windows->data})
+    throw failure(name, "part " + parts[index].name + " has another size than the first one, which is not read");
+  Plan plan{parts[index], selection.window.value_or(own)};
+  for (const Window& window : {plan.out, windows->data})
     if (window.pixels() > max_pixels)
-      throw fail(std::to_string(window.width()) + " x " + std::to_string(window.height()) + " pixels, at most " +
-                 std::to_string(max_pixels) + " are allowed");
+      throw failure(name, std::to_string(window.width()) + " x " + std::to_string(window.height()) +
+                              " pixels, at most " + std::to_string(max_pixels) + " are allowed");
+  return plan;
+}
 
+void decode_rows(std::span<const std::uint8_t> bytes, const std::string& name, const Plan& plan,
+                 const Selection& selection, const std::function<void(std::span<const Linear>)>& take_row) {
+  const std::size_t groups = groups_of(selection);
   const auto decode = [&](const ExrLibrary& library, auto send) {
     try {
-      ExrReader reader(library, bytes, windows->data, selection);
+      ExrReader reader(library, bytes, plan.part, selection);
       reader.read();
-      send_rows(reader, *windows, send);
+      send_rows(reader, plan, groups, send);
     } catch (const Refusal& refused) {
-      throw fail(refused.cause);
+      throw failure(name, refused.cause);
     }
   };
   if (is_limited_child()) return decode(ExrLibrary(name), take_row);
@@ -455,10 +494,10 @@ void decode_rows(std::span<const std::uint8_t> bytes, const std::string& name, s
   constexpr std::uint64_t of_the_library = std::uint64_t{64} << 20;
   const Stopwatch clock;
   LimitedChild::Limits limits;
-  limits.memory = 2 * sizeof(Linear) * windows->data.pixels() + 2 * bytes.size() + of_the_library;
+  limits.memory = 2 * groups * sizeof(Linear) * plan.part.data.pixels() + 2 * bytes.size() + of_the_library;
   limits.check_time = [&] {
     check_deadline();
-    if (clock.ms() > limits.seconds * 1000) throw fail("takes longer than the limit");
+    if (clock.ms() > limits.seconds * 1000) throw failure(name, "takes longer than the limit");
   };
   std::optional<ExrLibrary> library;
   LimitedChild child(
@@ -467,18 +506,35 @@ void decode_rows(std::span<const std::uint8_t> bytes, const std::string& name, s
         decode(*library, [&](std::span<const Linear> row) { answer.write(row.data(), row.size_bytes()); });
       },
       [&] { library.emplace(name); });
-  std::vector<Linear> row(static_cast<std::size_t>(windows->display.width()));
-  for (std::int64_t y = 0; y < windows->display.height(); ++y) {
+  std::vector<Linear> row(groups * static_cast<std::size_t>(plan.out.width()));
+  for (std::int64_t y = 0; y < plan.out.height(); ++y) {
     child.read(row.data(), row.size() * sizeof(Linear));
     take_row(row);
   }
 }
 
+/// The selection of a layer.
+Selection selection_of(std::span<const std::uint8_t> bytes, const std::string& name, const ExrChoice& choice,
+                       Values values) {
+  const std::vector<ExrPart> parts = read_exr_parts(bytes);
+  if (parts.empty()) throw failure(name, "the header is wrong");
+  const ExrLayer layer = choose_exr_layer(parts, choice.layer, name);
+  Selection out{.part = layer.part,
+                .names = {layer.channels.begin(), layer.channels.end()},
+                .kind = layer.kind,
+                .values = values,
+                .window = std::nullopt};
+  const ExrPart& part = parts[static_cast<std::size_t>(layer.part)];
+  if (choice.area == ExrArea::Whole && windows_of(part)) out.window = exr_whole_window(part);
+  return out;
+}
+
 }  // namespace
 
 void decode_exr_rows(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
-                     const std::function<void(std::span<const Linear>)>& take_row) {
-  decode_rows(bytes, name, max_pixels, {.replaces_infinite = true}, take_row);
+                     const std::function<void(std::span<const Linear>)>& take_row, const std::string& layer) {
+  const Selection selection = selection_of(bytes, name, {.layer = layer}, Values::Finite);
+  decode_rows(bytes, name, plan_of(bytes, name, max_pixels, selection), selection, take_row);
 }
 
 std::vector<std::string> exr_channel_names(std::span<const std::uint8_t> bytes) {
@@ -494,14 +550,16 @@ namespace {
 template <class T>
 std::vector<Plane<T>> decode_planes(std::span<const std::uint8_t> bytes, const std::string& name,
                                     std::uint64_t max_pixels, const Selection& selection) {
+  const Plan plan = plan_of(bytes, name, max_pixels, selection);
+  const auto width = static_cast<std::size_t>(plan.out.width());
   std::vector<Plane<T>> planes(selection.names.size());
   int y = 0;
-  decode_rows(bytes, name, max_pixels, selection, [&](std::span<const Linear> row) {
+  decode_rows(bytes, name, plan, selection, [&](std::span<const Linear> row) {
     constexpr float Linear::*slots[] = {&Linear::r, &Linear::g, &Linear::b, &Linear::a};
     for (std::size_t c = 0; c < planes.size(); ++c) {
-      if (y == 0) planes[c] = Plane<T>(static_cast<int>(row.size()), find_exr_size(bytes)->y);
-      std::ranges::transform(row, planes[c].row(y).begin(),
-                             [slot = slots[c]](const Linear& v) { return std::bit_cast<T>(v.*slot); });
+      if (y == 0) planes[c] = Plane<T>(static_cast<int>(width), static_cast<int>(plan.out.height()));
+      std::ranges::transform(row.subspan(c / 4 * width, width), planes[c].row(y).begin(),
+                             [slot = slots[c % 4]](const Linear& v) { return std::bit_cast<T>(v.*slot); });
     }
     ++y;
   });
@@ -510,10 +568,11 @@ std::vector<Plane<T>> decode_planes(std::span<const std::uint8_t> bytes, const s
 
 LinearImage decode_color(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
                          const Selection& selection) {
+  const Plan plan = plan_of(bytes, name, max_pixels, selection);
   LinearImage image;  // allocated when the first row arrives, so that a corrupt file takes no memory
   int y = 0;
-  decode_rows(bytes, name, max_pixels, selection, [&](std::span<const Linear> row) {
-    if (y == 0) image = LinearImage(static_cast<int>(row.size()), find_exr_size(bytes)->y);
+  decode_rows(bytes, name, plan, selection, [&](std::span<const Linear> row) {
+    if (y == 0) image = LinearImage(static_cast<int>(row.size()), static_cast<int>(plan.out.height()));
     std::copy(row.begin(), row.end(), image.row(y++).begin());
   });
   return image;
@@ -523,23 +582,32 @@ LinearImage decode_color(std::span<const std::uint8_t> bytes, const std::string&
 
 std::vector<Plane<float>> decode_exr_channels(std::span<const std::uint8_t> bytes, const std::string& name,
                                               std::span<const std::string> channels, std::uint64_t max_pixels) {
-  return decode_planes<float>(bytes, name, max_pixels, {.names = channels});
+  return decode_planes<float>(bytes, name, max_pixels, {.names = {channels.begin(), channels.end()}});
 }
 
 std::vector<Plane<std::uint32_t>> decode_exr_bits(std::span<const std::uint8_t> bytes, const std::string& name,
                                                   int part, std::span<const std::string> channels,
                                                   std::uint64_t max_pixels) {
-  return decode_planes<std::uint32_t>(bytes, name, max_pixels,
-                                      {.part = part, .names = channels, .keeps_numbers = true});
+  return decode_planes<std::uint32_t>(
+      bytes, name, max_pixels,
+      {.part = part, .names = {channels.begin(), channels.end()}, .values = Values::Bits, .window = std::nullopt});
+}
+
+std::vector<Plane<std::uint32_t>> decode_exr_stored(std::span<const std::uint8_t> bytes, const std::string& name,
+                                                    int part, std::span<const std::string> channels,
+                                                    const ExrWindow& window) {
+  return decode_planes<std::uint32_t>(
+      bytes, name, std::numeric_limits<std::uint64_t>::max(),
+      {.part = part, .names = {channels.begin(), channels.end()}, .values = Values::Stored, .window = window});
 }
 
 LinearImage decode_exr(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
-  return decode_color(bytes, name, max_pixels, {.replaces_infinite = true});
+  return decode_color(bytes, name, max_pixels, selection_of(bytes, name, {}, Values::Finite));
 }
 
-LinearImage decode_exr_as_stored(std::span<const std::uint8_t> bytes, const std::string& name,
-                                 std::uint64_t max_pixels) {
-  return decode_color(bytes, name, max_pixels, {});
+LinearImage decode_exr_as_stored(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
+                                 const ExrChoice& choice) {
+  return decode_color(bytes, name, max_pixels, selection_of(bytes, name, choice, Values::Floats));
 }
 
 }  // namespace zoneplate

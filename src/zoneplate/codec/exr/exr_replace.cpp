@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/codec/exr/exr_replace.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <string_view>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/codec/exr/exr_layer.h"
+
+namespace zoneplate {
+namespace {
+
+using ExrBytes = std::span<const std::uint8_t>;
+
+constexpr std::array<float Linear::*, 4> slots = {&Linear::r, &Linear::g, &Linear::b, &Linear::a};
+
+template <class T>
+T value_at(ExrBytes bytes, std::size_t at) {
+  T out;
+  std::memcpy(&out, bytes.data() + at, sizeof out);
+  return out;
+}
+
+const ExrAttributeView* find_attribute(const ExrPart& part, std::string_view name) {
+  const auto found = std::ranges::find(part.attributes, name, &ExrAttributeView::name);
+  return found == part.attributes.end() ? nullptr : &*found;
+}
+
+/// The attributes but those that state how the part is packed, which encode_exr_part writes, and a preview, which would
+/// show another image. (`version`, of deep parts, some readers expect of the others too.)
+ExrAttributes carried_attributes(const ExrPart& part, bool has_name) {
+  constexpr std::array<std::string_view, 10> own = {
+      "channels", "compression", "dataWindow", "displayWindow", "lineOrder",
+      "tiles",    "type",        "chunkCount", "preview",       "dwaCompressionLevel"};
+  ExrAttributes out;
+  for (const ExrAttributeView& a : part.attributes) {
+    if (std::ranges::find(own, a.name) != own.end() || (has_name && a.name == "name")) continue;
+    // Of several attributes of a name, readers take the first or none.
+    if (std::ranges::any_of(out, [&](const auto& o) { return o.first == a.name; })) continue;
+    out.emplace_back(std::string(a.name), ExrStoredValue{std::string(a.type), {a.value.begin(), a.value.end()}});
+  }
+  return out;
+}
+
+ExrCompression compression_of(const ExrPart& part) {
+  const ExrAttributeView* const found = find_attribute(part, "compression");
+  if (!found || found->value.empty()) return ExrCompression::Zip;
+  const auto compression = static_cast<ExrCompression>(found->value[0]);
+  const bool is_written = compression == ExrCompression::None || compression == ExrCompression::Zips;
+  return is_written ? compression : ExrCompression::Zip;
+}
+
+/// The channels of an image in place of those of a layer.
+class LayerChannels {
+ public:
+  LayerChannels(const ExrPart& part, const ExrLayer& layer, const LinearImage& image, std::optional<ExrType> type)
+      : part_(part), layer_(layer), image_(image), type_(type) {}
+
+  std::vector<ExrChannel> make() const {
+    const bool is_grey = layer_.kind == ExrLayer::Kind::Grey && has_equal_colors();
+    std::vector<ExrChannel> out;
+    for (std::size_t i = 0; i < slots.size(); ++i) {
+      const bool is_alpha = i == 3;
+      if (is_grey && (i == 1 || i == 2)) continue;
+      const std::string& own = layer_.channels[i];
+      // What the file lacks reads as black and opaque.
+      const bool is_renamed = !is_alpha && has_new_names(is_grey);
+      if (own.empty() && !is_renamed && is_everywhere(i, is_alpha ? 1.0f : 0.0f)) continue;
+      const std::string name = own.empty() || is_renamed ? new_name(i) : own;
+      out.push_back({.name = name, .type = type_of(i), .value = &(image_.values()[0].*slots[i]), .step = 4});
+    }
+    return out;
+  }
+
+ private:
+  /// True where the three colours have one channel or none of their own.
+  bool has_new_names(bool is_grey) const {
+    return layer_.kind == ExrLayer::Kind::Chroma || (layer_.kind == ExrLayer::Kind::Grey && !is_grey);
+  }
+  std::string new_name(std::size_t slot) const { return layer_.prefix + "RGBA"[slot]; }
+
+  bool has_equal_colors() const {
+    return std::ranges::all_of(image_.values(), [](const Linear& c) { return c.r == c.g && c.g == c.b; });
+  }
+  bool is_everywhere(std::size_t slot, float value) const {
+    constexpr float rounding = 1e-5f;  // of sums of weights
+    return std::ranges::all_of(image_.values(),
+                               [&](const Linear& c) { return std::abs(c.*slots[slot] - value) <= rounding; });
+  }
+
+  ExrType type_of(std::size_t slot) const {
+    if (type_) return *type_;
+    const std::string& own = layer_.channels[slot];
+    bool are_halves = true;
+    for (const std::string& name : layer_.channels) {
+      if (name.empty() || (!own.empty() && name != own)) continue;
+      const auto channel = std::ranges::find(part_.channels, name, &ExrPartChannel::name);
+      are_halves = are_halves && channel != part_.channels.end() && channel->type == ExrType::Half;
+    }
+    constexpr float greatest_half = 65504;
+    const auto fits = [&](const Linear& c) { return !(std::abs(c.*slots[slot]) > greatest_half); };
+    return are_halves && std::ranges::all_of(image_.values(), fits) ? ExrType::Half : ExrType::Float;
+  }
+
+  const ExrPart& part_;
+  const ExrLayer& layer_;
+  const LinearImage& image_;
+  std::optional<ExrType> type_;
+};
+
+/// True if all pixels outside a window are 0; the image fills `whole`.
+bool is_empty_outside(const LinearImage& image, const ExrWindow& whole, const ExrWindow& window) {
+  for (std::int64_t y = whole.top; y <= whole.bottom; ++y) {
+    const auto row = image.row(static_cast<int>(y - whole.top));
+    const bool is_inside = y >= window.top && y <= window.bottom;
+    for (std::int64_t x = whole.left; x <= whole.right; ++x)
+      if (!(is_inside && x >= window.left && x <= window.right) &&
+          row[static_cast<std::size_t>(x - whole.left)] != Linear{0, 0, 0, 0})
+        return false;
+  }
+  return true;
+}
+
+bool contains(const ExrWindow& outer, const ExrWindow& inner) {
+  return outer.left <= inner.left && outer.top <= inner.top && outer.right >= inner.right &&
+         outer.bottom >= inner.bottom;
+}
+
+/// A part of a file of several, as it is packed.
+class PackedPart {
+ public:
+  PackedPart(ExrBytes file, const std::string& name, const ExrPart& part) : file_(file), name_(name), part_(part) {}
+
+  std::optional<std::size_t> chunk_count() const {
+    const ExrAttributeView* const found = find_attribute(part_, "chunkCount");
+    if (!found || found->value.size() != sizeof(std::int32_t)) return std::nullopt;
+    const auto count = value_at<std::int32_t>(found->value, 0);
+    if (count < 0 || static_cast<std::size_t>(count) > file_.size() / sizeof(std::uint64_t)) return std::nullopt;
+    return static_cast<std::size_t>(count);
+  }
+
+  /// Copies the chunks whose offsets are in a table.
+  ExrPartBytes copy(int number, std::size_t table) const {
+    ExrPartBytes out{.header = {part_.header.begin(), part_.header.end()}, .chunks = {}, .is_deep = part_.is_deep};
+    const auto is_long = [](std::string_view name) { return name.size() > most_short_exr_name; };
+    out.has_long_names =
+        std::ranges::any_of(part_.attributes, [&](const auto& a) { return is_long(a.name) || is_long(a.type); }) ||
+        std::ranges::any_of(part_.channels, [&](const ExrPartChannel& c) { return is_long(c.name); });
+    std::size_t total = 0;
+    for (std::size_t i = 0; i < chunk_count().value_or(0); ++i) {
+      const ExrBytes chunk = chunk_at(number, word(table + i * sizeof(std::uint64_t)));
+      if ((total += chunk.size()) > file_.size()) throw incomplete();  // chunks share no bytes
+      out.chunks.emplace_back(chunk.begin(), chunk.end());
+    }
+    return out;
+  }
+
+ private:
+  Error incomplete() const {
+    return {ErrorKind::Input, name_ + ": EXR: part " + part_.name + " is corrupt or cut off"};
+  }
+  std::uint64_t word(std::size_t at) const {
+    if (at > file_.size() || file_.size() - at < sizeof(std::uint64_t)) throw incomplete();
+    return value_at<std::uint64_t>(file_, at);
+  }
+
+  /// A chunk without the number of its part: coordinates, sizes and bytes.
+  ExrBytes chunk_at(int number, std::uint64_t at) const {
+    const ExrAttributeView* const type = find_attribute(part_, "type");
+    const std::string_view text =
+        type ? std::string_view(reinterpret_cast<const char*>(type->value.data()), type->value.size()) : "";
+    const std::size_t coordinates = text == "tiledimage" || text == "deeptile" ? 16 : 4;
+    const std::size_t sizes = part_.is_deep ? 3 * sizeof(std::uint64_t) : sizeof(std::int32_t);
+    const std::size_t head = sizeof(std::int32_t) + coordinates + sizes;
+    if (at > file_.size() || file_.size() - at < head) throw incomplete();
+    const ExrBytes bytes = file_.subspan(static_cast<std::size_t>(at));
+    if (value_at<std::int32_t>(bytes, 0) != number) throw incomplete();
+    const std::size_t place = sizeof(std::int32_t) + coordinates;
+    const std::uint64_t most = bytes.size() - head;
+    std::uint64_t size = 0;
+    if (part_.is_deep) {
+      const auto counts = value_at<std::uint64_t>(bytes, place), samples = value_at<std::uint64_t>(bytes, place + 8);
+      if (counts > most || samples > most) throw incomplete();
+      size = counts + samples;
+    } else {
+      size = value_at<std::uint32_t>(bytes, place);
+    }
+    if (size > most) throw incomplete();
+    return bytes.subspan(sizeof(std::int32_t), coordinates + sizes + static_cast<std::size_t>(size));
+  }
+
+  ExrBytes file_;
+  const std::string& name_;
+  const ExrPart& part_;
+};
+
+class Replacement {
+ public:
+  Replacement(ExrBytes file, const std::string& name, const ExrChoice& choice)
+      : file_(file), name_(name), choice_(choice), parts_(read_exr_parts(file)) {
+    layer_ = choose_exr_layer(parts_, choice.layer, name);
+  }
+
+  ExrReplacement make(const LinearImage& image, std::optional<ExrType> type) {
+    const ExrWindow whole = choice_.area == ExrArea::Whole ? exr_whole_window(part()) : part().display;
+    if (image.width() != whole.width() || image.height() != whole.height()) return alone(image, type);
+    ExrWindow window = whole;
+    if (contains(whole, part().data)) {
+      if (is_empty_outside(image, whole, part().data)) window = part().data;
+    } else {
+      out_.left_out.push_back("the pixels outside the display window");
+    }
+    const LinearImage cropped = cropped_to(image, {window.left - whole.left, window.top - whole.top,
+                                                   window.right - whole.left, window.bottom - whole.top});
+    ExrPartImage own = {.data = window,
+                        .display = part().display,
+                        .channels = LayerChannels(part(), layer_, cropped, type).make(),
+                        .attributes = carried_attributes(part(), parts_.size() > 1),
+                        .compression = compression_of(part())};
+    const std::vector<Plane<std::uint32_t>> planes = add_others(own);
+    join(encode_exr_part(std::move(own), parts_.size() > 1 ? part().name : ""));
+    return std::move(out_);
+  }
+
+ private:
+  const ExrPart& part() const { return parts_[static_cast<std::size_t>(layer_.part)]; }
+
+  bool is_replaced(const ExrPartChannel& channel) const {
+    return std::ranges::find(layer_.channels, channel.name) != layer_.channels.end();
+  }
+
+  /// A file of the layer alone, of another size than its own.
+  ExrReplacement alone(const LinearImage& image, std::optional<ExrType> type) {
+    for (const ExrPartChannel& channel : part().channels)
+      if (!is_replaced(channel)) out_.left_out.push_back(channel.name);
+    for (const ExrPart& other : parts_)
+      if (&other != &part()) out_.left_out.push_back("part " + other.name);
+    if (!contains(part().display, part().data)) out_.left_out.push_back("the pixels outside the display window");
+    const ExrWindow window{0, 0, image.width() - 1, image.height() - 1};
+    const ExrPartBytes bytes = encode_exr_part({.data = window,
+                                                .display = window,
+                                                .channels = LayerChannels(part(), layer_, image, type).make(),
+                                                .attributes = carried_attributes(part(), false),
+                                                .compression = compression_of(part())});
+    out_.bytes = join_exr_parts({&bytes, 1});
+    return std::move(out_);
+  }
+
+  /// The part's other channels, which refer to the planes.
+  std::vector<Plane<std::uint32_t>> add_others(ExrPartImage& own) {
+    std::vector<const ExrPartChannel*> kept;
+    std::vector<std::string> names;
+    for (const ExrPartChannel& channel : part().channels) {
+      if (is_replaced(channel)) continue;
+      const bool is_taken = std::ranges::find(own.channels, channel.name, &ExrChannel::name) != own.channels.end() ||
+                            std::ranges::find(names, channel.name) != names.end();
+      if (is_taken || !is_aligned(channel, own.data)) {
+        out_.left_out.push_back(channel.name);
+        continue;
+      }
+      kept.push_back(&channel);
+      names.push_back(channel.name);
+    }
+    if (names.empty()) return {};
+    std::vector<Plane<std::uint32_t>> planes = decode_exr_stored(file_, name_, layer_.part, names, own.data);
+    for (std::size_t i = 0; i < kept.size(); ++i)
+      own.channels.push_back({.name = kept[i]->name,
+                              .type = kept[i]->type,
+                              .number = planes[i].values().data(),
+                              .sampling = kept[i]->sampling});
+    return planes;
+  }
+
+  static bool is_aligned(const ExrPartChannel& channel, const ExrWindow& window) {
+    const int2 s = channel.sampling;
+    return window.left % s.x == 0 && window.width() % s.x == 0 && window.top % s.y == 0 && window.height() % s.y == 0;
+  }
+
+  /// Joins the part with the others.
+  void join(ExrPartBytes own) {
+    std::vector<ExrPartBytes> joined;
+    // The tables of offsets follow the headers, the last of which ends before one or two zeros.
+    const ExrPart& last = parts_.back();
+    std::size_t table = static_cast<std::size_t>(last.header.data() + last.header.size() - file_.data()) + 2;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const PackedPart packed(file_, name_, parts_[i]);
+      const std::optional<std::size_t> chunks = parts_.size() > 1 ? packed.chunk_count() : std::size_t{0};
+      if (!chunks) throw Error(ErrorKind::Input, name_ + ": EXR: part " + parts_[i].name + " states no chunks");
+      if (static_cast<int>(i) == layer_.part)
+        joined.push_back(std::move(own));
+      else
+        joined.push_back(packed.copy(static_cast<int>(i), table));
+      table += *chunks * sizeof(std::uint64_t);
+    }
+    out_.bytes = join_exr_parts(joined);
+  }
+
+  ExrBytes file_;
+  const std::string& name_;
+  const ExrChoice& choice_;
+  std::vector<ExrPart> parts_;
+  ExrLayer layer_;
+  ExrReplacement out_;
+};
+
+}  // namespace
+
+LinearImage cropped_to(const LinearImage& image, const ExrWindow& window) {
+  LinearImage out(static_cast<int>(window.width()), static_cast<int>(window.height()));
+  for (int y = 0; y < out.height(); ++y)
+    std::copy_n(image.row(y + window.top).begin() + window.left, out.width(), out.row(y).begin());
+  return out;
+}
+
+ExrReplacement replace_exr_layer(std::span<const std::uint8_t> file, const std::string& name, const ExrChoice& choice,
+                                 const LinearImage& image, std::optional<ExrType> type) {
+  return Replacement(file, name, choice).make(image, type);
+}
+
+}  // namespace zoneplate
