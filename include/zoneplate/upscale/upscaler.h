@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -37,6 +39,11 @@ class SpatialUpscaler {
   /// Requires  the output is not smaller than the input; the image contains the pixels that the output reads.
   /// Exact     the same bits for any number of threads, instruction set and part of the output.
   virtual DisplayImage upscale(const DisplayImage& image, const UpscaleGrid& grid) const = 0;
+  /// The same of scene-linear, premultiplied values of any sign and range; nothing from a method that is defined for
+  /// display-referred ones only.
+  virtual std::optional<LinearImage> upscale_light(const LinearImage& /*image*/, const UpscaleGrid& /*grid*/) const {
+    return std::nullopt;
+  }
 };
 
 /// An entry of the catalogue of upscalers.
@@ -66,12 +73,22 @@ std::span<const Upscaler> upscalers();
 /// Errors    ErrorKind::Usage naming an unknown upscaler or parameter, or a temporal upscaler.
 std::unique_ptr<SpatialUpscaler> make_spatial_upscaler(std::string_view text);
 
-/// Upscales a scene-linear image by a filter of display-referred ones: of the square roots of straight colours that
-/// c / (1 + max(c)) maps to [0, 1), and back.
+/// An upscaled scene-linear image, and what a filter of display-referred ones cannot represent.
+struct UpscaledLight {
+  LinearImage image;
+  std::size_t negative = 0;  ///< pixels with a channel below 0, which counted as 0
+  std::size_t bright = 0;    ///< with a straight colour above 32768, which counted as that
+  std::size_t additive = 0;  ///< with light at alpha 0, which counted as none
+  float brightest = 0;       ///< the greatest straight colour that is represented
+  float constant = 0;        ///< what an image becomes of which all pixels have that
+};
+
+/// Upscales a scene-linear image: by upscale_light, or else by a filter of display-referred ones: of the square roots
+/// of straight colours that c / (1 + max(c)) maps to [0, 1), and back.
 ///
-/// Edges     negative values and NaN count as 0; values above 32768 are clamped.
+/// Edges     of the latter: NaN counts as 0.
 /// Source    AMD, ffx_fsr1.h: FsrSrtmF, FsrSrtmInvF.
-LinearImage upscale_linear(const SpatialUpscaler& upscaler, const LinearImage& image, const UpscaleGrid& grid);
+UpscaledLight upscale_linear(const SpatialUpscaler& upscaler, const LinearImage& image, const UpscaleGrid& grid);
 
 /// Makes the resolver of an antialiasing method, of an upscaler, or of one after the other: `smaa`, `fsr2:scale=2` or
 /// `smaa+fsr1:scale=2,sharpness=0.5`. A spatial upscaler alone renders with `none`.

@@ -9,6 +9,7 @@
 
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/cli/process/exr_layer.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/metrics/metrics.h"
@@ -138,6 +139,7 @@ Syntax compare_syntax(CompareArgs& args) {
       {"--reference", "REF",
        "Reference: a method (converged, analytic, ssaa:n=16, ...) or an image file; default converged:samples=256",
        group, true, [&](auto& text) { args.reference = text; }},
+      layer_option(args.layer),
       {"--metric", "LIST",
        "Metrics (zoneplate metrics --help), of which the first ranks; default flip,psnr,ssim,edge_error, or of "
        "sequences cvvdp_video,psnr,tpsnr,flicker; flip is always included",
@@ -168,6 +170,8 @@ TrialOptions trial_options(const CompareArgs& args) {
   TrialOptions out{
       .methods = methods_of(args.methods), .turns = args.turns, .metrics = metrics_of(args.metrics, args.frames)};
   out.reference = args.reference.empty() ? usual_reference : args.reference;
+  if (!args.layer.empty() && is_method(out.reference))
+    throw Error(ErrorKind::Usage, "--layer: requires --reference with an EXR image");
   std::error_code ignored;
   if (is_method(out.reference))
     upscale::make_method(out.reference);

@@ -16,7 +16,7 @@ struct CompareArgs {
   RenderArgs render;  ///< size, view, lights, tone mapping, limits: the options of `zoneplate render`
   std::vector<std::string> scenes, command;
   IgnoreArgs ignored;
-  std::string methods = "all", reference, page, metrics;
+  std::string methods = "all", reference, layer, page, metrics;
   bool replaces = false;  ///< an earlier comparison in the folder of the output
 
   /// The beginning of the paths of its files.

@@ -15,6 +15,7 @@
 #include "zoneplate/cli/output_paths.h"
 #include "zoneplate/cli/percents.h"
 #include "zoneplate/cli/process/confined.h"
+#include "zoneplate/cli/process/exr_layer.h"
 #include "zoneplate/cli/render/environment_file.h"
 #include "zoneplate/cli/render/film.h"
 #include "zoneplate/cli/render/picture.h"
@@ -110,7 +111,12 @@ SceneTrials compare_scene(const CompareArgs& args, const std::string& name, cons
   TrialSetup setup{prepared, camera, settings, memory, args.frames};
   setup.load_reference = [&] {
     metrics::Picture picture;
-    out.read(options.reference, [&] { picture = metrics::load_picture(options.reference, out.limits().pixels); });
+    out.read(options.reference, [&] {
+      metrics::ImageFile file = metrics::open_image(options.reference);
+      file.exr.layer = args.layer;
+      picture = metrics::in_srgb(metrics::decode_file(file, out.limits().pixels));
+      tell_layer(file, out);
+    });
     out.warn_of_flaw(picture.flaw), out.warn_of_flaw(picture.color_flaw);
     return picture;
   };

@@ -189,6 +189,9 @@ TEST_F(Colors, ChromaticitiesOfExrAreKept) {
   EXPECT_GT(blended, 0);
   EXPECT_LT(blended, 200);
   EXPECT_EQ(filtered(20, 4), stored(20, 4));
+  // Codes are those of sRGB, which the chromaticities do not describe.
+  succeed("signal resample in.exr --codes --size 100% --kernel box -o out.exr");
+  EXPECT_FALSE(read_exr_part(file("out.exr"))->chromaticities);
   // Formats without chromaticities have light of Rec.709 primaries.
   succeed("signal resample in.exr --size 100% --kernel box -o out.pfm");
   EXPECT_LE(apart("out.pfm", "in.exr"), 1);

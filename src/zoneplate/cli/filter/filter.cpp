@@ -16,6 +16,7 @@
 #include "zoneplate/cli/filter/sequence.h"
 #include "zoneplate/cli/filter/still.h"
 #include "zoneplate/cli/process/confined.h"
+#include "zoneplate/cli/process/exr_layer.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/codec/png.h"
@@ -31,7 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct FilterArgs {
-  std::string output, method, upscaler, motion, depth, jitter;
+  std::string output, method, upscaler, motion, depth, jitter, layer;
   float2 motion_scale{1, 1};
   double fov = 60;
   std::optional<int2> size;  ///< of the upscaled images
@@ -137,21 +138,43 @@ void antialias_linear(const FilterItem& item, metrics::Picture& picture, Resolve
   warn_of_clamped(item.input, clamped, "blended ", out);
 }
 
-void filter_linear(const FilterItem& item, metrics::Picture picture, const Filters& filters, Delivery& out) {
-  if (filters.antialiasing) antialias_linear(item, picture, *filters.antialiasing, out);
-  const LinearImage& image = picture.linear;
-  if (!filters.upscaler) return out.save(item.output, encode_image(item.output, image, profile_of(picture.space)));
-  const UpscaleGrid grid = grid_of(filters, image.width(), image.height(), item.input);
-  out.save(item.output, encode_image(item.output, upscale::upscale_linear(*filters.upscaler, image, grid),
-                                     profile_of(picture.space)));
+/// Says what a filter of display-referred values cannot represent of scene-linear ones.
+void warn_of_lost_light(const FilterItem& item, const upscale::UpscaledLight& light, Delivery& out) {
+  std::string text;
+  const auto add = [&](bool is_lost, const std::string& what) {
+    if (is_lost) text += (text.empty() ? "" : ", ") + what;
+  };
+  add(light.negative > 0, fmt::format("{} below 0, which count as 0", light.negative));
+  add(light.bright > 0, fmt::format("{} above 32768, which count as that", light.bright));
+  add(light.additive > 0, fmt::format("{} with light at alpha 0, which counts as none", light.additive));
+  constexpr float accepted = 0.02f;
+  if (std::abs(light.constant - light.brightest) > accepted * light.brightest)
+    add(true, fmt::format("those of the brightest light, {:.4g}, which becomes {:.4g} where it is constant",
+                          light.brightest, light.constant));
+  if (!text.empty())
+    out.warn(fmt::format("{}: this upscaler maps light to [0, 1], of pixels: {}; bilinear, bicubic and lanczos keep it",
+                         item.input, text));
+}
+
+void filter_linear(const FilterItem& item, Still still, const Filters& filters, Delivery& out) {
+  if (filters.antialiasing) antialias_linear(item, still.picture, *filters.antialiasing, out);
+  LinearImage& image = still.picture.linear;
+  if (filters.upscaler) {
+    const UpscaleGrid grid = grid_of(filters, image.width(), image.height(), item.input);
+    upscale::UpscaledLight light = upscale::upscale_linear(*filters.upscaler, image, grid);
+    warn_of_lost_light(item, light, out);
+    image = std::move(light.image);
+  }
+  warn_of_left_out(item.output, item.input, save_light(item.output, image, still.file, {}, out), out);
 }
 
 void filter_image(const FilterItem& item, const Filters& filters, const FilterArgs& args, Delivery& out) {
-  metrics::Picture picture =
-      in_space_of(load_still(item.input, out), FilteredValues::Codes, item.input, item.output, out);
+  Still still = load_still(item.input, {.layer = args.layer}, out);
+  metrics::Picture& picture = still.picture;
+  picture = in_space_of(std::move(picture), FilteredValues::Codes, item.input, item.output, out);
   if (args.background) lay_over(picture, *args.background);
   if (picture.is_scene_linear && is_linear_file(item.output))
-    return filter_linear(item, std::move(picture), filters, out);
+    return filter_linear(item, std::move(still), filters, out);
   if (picture.is_scene_linear && !filters.antialiasing)
     throw Error(ErrorKind::Usage, fmt::format("{}: is a scene-linear image, and {} is not: write an .exr or a .pfm",
                                               item.input, item.output));
@@ -268,6 +291,7 @@ Syntax make_syntax(FilterArgs& args) {
        [&](auto& text) { args.jitter = text; }},
       {"--fov", "DEG", "Vertical field of view, for tests of depth in fsr2 and sgsr2; default 60", "Sequences", false,
        [&](auto& text) { args.fov = parse_number(text, 1, 179); }},
+      layer_option(args.layer),
       {"--bit-depth", "N", "Bits per channel of .png: 8, the default, or 16", "Options", false,
        [&](auto& text) {
          args.bit_depth = parse_choice(text, {"8", "16"}) == 0 ? 8 : 16;
@@ -308,6 +332,7 @@ void filter_all(const FilterWork& work, Delivery& out) {
                             .fov = static_cast<float>(args.fov),
                             .size = args.size,
                             .scale = scale,
+                            .layer = args.layer,
                             .bit_depth = args.bit_depth,
                             .background = args.background},
                            out);

@@ -15,6 +15,7 @@
 #include "zoneplate/cli/filter/color.h"
 #include "zoneplate/cli/filter/still.h"
 #include "zoneplate/cli/log.h"
+#include "zoneplate/cli/process/exr_layer.h"
 #include "zoneplate/codec/exr/exr.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/save.h"
@@ -169,10 +170,8 @@ Frame frame_of(const FrameFiles& files, LinearImage color, const SequenceFilter&
 }
 
 /// `light` is of the primaries of the space.
-void save(const std::string& path, LinearImage light, bool is_scene_linear, const RgbSpacePtr& space, int bit_depth,
-          Delivery& out) {
+void save_codes(const std::string& path, LinearImage light, const RgbSpacePtr& space, int bit_depth, Delivery& out) {
   const ColorProfile profile = profile_of(space);
-  if (is_scene_linear) return out.save(path, encode_image(path, light, profile));
   const DisplayImage display = display_of(std::move(light), space);
   if (bit_depth == 8) return out.save(path, encode_image(path, quantize8(display), profile));
   out.save(path, encode_png(quantize16(display), {.profile = profile}));
@@ -206,8 +205,9 @@ void filter_sequence(const SequenceFilter& filter, Delivery& out) {
   int2 frame_size{0, 0};
   for (std::size_t i = 0; i < files.size(); ++i) {
     out.progress(files[i].color, static_cast<double>(i) / static_cast<double>(files.size()));
-    metrics::Picture picture =
-        in_space_of(load_still(files[i].color, out), FilteredValues::Light, files[i].color, files[i].output, out);
+    Still still = load_still(files[i].color, {.layer = filter.layer}, out);
+    metrics::Picture& picture = still.picture;
+    picture = in_space_of(std::move(picture), FilteredValues::Light, files[i].color, files[i].output, out);
     if (filter.background) lay_over(picture, *filter.background);
     if (picture.is_scene_linear != is_linear_file(files[i].output))
       throw Error(ErrorKind::Usage,
@@ -242,7 +242,12 @@ void filter_sequence(const SequenceFilter& filter, Delivery& out) {
     } catch (const Error& error) {
       throw Error(error.kind(), files[i].color + ": " + error.what());
     }
-    save(files[i].output, std::move(image), is_scene_linear, space, filter.bit_depth, out);
+    if (!is_scene_linear) {
+      save_codes(files[i].output, std::move(image), space, filter.bit_depth, out);
+      continue;
+    }
+    const std::vector<std::string> left_out = save_light(files[i].output, image, still.file, {}, out);
+    if (i == 0) warn_of_left_out(files[i].output, files[i].color, left_out, out);
   }
 }
 

@@ -21,6 +21,7 @@ struct SequenceFilter {
   float fov = 60;             ///< vertical field of view, degrees
   std::optional<int2> size;   ///< of the images; none: that of the frames times `scale`
   double scale = 1;
+  std::string layer = {};  ///< of the frames, if they are EXR images
   int bit_depth = 8;
   std::optional<float4> background;  ///< laid under frames with alpha: an encoded colour with straight alpha
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/cli/process/exr_layer.h"
 #include "zoneplate/codec/inspect/image_format.h"
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/image/transfer.h"
@@ -85,22 +86,27 @@ class Fill {
 
 }  // namespace
 
-metrics::Picture load_still(const std::string& path, Delivery& out) {
-  metrics::Picture picture;
+Still load_still(const std::string& path, const ExrChoice& exr, Delivery& out) {
+  Still still;
   std::uint32_t frames = 0;
   out.read(path, [&] {
-    const metrics::ImageFile file = metrics::open_image(path);
-    picture = metrics::decode_file(file, out.limits().pixels);
-    frames = count_frames(file.bytes);
+    still.file = metrics::open_image(path);
+    still.file.exr = exr;
+    still.picture = metrics::decode_file(still.file, out.limits().pixels);
+    frames = count_frames(still.file.bytes);
   });
-  out.warn_of_flaw(picture.flaw), out.warn_of_flaw(picture.color_flaw);
+  tell_layer(still.file, out);
+  out.warn_of_flaw(still.picture.flaw), out.warn_of_flaw(still.picture.color_flaw);
   if (frames > 1)
     out.warn(fmt::format("{}: is an animation of {} frames, of which the first is filtered", path, frames));
-  if (!picture.is_scene_linear) return picture;
-  if (const std::size_t pixels = fill_not_finite(picture.linear, path); pixels > 0)
-    out.warn(fmt::format("{}: {} {} not finite, and {} the mean of neighbours", path, pixels,
+  if (still.picture.is_scene_linear) warn_of_filled(path, fill_not_finite(still.picture.linear, path), out);
+  return still;
+}
+
+void warn_of_filled(const std::string& name, std::size_t pixels, Delivery& out) {
+  if (pixels > 0)
+    out.warn(fmt::format("{}: {} {} not finite, and {} the mean of neighbours", name, pixels,
                          pixels == 1 ? "pixel is" : "pixels are", pixels == 1 ? "takes" : "take"));
-  return picture;
 }
 
 void lay_over(metrics::Picture& picture, float4 background) {

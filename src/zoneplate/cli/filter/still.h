@@ -6,15 +6,22 @@
 
 #include "zoneplate/cli/process/confined.h"
 #include "zoneplate/math/vec.h"
+#include "zoneplate/metrics/file/stored.h"
 #include "zoneplate/metrics/picture.h"
 
 namespace zoneplate::cli {
 
+/// An image to filter, and the file that it was decoded from.
+struct Still {
+  metrics::Picture picture;
+  metrics::ImageFile file;
+};
+
 /// Loads an image to filter within the limits of a confined process, with a warning if it is the first one of an
 /// animation. Pixels of scene-linear images that are not finite are filled, with a warning.
 ///
-/// Errors    those of load_picture (metrics/file/picture_file.h) and of fill_not_finite.
-metrics::Picture load_still(const std::string& path, Delivery& out);
+/// Errors    those of load_picture (metrics/file/picture_file.h), of tell_layer and of fill_not_finite.
+Still load_still(const std::string& path, const ExrChoice& exr, Delivery& out);
 
 /// Lays an image with alpha over a background, an encoded colour with straight alpha, in linear light.
 ///
@@ -27,5 +34,8 @@ void lay_over(metrics::Picture& picture, float4 background);
 /// Returns   the number of these pixels.
 /// Errors    ErrorKind::Input, with `name` in front, if no pixel is finite.
 std::size_t fill_not_finite(LinearImage& image, const std::string& name);
+
+/// Warns of pixels that fill_not_finite filled, if any.
+void warn_of_filled(const std::string& name, std::size_t pixels, Delivery& out);
 
 }  // namespace zoneplate::cli

@@ -15,6 +15,7 @@
 #include "zoneplate/cli/metrics/judge.h"
 #include "zoneplate/cli/metrics/judgement_text.h"
 #include "zoneplate/cli/process/confined.h"
+#include "zoneplate/cli/process/exr_layer.h"
 #include "zoneplate/cli/process/ignore_args.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
@@ -39,7 +40,7 @@ using metrics::Choice;
 using metrics::Metric;
 
 struct MetricsArgs {
-  std::string metric_names, map_path, threshold, junit_path, report_path, renders_path;
+  std::string metric_names, map_path, threshold, junit_path, report_path, renders_path, layer;
   std::optional<double> map_gain;  ///< none: the map alone, in magma
   bool judges_mean = false, allows_missing = false, is_quiet = false, prints_json = false;
   int threads = 0;
@@ -137,7 +138,7 @@ Syntax make_syntax(MetricsArgs& args) {
           "bounds too: mae.max=0.1.\n"
           "\n"
           "Images are identical if their files store the same: every bit of every channel, layer and part, and\n"
-          "the same colour profile. Metrics measure the colours of the first part: of two files with the same\n"
+          "the same colour profile. Metrics measure one layer of an EXR (--layer): of two files with the same\n"
           "profile the codes, of others, which a line of the report names, the colours in sRGB, or in light of\n"
           "Rec.709 primaries. Those with alpha are measured over black and over white, and the worse value\n"
           "counts. NaN in any channel, and infinities in a colour, are counted and miss every threshold.\n"
@@ -168,6 +169,7 @@ Syntax make_syntax(MetricsArgs& args) {
       {"--allow-missing", "", "Images and frames that only one side has do not fail", "Options", false,
        [&](auto&) { args.allows_missing = true; }},
       ignore_option(args.ignored, "Options"),
+      layer_option(args.layer),
       {"--rendered", "FILE.jsonl",
        "Lines that render printed while it made the folder TEST: an image that it could not make fails with the cause",
        "Options", true, [&](auto& text) { args.renders_path = text; }},
@@ -237,11 +239,17 @@ metrics::PictureSet open_operand(const std::string& operand, const MetricsArgs& 
   return metrics::open_pictures(operand, decoder_limits(args.limits));
 }
 
-/// The same images, each of which is decoded within the limits.
-metrics::PictureSet within_limits(metrics::PictureSet set, Delivery& out) {
+/// The same images, each of which is decoded within the limits, and of EXRs the layer that is meant.
+metrics::PictureSet within_limits(metrics::PictureSet set, const std::string& layer, Delivery& out) {
+  set.open = [open = std::move(set.open), layer](std::size_t i) {
+    metrics::ImageFile file = open(i);
+    file.exr.layer = layer;
+    return file;
+  };
   set.decode = [&out](const metrics::ImageFile& file) {
     metrics::Picture picture;
     out.read(file.name, [&] { picture = metrics::decode_file(file, out.limits().pixels); });
+    tell_layer(file, out);
     out.warn_of_flaw(picture.flaw), out.warn_of_flaw(picture.color_flaw);
     return picture;
   };
@@ -297,8 +305,13 @@ void run_metrics(std::span<const std::string> arguments) {
     run.progress = &progress;
     run_confined(run, [&](Delivery& out) {
       verdicts.ignored = read_ignored(args.ignored, out);
-      const Judgement judgement = judge(within_limits(reference, out), within_limits(test, out), choices, verdicts,
-                                        !args.report_path.empty(), [&](double done) { out.progress("compare", done); });
+      const metrics::PictureSet references = within_limits(reference, args.layer, out),
+                                tests = within_limits(test, args.layer, out);
+      if (!args.layer.empty())
+        for (const metrics::PictureSet* set : {&references, &tests})
+          if (!set->names.empty()) tell_layer(set->open(0), out);
+      const Judgement judgement = judge(references, tests, choices, verdicts, !args.report_path.empty(),
+                                        [&](double done) { out.progress("compare", done); });
       // Of two files, not of folders that hold one image each.
       const bool is_pair = !reference.is_directory && judgement.items.size() == 1;
       if (is_pair && judgement.items[0].outcome == Outcome::Unreadable)

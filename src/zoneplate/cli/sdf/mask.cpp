@@ -41,7 +41,7 @@ Syntax from_mask_syntax(MaskArgs& args) {
                     {"--alpha", "", "Take alpha instead of luma", group, true, [&](auto&) { args.uses_alpha = true; }},
                     {"--invert", "", "Dark pixels are inside", group, true, [&](auto&) { args.is_inverted = true; }}};
   for (Option& option : field_view_options(args.view, "pixels")) syntax.options.push_back(std::move(option));
-  for (Option& option : signal_options(args, "The field to write: .exr or .pfm in pixels, .png or - to look at"))
+  for (Option& option : image_options(args, "The field to write: .exr or .pfm in pixels, .png or - to look at"))
     syntax.options.push_back(std::move(option));
   return syntax;
 }
@@ -59,7 +59,7 @@ Syntax to_mask_syntax(MaskArgs& args) {
                     "interpolated bilinearly. White is inside.\n"};
   syntax.options = {{"--scale", "S", "Pixels of the image per pixel of the field; default 1", "Options", true,
                      [&](auto& text) { args.scale = parse_number(text, 1e-2, 1e3); }}};
-  for (Option& option : signal_options(args, result_meaning)) syntax.options.push_back(std::move(option));
+  for (Option& option : image_options(args, result_meaning)) syntax.options.push_back(std::move(option));
   return syntax;
 }
 
@@ -97,7 +97,7 @@ void run_sdf_from_mask(std::span<const std::string> arguments) {
   check_result_name(args.output);
   run_subcommand(args, {input}, {}, [&](Delivery& out) {
     constexpr int most_side = 32767;
-    const LinearImage image = load_signal(input, true, out);
+    const LinearImage image = load_signal(input, {true, {args.layer}}, out);
     if (image.width() > most_side || image.height() > most_side)
       throw Error(ErrorKind::Input, fmt::format("{}: a side of more than {} pixels", input, most_side));
     const Plane<float> luma = luminance(image);
@@ -144,7 +144,7 @@ void run_sdf_to_mask(std::span<const std::string> arguments) {
     throw Error(ErrorKind::Usage, input + ": expected a field of distances, a .pfm or .exr file");
   run_subcommand(args, {input}, {}, [&](Delivery& out) {
     constexpr double most_pixels = 1 << 28;
-    const LinearImage image = load_as_stored(input, false, out).image;
+    const LinearImage image = load_as_stored(input, signal_choice(args), out).image;
     Plane<float> distances(image.width(), image.height());
     std::ranges::transform(image.values(), distances.values().begin(), &Linear::r);
     const double width = std::max(1.0, std::floor(image.width() * args.scale + 0.5)),

@@ -8,10 +8,10 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/process/exr_layer.h"
 #include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/signal/show.h"
 #include "zoneplate/cli/values.h"
-#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/save.h"
 #include "zoneplate/image/transfer.h"
@@ -30,18 +30,10 @@ void check_name(const std::string& path, std::initializer_list<std::string_view>
               fmt::format("--output: {}: expected a name that ends in {}, or -", path, fmt::join(endings, " or ")));
 }
 
-/// The values as floats, and their chromaticities.
-std::vector<std::uint8_t> exr_of(const LinearImage& values, const ColorProfile& profile) {
-  const Linear& first = *values.values().data();
-  constexpr std::size_t step = sizeof(Linear) / sizeof(float);
-  ExrAttributes attributes;
-  if (profile.chromaticities) attributes.emplace_back("chromaticities", *profile.chromaticities);
-  return encode_exr(values.width(), values.height(),
-                    {{"R", ExrType::Float, &first.r, nullptr, step},
-                     {"G", ExrType::Float, &first.g, nullptr, step},
-                     {"B", ExrType::Float, &first.b, nullptr, step},
-                     {"A", ExrType::Float, &first.a, nullptr, step}},
-                    attributes);
+void save_values(const std::string& path, const Signal& values, Delivery& out) {
+  const metrics::ImageFile& file = values.origin.file;
+  const ExrStorage storage{.type = ExrType::Float, .is_converted = is_converted(values)};
+  warn_of_left_out(path, file.name, save_light(path, values.image, file, storage, out), out);
 }
 
 }  // namespace
@@ -57,6 +49,17 @@ std::vector<Option> signal_options(SignalArgs& args, const std::string& output_m
   std::vector<Option> options = output_options(args, output_meaning);
   for (Option& option : limit_options(args.limits)) options.push_back(std::move(option));
   return options;
+}
+
+std::vector<Option> image_options(SignalArgs& args, const std::string& output_meaning) {
+  std::vector<Option> options = signal_options(args, output_meaning);
+  options.push_back(layer_option(args.layer));
+  return options;
+}
+
+SignalChoice signal_choice(const SignalArgs& args, bool keeps_size) {
+  const bool has_overscan = keeps_size && args.output.ends_with(".exr");
+  return {args.uses_codes, {args.layer, has_overscan ? ExrArea::Whole : ExrArea::Display}};
 }
 
 void run_subcommand(const SignalArgs& args, const std::vector<std::string>& inputs,
@@ -123,10 +126,11 @@ void save_signal(const std::string& path, const Signal& values, Delivery& out,
                  const std::function<Rgba8Image()>& picture) {
   const RgbSpacePtr& space = values.meaning.space;
   const ColorProfile profile = space ? space->profile : ColorProfile{};
-  if (path.ends_with(".exr") && (values.meaning.are_codes || profile.chromaticities || !space))
-    return out.save(path, exr_of(values.image, profile));
-  if (path.ends_with(".exr")) return out.save(path, exr_of(in_rec709(values).image, {}));
-  if (path.ends_with(".pfm")) return out.save(path, encode_image(path, in_rec709(values).image));
+  const bool is_exr_name = path.ends_with(".exr");
+  if (is_exr_name || path.ends_with(".pfm")) {
+    const bool is_stated = values.meaning.are_codes || !space || (is_exr_name && profile.chromaticities);
+    return is_stated ? save_values(path, values, out) : save_values(path, in_rec709(values), out);
+  }
   if (picture) return save_picture(path, picture(), out);
   if (!space || !can_hold(".png", profile))
     return save_picture(path, shown(in_rec709(values).image, values.meaning.are_codes), out);

@@ -20,6 +20,7 @@ namespace zoneplate::cli {
 struct SignalArgs {
   std::string report = "zoneplate-signal";  ///< "format" of the JSON
   std::string output;                       ///< a file, "-" for stdout, or empty: numbers only
+  std::string layer;                        ///< of an image that is an EXR
   bool prints_json = false;
   bool uses_codes = false;  ///< operates on display codes instead of linear light
   int threads = 0;
@@ -31,6 +32,13 @@ std::vector<Option> output_options(SignalArgs& args, const std::string& output_m
 
 /// The same and those of limits, for subcommands that read files.
 std::vector<Option> signal_options(SignalArgs& args, const std::string& output_meaning);
+
+/// The same and --layer, for subcommands that read an image.
+std::vector<Option> image_options(SignalArgs& args, const std::string& output_meaning);
+
+/// How the image of a subcommand with these options is loaded. A result of the same size as the image has the overscan
+/// of an EXR too, where it is written to one.
+SignalChoice signal_choice(const SignalArgs& args, bool keeps_size = false);
 
 /// Runs the work of a subcommand in a confined process (process/confined.h), with the threads of the arguments. It
 /// reads `inputs`, of which messages about limits name the first, and writes `args.output` and `more_outputs`.
@@ -66,6 +74,7 @@ void save_result(const std::string& path, const LinearImage& values, const std::
 
 /// Writes a result with the profile of its input, as far as the format of the output states it: to .png codes of its
 /// space, to .exr light of its chromaticities, else sRGB codes or light of Rec.709 primaries; codes as they are.
+/// What is made of an EXR keeps in an EXR what else that file has (save_light), with a warning of what it lacks.
 /// `picture`: the image of a .png, in sRGB, if it does not show the colours themselves.
 void save_signal(const std::string& path, const Signal& values, Delivery& out,
                  const std::function<Rgba8Image()>& picture = {});

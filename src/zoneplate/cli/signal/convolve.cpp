@@ -191,7 +191,7 @@ Rgba8Image figure_of(const std::string& input, const ConvolveArgs& args, const L
 }
 
 void convolve_image(const ConvolveArgs& args, const std::string& input, Delivery& out) {
-  Signal signal = load_as_stored(input, args.uses_codes, out);
+  Signal signal = load_as_stored(input, signal_choice(args, true), out);
   if (args.is_side_by_side) signal = in_rec709(std::move(signal));
   const LinearImage& image = signal.image;
   const KernelChoice& kernel = args.kernel;
@@ -199,10 +199,10 @@ void convolve_image(const ConvolveArgs& args, const std::string& input, Delivery
   if (!args.output.empty() && args.is_side_by_side)
     save_picture(args.output, figure_of(input, args, image, kernel, results.image), out);
   else if (!args.output.empty() && is_signed(kernel))
-    save_signal(args.output, {results.image, signal.meaning}, out,
+    save_signal(args.output, {results.image, signal.meaning, signal.origin}, out,
                 [&] { return picture_of(args, kernel, results.image); });
   else if (!args.output.empty())
-    save_signal(args.output, {results.image, signal.meaning}, out);
+    save_signal(args.output, {results.image, signal.meaning, signal.origin}, out);
   print_result(args, text_of(input, args, image, kernel, results), json_of(input, args, image, kernel, results), out);
 }
 
@@ -259,7 +259,7 @@ Syntax make_syntax(ConvolveArgs& args) {
       {"--side-by-side", "", "Write a figure of input, kernel and result above their spectra, with captions", group,
        true, [&](auto&) { args.is_side_by_side = true; }},
       codes_option(args)};
-  for (Option& option : signal_options(args, result_meaning)) syntax.options.push_back(std::move(option));
+  for (Option& option : image_options(args, result_meaning)) syntax.options.push_back(std::move(option));
   return syntax;
 }
 

@@ -165,7 +165,7 @@ Syntax make_syntax(DecimateArgs& args) {
        [&](auto& text) { args.filtered_path = text; }},
       codes_option(args)};
   for (Option& option :
-       signal_options(args, "Write a figure of both results with their spectra and captions: a .png file, or -"))
+       image_options(args, "Write a figure of both results with their spectra and captions: a .png file, or -"))
     syntax.options.push_back(std::move(option));
   return syntax;
 }
@@ -180,13 +180,14 @@ void run_signal_decimate(std::span<const std::string> arguments) {
   check_picture_name(args.output);
   for (const std::string& path : {args.naive_path, args.filtered_path}) check_result_name(path);
   run_subcommand(args, {input}, {args.naive_path, args.filtered_path}, [&](Delivery& out) {
-    const Signal stored = load_as_stored(input, args.uses_codes, out);
+    const Signal stored = load_as_stored(input, signal_choice(args), out);
     const Pair pair = make_pair(args, in_rec709(stored).image);
     if (!args.output.empty()) save_picture(args.output, figure_of(input, args, pair), out);
     const auto save = [&](const std::string& path, const std::string& kernel) {
       if (path.empty()) return;
       const int width = pair.naive.width(), height = pair.naive.height();
-      save_signal(path, {resampled(stored.image, width, height, kernel, Border::Clamp), stored.meaning}, out);
+      save_signal(path, {resampled(stored.image, width, height, kernel, Border::Clamp), stored.meaning, stored.origin},
+                  out);
     };
     save(args.naive_path, "nearest"), save(args.filtered_path, args.kernel);
     const std::vector<Figures> rows = measure(args, pair);

@@ -169,7 +169,7 @@ Syntax make_syntax(FilterArgs& args) {
       {"--side-by-side", "", "Write a figure of image, spectrum and response, before and after, with captions",
        "Options", true, [&](auto&) { args.is_side_by_side = true; }},
       codes_option(args)};
-  for (Option& option : signal_options(args, result_meaning)) syntax.options.push_back(std::move(option));
+  for (Option& option : image_options(args, result_meaning)) syntax.options.push_back(std::move(option));
   return syntax;
 }
 
@@ -207,16 +207,16 @@ void run_signal_filter(std::span<const std::string> arguments) {
     throw Error(ErrorKind::Usage, "expected one of --low-pass, --high-pass, --band-pass and --band-stop");
   args.is_side_by_side ? check_picture_name(args.output) : check_result_name(args.output);
   run_subcommand(args, {input}, {}, [&](Delivery& out) {
-    Signal signal = load_as_stored(input, args.uses_codes, out);
+    Signal signal = load_as_stored(input, signal_choice(args, true), out);
     if (args.is_side_by_side) signal = in_rec709(std::move(signal));
     const LinearImage& before = signal.image;
     const LinearImage after = filtered(before, args.filter, args.border);
     if (args.is_side_by_side && !args.output.empty())
       out.save_figure(args.output, figure_of(input, args, before, after), plot_size);
     else if (!args.output.empty() && args.loses_mean())
-      save_signal(args.output, {after, signal.meaning}, out, [&] { return picture_of(args, after); });
+      save_signal(args.output, {after, signal.meaning, signal.origin}, out, [&] { return picture_of(args, after); });
     else if (!args.output.empty())
-      save_signal(args.output, {after, signal.meaning}, out);
+      save_signal(args.output, {after, signal.meaning, signal.origin}, out);
     tell_result(input, args, before, after, out);
   });
 }

@@ -8,7 +8,11 @@
 #include <utility>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/cli/filter/still.h"
+#include "zoneplate/cli/process/exr_layer.h"
 #include "zoneplate/codec/exr/exr.h"
+#include "zoneplate/codec/exr/exr_layer.h"
+#include "zoneplate/codec/exr/exr_replace.h"
 #include "zoneplate/codec/hdr.h"
 #include "zoneplate/codec/inspect/color_space.h"
 #include "zoneplate/codec/pfm.h"
@@ -17,8 +21,8 @@
 #include "zoneplate/formats/import/image_file.h"
 #include "zoneplate/image/orientation.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/metrics/file/picture_file.h"
 #include "zoneplate/metrics/rows.h"
-#include "zoneplate/os/file.h"
 #include "zoneplate/os/mapped_file_guard.h"
 #include "zoneplate/signal/pattern/pattern.h"
 
@@ -99,73 +103,102 @@ Signal signal_of(LinearImage light, const ImageColor& color, bool uses_codes) {
   return {as_codes(std::move(out.image)), {uses_codes, nullptr}};
 }
 
+bool is_light(std::span<const std::uint8_t> bytes) { return is_hdr(bytes) || is_exr(bytes) || is_pfm(bytes); }
+
+/// Scene-linear light as it is stored.
+LinearImage decode_light(const metrics::ImageFile& file, std::uint64_t most_pixels) {
+  return is_hdr(file.bytes)   ? decode_hdr(file.bytes, file.name, most_pixels)
+         : is_exr(file.bytes) ? decode_exr_as_stored(file.bytes, file.name, most_pixels, file.exr)
+                              : decode_pfm(file.bytes, file.name, most_pixels);
+}
+
+/// What the values of an image are. Only colours have a space and an orientation.
+enum class ImageContent { Colors, Data };
+
 /// An image, and what of its file the decoder passed over.
 struct Loaded {
   Signal signal;
   std::string flaw = {}, color_flaw = {};
-  RgbSpacePtr space = nullptr;  ///< of the file
+  std::size_t filled = 0;  ///< pixels that were not finite
 };
 
-Loaded load_file(const std::string& operand, bool uses_codes, bool is_texture, std::uint64_t most_pixels) {
-  const FileBytes file(operand);
-  const ImageColor color = is_texture ? ImageColor{.space = nullptr} : read_image_color(file.bytes(), operand);
-  Loaded out{.signal = {}, .color_flaw = color.flaw, .space = color.space};
-  if (is_hdr(file.bytes()) || is_exr(file.bytes()) || is_pfm(file.bytes())) {
-    out.signal = signal_of(is_hdr(file.bytes())   ? decode_hdr(file.bytes(), operand, most_pixels)
-                           : is_exr(file.bytes()) ? decode_exr(file.bytes(), operand, most_pixels)
-                                                  : decode_pfm(file.bytes(), operand, most_pixels),
-                           color, uses_codes);
-    return out;
+Loaded load_file(const std::string& operand, const SignalChoice& choice, ImageContent content,
+                 std::uint64_t most_pixels) {
+  metrics::ImageFile file = metrics::open_image(operand);
+  file.exr = choice.exr;
+  const ImageColor color =
+      content == ImageContent::Data ? ImageColor{.space = nullptr} : read_image_color(file.bytes, operand);
+  const bool is_png = !file.bytes.empty() && file.bytes[0] == 0x89;
+  Loaded out{.signal = {}, .color_flaw = color.flaw};
+  if (is_light(file.bytes)) {
+    LinearImage light = decode_light(file, most_pixels);
+    out.filled = fill_not_finite(light, operand);
+    out.signal = signal_of(std::move(light), color, choice.uses_codes);
+  } else if (is_png) {
+    PngImage png = decode_png_as_stored(file.bytes, operand, most_pixels);
+    out.signal = png.pixels16.empty() ? signal_of(std::move(png.pixels), color, choice.uses_codes)
+                                      : signal_of(std::move(png.pixels16), color, choice.uses_codes);
+  } else {
+    DecodedImage decoded = decode_image(file.bytes, operand, most_pixels);
+    out.signal = signal_of(decoded.texels.as<Rgba8>(), color, choice.uses_codes);
+    out.flaw = std::move(decoded.flaw);
   }
-  const bool is_png = !file.bytes().empty() && file.bytes()[0] == 0x89;
-  if (is_png) {
-    PngImage png = decode_png_as_stored(file.bytes(), operand, most_pixels);
-    out.signal = png.pixels16.empty() ? signal_of(std::move(png.pixels), color, uses_codes)
-                                      : signal_of(std::move(png.pixels16), color, uses_codes);
-    return out;
-  }
-  DecodedImage decoded = decode_image(file.bytes(), operand, most_pixels);
-  out.signal = signal_of(decoded.texels.as<Rgba8>(), color, uses_codes);
-  out.flaw = std::move(decoded.flaw);
+  out.signal.origin = {std::move(file), color.space};
   return out;
 }
 
-Loaded load(const std::string& operand, bool uses_codes, bool is_texture, std::uint64_t most_pixels) {
-  if (is_pattern(operand)) return {signal_of(make_pattern(operand), {.space = nullptr}, uses_codes)};
+Loaded load(const std::string& operand, const SignalChoice& choice, ImageContent content, std::uint64_t most_pixels) {
+  if (is_pattern(operand)) {
+    if (!choice.exr.layer.empty())
+      throw Error(ErrorKind::Usage, operand + ": is a pattern, expected an EXR image for --layer");
+    return {signal_of(make_pattern(operand), {.space = nullptr}, choice.uses_codes)};
+  }
   const MappedFileWatch watch;
-  Loaded loaded = load_file(operand, uses_codes, is_texture, most_pixels);
+  Loaded loaded = load_file(operand, choice, content, most_pixels);
   watch.check(operand);
   return loaded;
 }
 
-Loaded load(const std::string& operand, bool uses_codes, bool is_texture, Delivery& out) {
+Signal load(const std::string& operand, const SignalChoice& choice, ImageContent content, Delivery& out) {
   Loaded loaded;
-  out.read(operand, [&] { loaded = load(operand, uses_codes, is_texture, out.limits().pixels); });
+  out.read(operand, [&] { loaded = load(operand, choice, content, out.limits().pixels); });
+  tell_layer(loaded.signal.origin.file, out);
   out.warn_of_flaw(loaded.flaw), out.warn_of_flaw(loaded.color_flaw);
-  return loaded;
+  warn_of_filled(operand, loaded.filled, out);
+  return std::move(loaded.signal);
+}
+
+/// The display window of an EXR with overscan, from the top left of its pixels; else all pixels.
+ExrWindow display_window(const Signal& signal) {
+  const metrics::ImageFile& file = signal.origin.file;
+  if (file.exr.area == ExrArea::Display || !is_exr(file.bytes))
+    return {0, 0, signal.image.width() - 1, signal.image.height() - 1};
+  const std::vector<ExrPart> parts = read_exr_parts(file.bytes);
+  const ExrPart& part = parts[static_cast<std::size_t>(choose_exr_layer(parts, file.exr.layer, file.name).part)];
+  const ExrWindow whole = exr_whole_window(part), &display = part.display;
+  return {display.left - whole.left, display.top - whole.top, display.right - whole.left, display.bottom - whole.top};
 }
 
 }  // namespace
 
 LinearImage load_signal(const std::string& operand, bool uses_codes, std::uint64_t most_pixels) {
-  Loaded loaded = load(operand, uses_codes, false, most_pixels);
+  Loaded loaded = load(operand, {uses_codes}, ImageContent::Colors, most_pixels);
   if (!loaded.flaw.empty()) throw Error(ErrorKind::Input, loaded.flaw);
   return in_rec709(std::move(loaded.signal)).image;
 }
 
-LinearImage load_signal(const std::string& operand, bool uses_codes, Delivery& out) {
-  return in_rec709(load(operand, uses_codes, false, out).signal).image;
+LinearImage load_signal(const std::string& operand, const SignalChoice& choice, Delivery& out) {
+  return in_rec709(load(operand, choice, ImageContent::Colors, out)).image;
 }
 
-Signal load_as_stored(const std::string& operand, bool uses_codes, Delivery& out) {
-  Loaded loaded = load(operand, uses_codes, false, out);
-  const bool is_converted = !is_usual(loaded.space) && !loaded.signal.meaning.space;
-  if (is_converted && !can_encode(*loaded.space))
+Signal load_as_stored(const std::string& operand, const SignalChoice& choice, Delivery& out) {
+  Signal signal = load(operand, choice, ImageContent::Colors, out);
+  if (is_converted(signal) && !can_encode(*signal.origin.space))
     out.warn(
         fmt::format("{}: has {}, which gives light but no codes: results have sRGB colours, and those outside it "
                     "are clamped",
-                    operand, loaded.space->name));
-  return std::move(loaded.signal);
+                    operand, signal.origin.space->name));
+  return signal;
 }
 
 Signal in_rec709(Signal signal) {
@@ -175,8 +208,20 @@ Signal in_rec709(Signal signal) {
   return signal;
 }
 
-LinearImage load_texture(const std::string& operand, Delivery& out) {
-  return load(operand, true, true, out).signal.image;
+bool is_converted(const Signal& signal) { return signal.origin.space && !signal.meaning.space; }
+
+int2 displayed_size(const Signal& signal) {
+  const ExrWindow window = display_window(signal);
+  return {static_cast<int>(window.width()), static_cast<int>(window.height())};
+}
+
+void crop_to_display(Signal& signal) {
+  signal.image = cropped_to(signal.image, display_window(signal));
+  signal.origin.file.exr.area = ExrArea::Display;
+}
+
+LinearImage load_texture(const std::string& operand, const std::string& layer, Delivery& out) {
+  return load(operand, {true, {layer}}, ImageContent::Data, out).image;
 }
 
 }  // namespace zoneplate::cli

@@ -6,6 +6,7 @@
 #include "zoneplate/cli/process/confined.h"
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/image/rgb_space.h"
+#include "zoneplate/metrics/file/stored.h"
 
 namespace zoneplate::cli {
 
@@ -15,15 +16,22 @@ struct SignalMeaning {
   RgbSpacePtr space = nullptr;  ///< of which they are codes, or whose primaries the light has; null: sRGB
 };
 
+/// The file that a signal was decoded from; none of a pattern.
+struct SignalOrigin {
+  metrics::ImageFile file = {};
+  RgbSpacePtr space = nullptr;  ///< what it states, also where the signal has been converted
+};
+
 /// An image of numbers with its meaning.
 struct Signal {
   LinearImage image;  ///< premultiplied
   SignalMeaning meaning = {};
+  SignalOrigin origin = {};
 };
 
 /// Loads the IMAGE operand of a subcommand of `signal`: a PNG (8 or 16 bits), JPEG, WebP, HDR, EXR, PFM, BMP or TGA
 /// file, "-" for stdin, or a procedural pattern (signal/pattern/pattern.h). A file that has the name of a pattern must
-/// be given with its folder.
+/// be given with its folder. Pixels that are not finite are filled (filter/still.h).
 ///
 /// Shape     turned as its Exif orientation says.
 /// Units     linear light of Rec.709 primaries; with `uses_codes`, the codes in [0, 1] as they are. Premultiplied.
@@ -31,18 +39,35 @@ struct Signal {
 ///           pattern's parameters.
 LinearImage load_signal(const std::string& operand, bool uses_codes, std::uint64_t most_pixels = LoadLimits().pixels);
 
+/// How an image is loaded.
+struct SignalChoice {
+  bool uses_codes = false;
+  ExrChoice exr = {};
+};
+
 /// The same within the limits of a confined process. Of a damaged JPEG what can be decoded is loaded, with a warning,
-/// where the function above throws; a profile that means nothing is a warning, too.
-LinearImage load_signal(const std::string& operand, bool uses_codes, Delivery& out);
+/// where the function above throws; a profile that means nothing is a warning, too, and so are filled pixels and those
+/// of tell_layer (process/exr_layer.h).
+LinearImage load_signal(const std::string& operand, const SignalChoice& choice, Delivery& out);
 
 /// The same with the primaries of the file, for results that are written with its profile. Light of which no codes of
 /// the file's space can be made in a PNG is in Rec.709.
-Signal load_as_stored(const std::string& operand, bool uses_codes, Delivery& out);
+Signal load_as_stored(const std::string& operand, const SignalChoice& choice, Delivery& out);
 
 /// The same signal as light of Rec.709 primaries; codes stay as they are.
 Signal in_rec709(Signal signal);
 
-/// An image of data, such as heights: its codes as they are stored, not turned.
-LinearImage load_texture(const std::string& operand, Delivery& out);
+/// True if the values do not mean what the file of the signal states.
+bool is_converted(const Signal& signal);
+
+/// The size of the display window, without overscan.
+int2 displayed_size(const Signal& signal);
+
+/// Removes overscan.
+void crop_to_display(Signal& signal);
+
+/// An image of data, such as heights, in a layer of an EXR or any other image: its codes as they are stored, not
+/// turned.
+LinearImage load_texture(const std::string& operand, const std::string& layer, Delivery& out);
 
 }  // namespace zoneplate::cli

@@ -88,7 +88,7 @@ Syntax make_syntax(ResampleArgs& args) {
       {"--side-by-side", "", "Write a figure of the input, the nearest pixels and the result, with captions", group,
        true, [&](auto&) { args.is_side_by_side = true; }},
       codes_option(args)};
-  for (Option& option : signal_options(args, result_meaning)) syntax.options.push_back(std::move(option));
+  for (Option& option : image_options(args, result_meaning)) syntax.options.push_back(std::move(option));
   return syntax;
 }
 
@@ -103,11 +103,13 @@ void run_signal_resample(std::span<const std::string> arguments) {
   if (args.output.empty()) throw Error(ErrorKind::Usage, "--output is missing: the image file to write");
   args.is_side_by_side ? check_picture_name(args.output) : check_result_name(args.output);
   run_subcommand(args, {input}, {}, [&](Delivery& out) {
-    Signal signal = load_as_stored(input, args.uses_codes, out);
+    Signal signal = load_as_stored(input, signal_choice(args, true), out);
     if (args.is_side_by_side) signal = in_rec709(std::move(signal));
+    const int2 seen = displayed_size(signal), asked = size_from(args.size, seen.x, seen.y);
+    if (asked != seen) crop_to_display(signal);
     const LinearImage& image = signal.image;
-    const int2 size = size_from(args.size, image.width(), image.height());
-    const Signal result{resampled(image, size.x, size.y, args.kernel, args.border), signal.meaning};
+    const int2 size = asked != seen ? asked : int2{image.width(), image.height()};
+    const Signal result{resampled(image, size.x, size.y, args.kernel, args.border), signal.meaning, signal.origin};
     if (args.is_side_by_side)
       save_picture(args.output, figure_of(input, args, image, result.image), out);
     else

@@ -242,7 +242,7 @@ Syntax make_syntax(SpectrumArgs& args) {
       {"--range-db", "DB", "Decibels from black to the greatest magnitude, which is white; default 80", group, false,
        [&](auto& text) { args.range_db = parse_number(text, 1, 400); }},
       codes_option(args)};
-  for (Option& option : signal_options(args, "The image to write: a .png file, or - for stdout"))
+  for (Option& option : image_options(args, "The image to write: a .png file, or - for stdout"))
     syntax.options.push_back(std::move(option));
   return syntax;
 }
@@ -271,7 +271,7 @@ void run_signal_spectrum(std::span<const std::string> arguments) {
     throw Error(ErrorKind::Usage, "--window and --periodic cannot be combined: both remove the effect of the borders");
   args.shown == Shown::Radial ? check_plot_name(args.output) : check_picture_name(args.output);
   run_subcommand(args, {input}, {}, [&](Delivery& out) {
-    const Analysis analysis = analyse(args, load_signal(input, args.uses_codes, out));
+    const Analysis analysis = analyse(args, load_signal(input, signal_choice(args), out));
     if (!args.output.empty()) save(input, args, analysis, out);
     print_result(args, text_of(input, args, analysis), json_of(input, args, analysis), out);
   });

@@ -8,6 +8,7 @@
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/base/utf8.h"
+#include "zoneplate/cli/process/exr_layer.h"
 #include "zoneplate/cli/signal/args.h"
 #include "zoneplate/cli/signal/show.h"
 #include "zoneplate/cli/texture/texture.h"
@@ -16,6 +17,7 @@
 #include "zoneplate/formats/import/image_file.h"
 #include "zoneplate/image/half.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/metrics/file/picture_file.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/mapped_file_guard.h"
 #include "zoneplate/shade/texture/texture.h"
@@ -31,21 +33,23 @@ struct LevelsArgs : SignalArgs {
   bool weights_by_alpha = true, shows_ripmap = false;
 };
 
-DecodedImage load_texels(const std::string& operand, std::uint64_t most_pixels) {
+DecodedImage load_texels(const std::string& operand, const std::string& layer, Delivery& out) {
   if (is_pattern(operand)) return {shown(make_pattern(operand), false)};
   const MappedFileWatch watch;
-  const FileBytes file(operand);
+  metrics::ImageFile file = metrics::open_image(operand);
+  file.exr.layer = layer;
   DecodedImage image;
-  if (is_pfm(file.bytes())) {
-    const LinearImage light = decode_pfm(file.bytes(), operand, most_pixels);
+  if (is_pfm(file.bytes)) {
+    const LinearImage light = decode_pfm(file.bytes, operand, out.limits().pixels);
     Plane<float4> texels(light.width(), light.height());
     std::ranges::transform(light.values(), texels.values().begin(), [](const Linear& c) {
       return float4{c.r, c.g, c.b, c.a};
     });
     image.texels = std::move(texels);
   } else {
-    image = decode_image(file.bytes(), operand, most_pixels);
+    image = decode_image(file.bytes, operand, out.limits().pixels, layer);
   }
+  tell_layer(file, out);
   watch.check(operand);
   return image;
 }
@@ -211,7 +215,7 @@ Syntax make_syntax(LevelsArgs& args) {
       {"--values", "", "The image holds data, not sRGB colours", group, false,
        [&](auto&) { args.meaning = TexelMeaning::Values; }},
       {"--ripmap", "", "Show the ripmap", group, true, [&](auto&) { args.shows_ripmap = true; }}};
-  for (Option& option : signal_options(args, "The image of all levels to write: a .png file, or - for stdout"))
+  for (Option& option : image_options(args, "The image of all levels to write: a .png file, or - for stdout"))
     syntax.options.push_back(std::move(option));
   return syntax;
 }
@@ -228,7 +232,7 @@ void run_texture_levels(std::span<const std::string> arguments) {
   run_subcommand(args, {input}, {}, [&](Delivery& out) {
     TexelImage texels;
     out.read(input, [&] {
-      DecodedImage image = load_texels(input, out.limits().pixels);
+      DecodedImage image = load_texels(input, args.layer, out);
       out.warn_of_flaw(image.flaw);
       texels = std::move(image.texels);
     });

@@ -50,7 +50,7 @@ Syntax make_syntax(NormalArgs& args) {
          constexpr Wrap modes[] = {Wrap::Repeat, Wrap::Mirror, Wrap::Clamp};
          args.options.wrap_u = args.options.wrap_v = modes[parse_choice(text, {"repeat", "mirror", "clamp"})];
        }}};
-  for (Option& option : signal_options(args, result_meaning)) syntax.options.push_back(std::move(option));
+  for (Option& option : image_options(args, result_meaning)) syntax.options.push_back(std::move(option));
   return syntax;
 }
 
@@ -65,7 +65,7 @@ void run_texture_normal_from_height(std::span<const std::string> arguments) {
   const std::string& input = only_operand(syntax, "one IMAGE");
   check_result_name(args.output);
   run_subcommand(args, {input}, {}, [&](Delivery& out) {
-    const Plane<float3> normals = normals_of(luminance(load_texture(input, out)), args.options);
+    const Plane<float3> normals = normals_of(luminance(load_texture(input, args.layer, out)), args.options);
     LinearImage encoded(normals.width(), normals.height());
     float steepest = 1;
     for (std::size_t i = 0; i < normals.values().size(); ++i) {

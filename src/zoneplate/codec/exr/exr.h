@@ -23,7 +23,7 @@ std::optional<int2> find_exr_size(std::span<const std::uint8_t> bytes);
 
 /// The pixels of an OpenEXR image that are decoded.
 enum class ExrArea {
-  Display,  ///< the display window: what is seen
+  Display,  ///< the display window
   Whole,    ///< the smallest window that contains the display and the data window: with overscan
 };
 

@@ -32,14 +32,16 @@ const ExrAttributeView* find_attribute(const ExrPart& part, std::string_view nam
 }
 
 /// The attributes but those that state how the part is packed, which encode_exr_part writes, and a preview, which would
-/// show another image. (`version`, of deep parts, some readers expect of the others too.)
-ExrAttributes carried_attributes(const ExrPart& part, bool has_name) {
+/// show another image; of a part among others it also writes the name. (`version`, of deep parts, some readers expect
+/// of the others too.)
+ExrAttributes carried_attributes(const ExrPart& part, bool has_name, const ExrStorage& storage) {
   constexpr std::array<std::string_view, 10> own = {
       "channels", "compression", "dataWindow", "displayWindow", "lineOrder",
       "tiles",    "type",        "chunkCount", "preview",       "dwaCompressionLevel"};
   ExrAttributes out;
   for (const ExrAttributeView& a : part.attributes) {
     if (std::ranges::find(own, a.name) != own.end() || (has_name && a.name == "name")) continue;
+    if (storage.is_converted && a.name == "chromaticities") continue;
     // Of several attributes of a name, readers take the first or none.
     if (std::ranges::any_of(out, [&](const auto& o) { return o.first == a.name; })) continue;
     out.emplace_back(std::string(a.name), ExrStoredValue{std::string(a.type), {a.value.begin(), a.value.end()}});
@@ -206,9 +208,9 @@ class Replacement {
     layer_ = choose_exr_layer(parts_, choice.layer, name);
   }
 
-  ExrReplacement make(const LinearImage& image, std::optional<ExrType> type) {
+  ExrReplacement make(const LinearImage& image, const ExrStorage& storage) {
     const ExrWindow whole = choice_.area == ExrArea::Whole ? exr_whole_window(part()) : part().display;
-    if (image.width() != whole.width() || image.height() != whole.height()) return alone(image, type);
+    if (image.width() != whole.width() || image.height() != whole.height()) return alone(image, storage);
     ExrWindow window = whole;
     if (contains(whole, part().data)) {
       if (is_empty_outside(image, whole, part().data)) window = part().data;
@@ -217,13 +219,19 @@ class Replacement {
     }
     const LinearImage cropped = cropped_to(image, {window.left - whole.left, window.top - whole.top,
                                                    window.right - whole.left, window.bottom - whole.top});
+    const bool is_joined = parts_.size() > 1 && !storage.is_converted;
     ExrPartImage own = {.data = window,
                         .display = part().display,
-                        .channels = LayerChannels(part(), layer_, cropped, type).make(),
-                        .attributes = carried_attributes(part(), parts_.size() > 1),
+                        .channels = LayerChannels(part(), layer_, cropped, storage.type).make(),
+                        .attributes = carried_attributes(part(), is_joined, storage),
                         .compression = compression_of(part())};
+    if (storage.is_converted) {
+      leave_out_others();
+      set_only(encode_exr_part(std::move(own)));
+      return std::move(out_);
+    }
     const std::vector<Plane<std::uint32_t>> planes = add_others(own);
-    join(encode_exr_part(std::move(own), parts_.size() > 1 ? part().name : ""));
+    join(encode_exr_part(std::move(own), is_joined ? part().name : ""));
     return std::move(out_);
   }
 
@@ -234,20 +242,24 @@ class Replacement {
     return std::ranges::find(layer_.channels, channel.name) != layer_.channels.end();
   }
 
-  /// A file of the layer alone, of another size than its own.
-  ExrReplacement alone(const LinearImage& image, std::optional<ExrType> type) {
+  void leave_out_others() {
     for (const ExrPartChannel& channel : part().channels)
       if (!is_replaced(channel)) out_.left_out.push_back(channel.name);
     for (const ExrPart& other : parts_)
       if (&other != &part()) out_.left_out.push_back("part " + other.name);
+  }
+  void set_only(const ExrPartBytes& own) { out_.bytes = join_exr_parts({&own, 1}); }
+
+  /// A file of the layer alone, of another size than its own.
+  ExrReplacement alone(const LinearImage& image, const ExrStorage& storage) {
+    leave_out_others();
     if (!contains(part().display, part().data)) out_.left_out.push_back("the pixels outside the display window");
     const ExrWindow window{0, 0, image.width() - 1, image.height() - 1};
-    const ExrPartBytes bytes = encode_exr_part({.data = window,
-                                                .display = window,
-                                                .channels = LayerChannels(part(), layer_, image, type).make(),
-                                                .attributes = carried_attributes(part(), false),
-                                                .compression = compression_of(part())});
-    out_.bytes = join_exr_parts({&bytes, 1});
+    set_only(encode_exr_part({.data = window,
+                              .display = window,
+                              .channels = LayerChannels(part(), layer_, image, storage.type).make(),
+                              .attributes = carried_attributes(part(), false, storage),
+                              .compression = compression_of(part())}));
     return std::move(out_);
   }
 
@@ -318,8 +330,8 @@ LinearImage cropped_to(const LinearImage& image, const ExrWindow& window) {
 }
 
 ExrReplacement replace_exr_layer(std::span<const std::uint8_t> file, const std::string& name, const ExrChoice& choice,
-                                 const LinearImage& image, std::optional<ExrType> type) {
-  return Replacement(file, name, choice).make(image, type);
+                                 const LinearImage& image, const ExrStorage& storage) {
+  return Replacement(file, name, choice).make(image, storage);
 }
 
 }  // namespace zoneplate

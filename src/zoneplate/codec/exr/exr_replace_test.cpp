@@ -165,7 +165,8 @@ TEST(ExrReplace, HalvesStayHalvesWhereTheyHoldTheValues) {
   EXPECT_EQ(type_of(part, "R"), ExrType::Float);
   EXPECT_EQ(type_of(part, "G"), ExrType::Half);
   EXPECT_EQ(decode_exr(out, "b.exr")(0, 0).r, 1e6f);
-  const Bytes floats = replace_exr_layer(file, "a.exr", {}, constant(8, 6, {1, 0.1f, -1, 1}), ExrType::Float).bytes;
+  const Bytes floats =
+      replace_exr_layer(file, "a.exr", {}, constant(8, 6, {1, 0.1f, -1, 1}), {.type = ExrType::Float}).bytes;
   EXPECT_EQ(decode_exr(floats, "b.exr")(0, 0).g, 0.1f);
 }
 
@@ -202,6 +203,29 @@ Bytes three_parts() {
     parts.push_back(maker.part(name));
   }
   return join_exr_parts(parts);
+}
+
+TEST(ExrReplace, AConvertedImageLeavesOutWhatHasTheChromaticities) {
+  Maker maker;
+  maker.data = {-1, 0, 8, 5};
+  for (const char* const name : {"B", "G", "R", "Z"}) maker.add(name, ExrType::Float);
+  maker.attributes = {{"chromaticities", ExrChromaticities{0.7347f, 0.2653f, 0, 1, 0.0001f, -0.077f, 0.3217f, 0.3377f}},
+                      {"timeCode", ExrTimeCode{7}}};
+  const ExrStorage converted{.is_converted = true};
+  for (const int width : {10, 5}) {
+    const ExrReplacement out =
+        replace_exr_layer(maker.file(), "a.exr", {.area = ExrArea::Whole}, constant(width, 6, {1, 2, 3, 1}), converted);
+    EXPECT_EQ(out.left_out.front(), "Z");
+    const ExrPart part = *read_exr_part(out.bytes);
+    EXPECT_EQ(find(part, "chromaticities"), nullptr);
+    EXPECT_NE(find(part, "timeCode"), nullptr);
+    EXPECT_EQ(part.data.left, width == 10 ? -1 : 0);
+    EXPECT_EQ(part.channels.size(), 3u);
+    EXPECT_EQ(decode_exr(out.bytes, "b.exr")(3, 3), (Linear{1, 2, 3, 1}));
+  }
+  const ExrReplacement alone = replace_exr_layer(three_parts(), "a.exr", {}, constant(8, 6, {1, 2, 3, 1}), converted);
+  EXPECT_EQ(alone.left_out, (Names{"Z", "part depth", "part more"}));
+  EXPECT_EQ(read_exr_parts(alone.bytes).size(), 1u);
 }
 
 TEST(ExrReplace, OtherPartsAreCopiedAsTheyArePacked) {

@@ -48,24 +48,37 @@ class KernelUpscaler : public SpatialUpscaler {
     return light;
   }
 
+  /// All channels are resampled as they are. Alpha overshoots as the colours do, so that straight colours are right;
+  /// an opaque image stays opaque.
+  std::optional<LinearImage> upscale_light(const LinearImage& image, const UpscaleGrid& grid) const override {
+    LinearImage out = resampled(image, grid);
+    if (std::ranges::all_of(image.values(), [](const Linear& c) { return c.a == 1; }))
+      for (Linear& c : out.values()) c.a = 1;
+    return out;
+  }
+
  private:
-  DisplayImage upscale_values(const DisplayImage& image, const UpscaleGrid& grid) const {
+  LinearImage resampled(const LinearImage& image, const UpscaleGrid& grid) const {
     const Crop made = grid.made();
-    const ResampleOptions options{.step_x = static_cast<double>(grid.width) / grid.to.width,
-                                  .step_y = static_cast<double>(grid.height) / grid.to.height,
-                                  .shift_x = -static_cast<double>(grid.x),
-                                  .shift_y = -static_cast<double>(grid.y),
-                                  .first_x = made.x,
-                                  .first_y = made.y};
+    return resample(image, made.width, made.height, kernel_,
+                    {.step_x = static_cast<double>(grid.width) / grid.to.width,
+                     .step_y = static_cast<double>(grid.height) / grid.to.height,
+                     .shift_x = -static_cast<double>(grid.x),
+                     .shift_y = -static_cast<double>(grid.y),
+                     .first_x = made.x,
+                     .first_y = made.y});
+  }
+
+  DisplayImage upscale_values(const DisplayImage& image, const UpscaleGrid& grid) const {
     LinearImage in(image.width(), image.height());
     std::ranges::transform(image.values(), in.values().begin(), [](const Display& c) {
       return Linear{c.r * c.a, c.g * c.a, c.b * c.a, c.a};
     });
     const bool is_opaque = std::ranges::all_of(in.values(), [](const Linear& c) { return c.a == 1; });
-    const LinearImage resampled = resample(in, made.width, made.height, kernel_, options);
-    DisplayImage out(made.width, made.height);
+    const LinearImage light = resampled(in, grid);
+    DisplayImage out(light.width(), light.height());
     const auto clamped = [](float v) { return std::clamp(v, 0.0f, 1.0f); };
-    std::ranges::transform(resampled.values(), out.values().begin(), [&](const Linear& c) -> Display {
+    std::ranges::transform(light.values(), out.values().begin(), [&](const Linear& c) -> Display {
       if (is_opaque) return {clamped(c.r), clamped(c.g), clamped(c.b), 1};
       // Before alpha is clamped: kernels with negative lobes overshoot in it as in the colours.
       return c.a > 0 ? Display{clamped(c.r / c.a), clamped(c.g / c.a), clamped(c.b / c.a), clamped(c.a)}
