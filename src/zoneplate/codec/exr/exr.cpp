@@ -469,6 +469,7 @@ Plan plan_of(std::span<const std::uint8_t> bytes, const std::string& name, std::
   if (own.width() != first.width() || own.height() != first.height())
     throw failure(name, "part " + parts[index].name + " has another size than the first one, which is not read");
   Plan plan{parts[index], selection.window.value_or(own)};
+  if (!plan.out.is_sound()) throw failure(name, "the windows are too far apart");
   for (const Window& window : {plan.out, windows->data})
     if (window.pixels() > max_pixels)
       throw failure(name, std::to_string(window.width()) + " x " + std::to_string(window.height()) +

@@ -156,6 +156,16 @@ TEST(ExrReplace, WindowsAreKeptAndGrowWithTheLight) {
   EXPECT_EQ(decode_exr_stored(grown, "", 0, depth, small.data), decode_exr_stored(crop, "", 0, depth, small.data));
 }
 
+TEST(ExrReplace, WindowsFarFromEachOtherAreRefused) {
+  constexpr std::int32_t far = 500'000'000;
+  Maker maker;
+  maker.display = {far, far, far + 7, far + 5}, maker.data = {-far, -far, -far + 7, -far + 5};
+  maker.add("R", ExrType::Half);
+  const Bytes file = maker.file();
+  EXPECT_EQ(decode_exr(file, "a.exr")(0, 0), (Linear{0, 0, 0, 0}));
+  EXPECT_THROW(decode_exr_as_stored(file, "a.exr", ~std::uint64_t{0}, {.area = ExrArea::Whole}), Error);
+}
+
 TEST(ExrReplace, HalvesStayHalvesWhereTheyHoldTheValues) {
   Maker maker;
   for (const char* const name : {"B", "G", "R"}) maker.add(name, ExrType::Half);
