@@ -176,7 +176,7 @@ float light_on(const std::vector<float>& curve, float value) {
 
 float code_on(const std::vector<float>& curve, float light) {
   if (!(light > curve.front())) return 0;
-  const auto above = std::ranges::upper_bound(curve, light);
+  const auto above = std::upper_bound(curve.begin(), curve.end(), light);
   if (above == curve.end()) return 1;
   const float low = above[-1], t = (light - low) / (*above - low);
   return (static_cast<float>(above - curve.begin() - 1) + t) / (curve_size - 1);
@@ -317,7 +317,7 @@ bool is_same(const RgbSpacePtr& a, const RgbSpacePtr& b) {
 
 bool can_encode(const RgbSpace& space) {
   return space.grid.empty() && std::ranges::all_of(space.curves, [](const std::vector<float>& curve) {
-           return std::ranges::is_sorted(curve) && curve.front() < curve.back();
+           return std::is_sorted(curve.begin(), curve.end()) && curve.front() < curve.back();
          });
 }
 

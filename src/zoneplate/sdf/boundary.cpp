@@ -217,7 +217,8 @@ void Arrangement::find_meetings() {
   // Pairs whose bounds overlap along x, by a sweep.
   std::vector<std::size_t> order(segments_.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return segments_[i].bounds.low.x; });
+  const auto left = [&](std::size_t i) { return segments_[i].bounds.low.x; };
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return left(a) < left(b); });
   for (std::size_t i = 0; i < order.size(); ++i) {
     check_deadline();
     Divided& a = segments_[order[i]];
@@ -285,7 +286,7 @@ bool Arrangement::add_crossing(Divided& a, double s, Divided& b, double t) {
 }
 
 void Arrangement::add_parts(Divided& s) {
-  std::ranges::stable_sort(s.cuts, {}, &Cut::t);
+  std::stable_sort(s.cuts.begin(), s.cuts.end(), [](const Cut& a, const Cut& b) { return a.t < b.t; });
   double before = 0;
   int from = s.from;
   const auto add = [&](double t, int to) {
@@ -307,7 +308,7 @@ void Arrangement::merge_parts() {
     Part& part = parts_[i];
     auto& others = between[std::minmax(part.from, part.to)];
     const Point middle = part.segment.at(0.5);
-    const auto same = std::ranges::find_if(others, [&](std::size_t k) {
+    const auto same = std::find_if(others.begin(), others.end(), [&](std::size_t k) {
       const Segment& other = parts_[k].segment;
       return length(other.at(nearest_parameter(other, middle)) - middle) <= 4 * tolerance_;
     });

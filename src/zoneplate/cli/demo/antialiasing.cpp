@@ -65,7 +65,8 @@ void thin_labels(std::vector<Curve>& curves, double greatest) {
   std::vector<std::pair<std::pair<double, double>, std::string*>> all;
   for (Curve& curve : curves)
     for (std::size_t i = 0; i < curve.points.size(); ++i) all.emplace_back(curve.points[i], &curve.labels[i]);
-  std::ranges::stable_sort(all, {}, [](const auto& each) { return each.first.second; });
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.first.second < b.first.second; });
   for (const auto& [point, label] : all) {
     const bool is_free = std::ranges::none_of(taken, [&, at = point](const auto& other) {
       return at.first < wide * other.first && other.first < wide * at.first &&
