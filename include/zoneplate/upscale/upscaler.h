@@ -75,7 +75,7 @@ std::unique_ptr<SpatialUpscaler> make_spatial_upscaler(std::string_view text);
 
 /// An upscaled scene-linear image, and what a filter of display-referred ones cannot represent.
 struct UpscaledLight {
-  LinearImage image;
+  LinearImage image;         ///< premultiplied, of the size of the grid
   std::size_t negative = 0;  ///< pixels with a channel below 0, which counted as 0
   std::size_t bright = 0;    ///< with a straight colour above 32768, which counted as that
   std::size_t additive = 0;  ///< with light at alpha 0, which counted as none
