@@ -23,6 +23,8 @@ add_executable(zoneplate_playground web/playground/session.cpp web/playground/lo
                web/playground/figures.cpp web/playground/truetype.cpp ${readers} ${figures})
 compile_folders_together(zoneplate_playground)
 target_link_libraries(zoneplate_playground PRIVATE zoneplate)
+# The page has one instruction set, whose vectors every kernel has (base/isa.h); a tenth of the module was scalar twins.
+target_compile_definitions(zoneplate PUBLIC ZONEPLATE_WITHOUT_SCALAR_TWINS)
 # What takes time is in the library; a page that is smaller is there sooner.
 target_compile_options(zoneplate_playground PRIVATE -Oz)
 # Sizes have 32 bits here; session.cpp limits the memory of a model to less. A library, so that its options come last.

@@ -73,6 +73,8 @@ struct PerIsa {
     if (isa == Isa::Sse4) return N_SSE4;
 #elif defined(__aarch64__)
     if (isa == Isa::Neon) return N_NEON;
+#elif defined(ZONEPLATE_WITHOUT_SCALAR_TWINS)
+    return N_WASM;
 #elif defined(__wasm_simd128__)
     if (isa == Isa::Wasm) return N_WASM;
 #endif
