@@ -125,6 +125,25 @@ std::string far_transform_amf(double3 at) {
              at.x, at.y, at.z);
 }
 
+/// The text with `more` before the first `what`.
+std::string with(std::string text, std::string_view what, std::string_view more) {
+  return text.insert(text.find(what), more);
+}
+// Files whose last vertex, at 0, belongs to no triangle.
+std::string stray_ply(double3 at) {
+  std::string text = with(ascii_ply(at), "3 0 2 1", "0 0 0\n");
+  return text.replace(text.find("vertex 5"), 8, "vertex 6");
+}
+std::string stray_obj(double3 at) { return obj(at) + "v 0 0 0\n"; }
+std::string stray_3mf(double3 at) {
+  return package_3mf(maker_3mf::object(1, with(mesh_3mf(at), "</vertices>", R"(<vertex x="0" y="0" z="0"/>)")),
+                     maker_3mf::item(1));
+}
+std::string stray_amf(double3 at) {
+  return with(far_vertices_amf(at), "</vertices>",
+              "<vertex><coordinates><x>0</x><y>0</y><z>0</z></coordinates></vertex>");
+}
+
 class FarScenes : public testing::Test {
  protected:
   FarScenes() : place_(fs::temp_directory_path() / ("zoneplate_far_" + std::to_string(::getpid()))) {
@@ -172,7 +191,11 @@ TEST_F(FarScenes, LookAsNearTheOrigin) {
                                {".3mf", far_transforms_3mf},
                                {".3mf", moved_back_3mf},
                                {".amf", far_vertices_amf},
-                               {".amf", far_transform_amf}}) {
+                               {".amf", far_transform_amf},
+                               {".ply", stray_ply},
+                               {".obj", stray_obj},
+                               {".3mf", stray_3mf},
+                               {".amf", stray_amf}}) {
     write("near" + format.extension, format.text({}));
     for (const double3 at : places) {
       write("far" + format.extension, format.text(at));

@@ -110,11 +110,15 @@ std::vector<float4> colors_of(const zoneplate_array& array, std::size_t count) {
   return out;
 }
 
-/// The positions of a mesh relative to `centre`, which is not 0 if they lie far from their own origin.
-std::vector<float3> centered_positions(const zoneplate_array& given, double3& centre) {
+/// The positions of a mesh relative to `centre`, which is not 0 if those that it uses lie far from their own origin.
+std::vector<float3> centered_positions(const zoneplate_mesh& mesh, double3& centre) {
+  const zoneplate_array& given = mesh.positions;
   std::vector<float3> out = vectors_of<float3>(given, "positions", 0);
   OriginChoice choice;
-  choice.add(out);
+  if (is_given(mesh.indices))
+    choice.add_used(indices_of(mesh.indices, "indices", out.size()), [&](std::uint32_t vertex) { return out[vertex]; });
+  else
+    choice.add(out);
   centre = choice.origin();
   if (centre == double3{}) return out;
   const std::vector<double> places = doubles_of(given, "positions", 3);
@@ -158,9 +162,8 @@ Mesh mesh_of(const zoneplate_mesh& m, std::vector<float3> positions, const Scene
 /// Chooses the scene's origin by its first instance. Lights that were added before move with it.
 void choose_origin(zoneplate_scene& building, Scene& scene, const Mesh& mesh, const Affine& placed) {
   OriginChoice choice;
-  constexpr std::size_t positions_per_check = 64;
-  for (std::size_t i = 0; i < mesh.position.size() && (i % positions_per_check != 0 || !choice.is_near()); ++i)
-    choice.add(transform_point(placed, widened(mesh.position[i])));
+  choice.add_used(mesh.index,
+                  [&](std::uint32_t vertex) { return transform_point(placed, widened(mesh.position[vertex])); });
   scene.origin = choice.origin();
   for (const auto& [light, place] : building.light_places)
     if (!scene.lights[light].is_in_camera_space) scene.lights[light].position = scene.in_world(place);
@@ -319,7 +322,7 @@ zoneplate_status zoneplate_scene_add_mesh(zoneplate_scene* scene, const zoneplat
     required(scene, "scene").change([&](Scene& s) {
       const auto given = completed(&required(mesh, "mesh"), "zoneplate_mesh");
       double3 centre;
-      Mesh added = mesh_of(given, centered_positions(given.positions, centre), s);
+      Mesh added = mesh_of(given, centered_positions(given, centre), s);
       if (centre != double3{}) scene->mesh_centres.emplace(static_cast<std::int32_t>(s.meshes.size()), centre);
       const NotFinite lost = drop_not_finite(added);
       if (lost.dropped > 0)

@@ -35,7 +35,7 @@ constexpr SceneFormat formats[] = {
 
 Scene read_gltf(const std::string& path, const LoadOptions& o) { return load_gltf(path, o.limits, o.choice); }
 
-/// Returns the limits; throws if the options choose a scene, variant or animation, which only glTF files have.
+/// Throws if the options choose a scene, variant or animation, which only glTF files have.
 void refuse_choice(const SceneChoice& c) {
   if (c.scene || c.animation || !c.animation_name.empty() || !c.variant.empty())
     throw Error(ErrorKind::Usage, "only glTF files have scenes, variants and animations to choose from");

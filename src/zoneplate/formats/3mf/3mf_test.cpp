@@ -258,10 +258,10 @@ TEST(Load3mf, UnitsBecomeMillimetres) {
 /// The vertices of a strip of 4 mm x 1 mm, 300 columns of two, after others; all of them are in triangles.
 std::string strip(double3 at, const std::string& others = "") {
   std::string vertices = others, triangles;
-  const auto first = std::count(others.begin(), others.end(), '<');
+  const auto count = 600 + std::count(others.begin(), others.end(), '<');
   for (int i = 0; i < 600; ++i)
     vertices += fmt::format(R"(<vertex x="{:.3f}" y="{:.3f}" z="{:.3f}"/>)", at.x + i / 2 * 0.01, at.y + i % 2, at.z);
-  for (auto i = first; i + 2 < first + 600; ++i)
+  for (std::ptrdiff_t i = 0; i + 2 < count; ++i)
     triangles += fmt::format(R"(<triangle v1="{}" v2="{}" v3="{}"/>)", i, i + 1, i + 2);
   return "<mesh><vertices>" + vertices + "</vertices><triangles>" + triangles + "</triangles></mesh>";
 }

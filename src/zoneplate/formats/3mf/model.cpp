@@ -58,9 +58,13 @@ void forget_places(Object& object, ImportBudget& budget) {
   object.far = {};
 }
 
-/// Rounds the vertices of an object far from its own origin again, relative to its centre.
+/// Rounds the vertices of an object far from its own origin again, relative to its centre. Vertices that no triangle
+/// has do not count.
 void center_far(Object& object, ImportBudget& budget) {
-  const double3 centre = object.far.choice.origin();
+  OriginChoice choice;
+  if (!object.far.place.empty())
+    choice.add_used(object.triangles, [&](std::uint32_t vertex) { return object.far.place[vertex]; });
+  const double3 centre = choice.origin();
   if (centre != double3{}) {
     for (std::size_t i = 0; i < object.position.size(); ++i)
       object.position[i] = narrowed(object.far.place[i] - centre);
@@ -106,21 +110,24 @@ void drop_invalid(Object& object, std::uint32_t id, FlawList& flaws, ImportBudge
 void model_3mf::append_vertex(Object& object, const std::array<std::string_view, 3>& coordinates, double unit,
                               ImportBudget& budget) {
   constexpr std::size_t vertices_per_decision = 256;
+  constexpr int near_blocks = 2;  // one may be so by a single vertex at 0, which nothing uses
   const auto& [x, y, z] = coordinates;
   append_charged(object.position, float3{number_of(x), number_of(y), number_of(z)} * static_cast<float>(unit), budget);
   FarPlaces& far = object.far;
   if (far.is_near) return;
   append_charged(far.place, double3{double_of(x) * unit, double_of(y) * unit, double_of(z) * unit}, budget);
   far.choice.add(far.place.back());
-  if (far.place.size() % vertices_per_decision != 0 || !far.choice.is_near()) return;
+  if (far.place.size() % vertices_per_decision != 0) return;
+  const bool is_near = std::exchange(far.choice, {}).is_near();
+  if (!is_near || ++far.near_blocks < near_blocks) return;
   forget_places(object, budget);
   far.is_near = true;
 }
 
 void model_3mf::finish_objects(Model& model, FlawList& flaws, ImportBudget& budget) {
   for (auto& [id, object] : model.objects) {
-    center_far(object, budget);
     drop_invalid(object, id, flaws, budget);
+    center_far(object, budget);
   }
 }
 

@@ -37,10 +37,11 @@ struct TriangleProperty {
   std::array<std::uint32_t, 3> index{none, none, none};
 };
 
-/// The places of vertices, in millimetres, until so many are known that they are near their origin.
+/// The places of vertices, in millimetres, kept until two blocks of them are near their origin.
 struct FarPlaces {
   std::vector<double3> place;
-  OriginChoice choice;
+  OriginChoice choice;  ///< of the last block of vertices
+  int near_blocks = 0;
   bool is_near = false;  ///< then no places are kept
 };
 

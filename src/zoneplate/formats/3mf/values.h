@@ -30,7 +30,7 @@ std::vector<std::string_view> words_of(std::string_view list);
 std::optional<float4> find_hex_color(std::string_view text);
 
 /// The matrix of twelve numbers, which multiply row vectors, row by row; nothing for another text, or if one of them is
-/// a finite float. `unit` scales the translation.
+/// not a finite float. `unit` scales the translation.
 std::optional<Affine> find_matrix(std::string_view text, double unit);
 
 }  // namespace zoneplate

@@ -23,6 +23,10 @@ struct PlyVertices {
 /// Errors    ErrorKind::Input: no x, y or z, or more vertices than 32-bit indices can address.
 PlyVertices read_ply_vertices(const PlyRows& rows, ImportBudget& budget);
 
+/// Reads the positions again, relative to the origin that is returned, if those of the vertices that the mesh uses lie
+/// far from 0 and others do not; returns 0 otherwise.
+double3 center_far_vertices(const PlyRows& rows, Mesh& mesh);
+
 /// Faces, strips or edges with the index of a vertex that does not exist: they are dropped.
 struct PlyStrays {
   std::uint64_t count = 0;

@@ -215,6 +215,7 @@ Scene load_ply(const std::string& path, const LoadLimits& limits) {
   Mesh mesh = std::move(read.mesh);
   const std::size_t vertices = mesh.position.size();
   choose_primitives(found, header.textures.size(), mesh, faces, budget);
+  if (scene.origin == double3{}) scene.origin = center_far_vertices(*found.vertices, mesh);
   warn_of_strays(scene, budget, faces.strays, vertices);
   warn(scene, budget, faces.too_short, "faces have fewer than 3 corners and are dropped");
   warn(scene, budget, faces.too_concave, "faces have too many corners to be cut rightly");

@@ -134,6 +134,8 @@ void decode_colors(const PlyElement& element, const std::array<std::size_t, 4>& 
   });
 }
 
+std::optional<Columns> find_position(const PlyElement& e) { return find_all<3>(e, {Names{"x"}, {"y"}, {"z"}}); }
+
 std::optional<Columns> find_harmonics(const PlyElement& e) {
   return find_all<3>(e, {Names{"f_dc_0"}, {"f_dc_1"}, {"f_dc_2"}});
 }
@@ -176,9 +178,17 @@ bool are_splats(const PlyElement& vertices) {
          find(vertices, {"rot_0"}) && !find(vertices, {"red", "r", "diffuse_red"});
 }
 
+double3 center_far_vertices(const PlyRows& rows, Mesh& mesh) {
+  OriginChoice choice;
+  choice.add_used(mesh.index, [&](std::uint32_t vertex) { return mesh.position[vertex]; });
+  const double3 origin = choice.origin();
+  if (origin != double3{}) read_places(rows, *find_position(*rows.element), origin, mesh.position);
+  return origin;
+}
+
 PlyVertices read_ply_vertices(const PlyRows& rows, ImportBudget& budget) {
   const PlyElement& e = *rows.element;
-  const auto position = find_all<3>(e, {Names{"x"}, {"y"}, {"z"}});
+  const auto position = find_position(e);
   if (!position) throw Error(ErrorKind::Input, budget.file() + ": element vertex: has no x, y and z");
   if (e.count >= 0xffffffffu) throw Error(ErrorKind::Input, budget.file() + ": more than 2^32 vertices");
   const bool has_splats = are_splats(e);

@@ -40,7 +40,7 @@ double3 OriginChoice::origin() const {
 
 double3 center_far_mesh(Mesh& mesh) {
   OriginChoice choice;
-  choice.add(mesh.position);
+  choice.add_used(mesh.index, [&](std::uint32_t vertex) { return mesh.position[vertex]; });
   const double3 centre = widened(narrowed(choice.origin()));
   if (centre == double3{}) return {};
   for (float3& p : mesh.position) p = narrowed(widened(p) - centre);
@@ -58,10 +58,9 @@ void center_far_scene(Scene& scene, std::span<Affine> placed) {
   OriginChoice choice;
   for (std::size_t n = 0; n < placed.size(); ++n) {
     if (choice.is_near()) return;
-    const std::vector<float3>& positions = scene.meshes[static_cast<std::size_t>(scene.instances[n].mesh)].position;
-    constexpr std::size_t block = 256;
-    for (std::size_t i = 0; i < positions.size() && (i % block != 0 || !choice.is_near()); ++i)
-      choice.add(transform_point(placed[n], widened(positions[i])));
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(scene.instances[n].mesh)];
+    choice.add_used(mesh.index,
+                    [&](std::uint32_t vertex) { return transform_point(placed[n], widened(mesh.position[vertex])); });
   }
   scene.origin = choice.origin();
   if (scene.origin == double3{}) return;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <span>
 #include <vector>
@@ -26,6 +28,14 @@ class OriginChoice {
   void add(float3 place) { add(widened(place)); }
   /// Adds positions until the scene is near.
   void add(std::span<const float3> positions);
+  /// Adds `place_of(vertex)` of the vertices that a mesh's indices use, until the scene is near.
+  template <class PlaceOf>
+  void add_used(std::span<const std::uint32_t> indices, const PlaceOf& place_of) {
+    constexpr std::size_t block = 256;
+    for (std::size_t begin = 0; begin < indices.size() && !is_near(); begin += block)
+      for (const std::uint32_t vertex : indices.subspan(begin, std::min(block, indices.size() - begin)))
+        add(place_of(vertex));
+  }
   /// Adds the places of another choice.
   void add(const OriginChoice& other) { add(other.low_), add(other.high_); }
 
