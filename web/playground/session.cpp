@@ -28,6 +28,7 @@
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/render/lighting.h"
+#include "zoneplate/render/metering/metering.h"
 #include "zoneplate/render/prepared_scene.h"
 #include "zoneplate/render/renderer.h"
 #include "zoneplate/render/sequence.h"
@@ -127,6 +128,7 @@ class Session {
   int width_ = 640, height_ = 360;
   float4 background_ = default_background;
   ToneMapping tone_mapping_ = ToneMapping::None;  ///< that goes with the light
+  float light_dimming_ = 1;                       ///< of the lights of a file (dimming_of)
 
   std::string method_, look_;
   std::unique_ptr<Renderer> renderer_;  ///< of `method_`; null: none yet for this scene
@@ -172,6 +174,7 @@ Scene Session::lit(Scene scene) {
   if (studio_) options.studio = [this] { return studio_; };
   Lighting lighting = make_lighting(scene, options);
   scene.lights = std::move(lighting.lights);
+  for (Light& light : scene.lights) light.intensity *= light_dimming_;
   scene.environment = lighting.environment;
   scene.ambient_light = lighting.ambient_light;
   tone_mapping_ = lighting.tone_mapping;
@@ -185,7 +188,10 @@ void Session::set_scene(Scene made, const std::string& name, std::optional<Scene
   moves_ = loader.has_value();
   renderer_.reset();
   sequence_.reset();
+  light_dimming_ = 1;
   still_.emplace(lit(std::move(made)));
+  if (!environment_) light_dimming_ = dimming_of(*still_, upscale::make_method("none")).factor;
+  *still_ = dimmed(std::move(*still_), light_dimming_);
   if (loader) {
     const SequenceTiming timing{.rate = frame_rate, .duration = static_cast<double>(scene().animations[0].end)};
     sequence_ = std::make_unique<Sequence>(std::move(*loader), MipOptions{}, timing);

@@ -193,7 +193,7 @@ std::unique_ptr<zoneplate_image> render_image(zoneplate_scene& scene, const zone
       camera != nullptr ? camera_of(camera, prepared.scene().origin) : find_camera(scene, nullptr, aspect).camera;
   PreparedScene lit = prepared.lit(light);
   if (o.light_intensity == nullptr && !lighting.environment && o.exposure == 0 && settings.form != ImageForm::Linear)
-    lit = dimmed(lit, dimming_of(lit, view, settings.options, upscale::make_method("none")).factor);
+    lit = dimmed(lit, dimming_of(lit, upscale::make_method("none")).factor);
   Renderer renderer(std::move(lit), std::move(method));
   RenderedImage image = renderer.render_still(view, settings);
 

@@ -104,7 +104,7 @@ SceneTrials compare_scene(const CompareArgs& args, const std::string& name, cons
   const Camera camera = choose_own_camera(render, scene);
   render.display.mapping = set_look(render, scene);
   PreparedScene prepared(std::move(scene), render.mips);
-  const std::string dimming = set_light_dimming(render, prepared, camera, "");
+  const std::string dimming = set_light_dimming(render, prepared, "");
   prepared = dimmed(std::move(prepared), render.light_dimming);
   if (render.meters_exposure) render.display.exposure = metered_exposure(prepared, camera, render);
   const RenderSettings settings = settings_of(render, "");
@@ -146,7 +146,7 @@ SceneTrials compare_scene(const CompareArgs& args, const std::string& name, cons
 
 /// Runs in the confined process. The result is the text to print.
 void compare_all(const CompareArgs& args, TrialOptions options, const MemoryFiles& memory, Delivery& out) {
-  options.ignored = read_ignored(args.ignored, out);
+  options.ignored = read_ignored(args.ignored, out), options.ignored_texts = args.ignored.texts;
   // A file that is invalid, or needs a library, is found before the first scene is drawn.
   if (args.scenes.size() > 1)
     for (const std::string& name : args.scenes)

@@ -246,13 +246,14 @@ class Batch {
     progress_.clear();
     say_error(cause);
     const std::string& output = item.args.output;
-    return {{"format", "zoneplate-render"},
-            {"version", report_version},
-            {"input", item.name},
-            {"output", Json()},
-            {"status", "failed"},
-            {"not_written", output.empty() ? Json() : Json(output)},
-            {"error", cause}};
+    Json::Object line{{"format", "zoneplate-render"},
+                      {"version", report_version},
+                      {"input", item.name},
+                      {"output", Json()},
+                      {"status", "failed"}};
+    if (!output.empty()) line.emplace_back("not_written", output);
+    line.emplace_back("error", cause);
+    return line;
   }
 
   static std::string cause_of(const std::string& name, const std::exception_ptr& error) {

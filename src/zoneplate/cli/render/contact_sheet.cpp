@@ -72,7 +72,8 @@ std::vector<std::uint8_t> render_cell(RenderArgs render, ItemSender& sender) {
   const Camera camera = choose_own_camera(render, scene);
   render.display.mapping = set_look(render, scene);
   Renderer renderer(PreparedScene(std::move(scene)), upscale::make_method(render.method));
-  set_light_dimming(render, renderer.scene(), camera, "");
+  const std::string dimming = set_light_dimming(render, renderer.scene(), "");
+  if (!dimming.empty()) sender.text(TextKind::Warning, dimming);
   renderer.set_scene(dimmed(renderer.scene(), render.light_dimming));
   if (render.meters_exposure) render.display.exposure = metered_exposure(renderer.scene(), camera, render);
   const Rgba8Image picture = renderer.render_still(camera, settings_of(render, "")).display;
@@ -109,7 +110,9 @@ Cell cell_of(const SheetArgs& args, const std::string& input, const std::string&
                          .is_sandboxed = uses_sandbox(render.is_sandboxed),
                          .readable = std::move(readable)},
                         1, [&](std::size_t, ItemSender& sender) { return render_cell(render, sender); });
-    const std::vector<std::uint8_t> codes = process.next({});
+    ItemEvents events;
+    events.text = [](TextKind, const std::string& warning) { say_warning(warning); };
+    const std::vector<std::uint8_t> codes = process.next(events);
     Rgba8Image image(render.options.width, render.options.height);
     if (codes.size() != image.values().size_bytes())
       throw Error(ErrorKind::Failed, input + ": an image of a wrong size");

@@ -77,7 +77,7 @@ Summary RenderJobs::run(RenderArgs args, ItemSender& out) {
   const Lighting lighting = make_lighting(scene, args.lighting);
   args.display.mapping = args.tone_mapping.value_or(lighting.tone_mapping);
   PreparedScene lit = scene_->lit(lighting);
-  if (std::string warning = set_light_dimming(args, lit, camera, args.named_output()); !warning.empty())
+  if (std::string warning = set_light_dimming(args, lit, args.named_output()); !warning.empty())
     summary.warnings.push_back(std::move(warning));
   lit = dimmed(std::move(lit), args.light_dimming);
   {

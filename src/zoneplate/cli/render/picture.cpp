@@ -182,16 +182,16 @@ RenderSettings settings_of(const RenderArgs& args, const std::string& output) {
 }
 
 float metered_exposure(const PreparedScene& scene, const Camera& camera, const RenderArgs& args) {
-  return auto_exposure(metered_image(scene, camera, args.options, make_resolver(antialias::methods(), "none")));
+  Renderer renderer(scene, make_resolver(antialias::methods(), "none"));
+  return auto_exposure(metered_image(renderer, camera, args.options));
 }
 
-std::string set_light_dimming(RenderArgs& args, const PreparedScene& scene, const Camera& camera,
-                              const std::string& output) {
+std::string set_light_dimming(RenderArgs& args, const PreparedScene& scene, const std::string& output) {
   args.light_dimming = 1;
   if (args.lighting.source != LightSource::Scene || args.lighting.environment || args.has_own_brightness ||
       is_linear(output))
     return {};
-  const auto [factor, white] = dimming_of(scene, camera, args.options, make_resolver(antialias::methods(), "none"));
+  const auto [factor, white] = dimming_of(scene, make_resolver(antialias::methods(), "none"));
   args.light_dimming = factor;
   if (factor == 1) return {};
   return fmt::format(

@@ -77,8 +77,7 @@ float metered_exposure(const PreparedScene& scene, const Camera& camera, const R
 /// Sets `args.light_dimming`: where the lights of a file would clip a quarter of the surfaces or more to white, the
 /// factor that brings them to the brightness of --exposure auto; 1 for others, where options choose the lights or the
 /// brightness, and for linear images. Returns the warning about it; empty for a factor of 1.
-std::string set_light_dimming(RenderArgs& args, const PreparedScene& scene, const Camera& camera,
-                              const std::string& output);
+std::string set_light_dimming(RenderArgs& args, const PreparedScene& scene, const std::string& output);
 
 /// Converts a rendered image of `scene` by `camera` to the formats of the output's extension, with its data passes. Its
 /// counts, times and size are stored in `summary`. `frame` is its number in a sequence.

@@ -231,7 +231,7 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
   summary.warnings = sequence.scene(plan.frames().front()).scene().warnings;
   if (args.meters_exposure || renderer.scene().scene().needs_fill_light) {
     const SceneView start = sequence.view(0);
-    if (std::string warning = set_light_dimming(args, start.scene, start.camera, args.output); !warning.empty())
+    if (std::string warning = set_light_dimming(args, start.scene, args.output); !warning.empty())
       summary.warnings.push_back(std::move(warning));
     if (args.meters_exposure) args.display.exposure = metered_exposure(start.scene, start.camera, args);
   }

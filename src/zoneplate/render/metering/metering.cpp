@@ -5,32 +5,14 @@
 #include <utility>
 
 #include "zoneplate/image/auto_exposure.h"
+#include "zoneplate/render/view.h"
 
 namespace zoneplate {
+namespace {
 
-LinearImage metered_image(const PreparedScene& scene, const Camera& camera, RenderOptions options,
-                          std::unique_ptr<Resolver> none) {
-  constexpr int most_side = 256;
-  options.crop.reset();
-  options.background.reset();
-  const int longest = std::max(options.width, options.height);
-  if (longest > most_side) {
-    options.width = std::max(1, options.width * most_side / longest);
-    options.height = std::max(1, options.height * most_side / longest);
-  }
-  Renderer renderer(scene, std::move(none));
-  return renderer.render(camera, {.options = options, .form = ImageForm::Linear}).linear;
-}
+constexpr int most_side = 256;
 
-bool is_well_above_white(float exposure, float metered) {
-  constexpr float metered_white = 0.8f, most_light = 1.25f;  // the brightest surfaces' channel at the metered exposure
-  return exposure * metered_white > most_light * metered;
-}
-
-LightDimming dimming_of(const PreparedScene& scene, const Camera& camera, const RenderOptions& options,
-                        std::unique_ptr<Resolver> none) {
-  if (!scene.scene().needs_fill_light) return {};
-  const LinearImage image = metered_image(scene, camera, options, std::move(none));
+LightDimming dimming_in(const LinearImage& image) {
   std::size_t surfaces = 0, white = 0;
   for (const Linear& c : image.values()) {
     if (c.a < 0.5f) continue;
@@ -41,6 +23,39 @@ LightDimming dimming_of(const PreparedScene& scene, const Camera& camera, const 
   const float metered = auto_exposure(image);
   if (part < least_white || !is_well_above_white(1, metered)) return {};
   return {metered, part};
+}
+
+}  // namespace
+
+LinearImage metered_image(Renderer& renderer, const Camera& camera, RenderOptions options) {
+  options.crop.reset();
+  options.background.reset();
+  const int longest = std::max(options.width, options.height);
+  if (longest > most_side) {
+    options.width = std::max(1, options.width * most_side / longest);
+    options.height = std::max(1, options.height * most_side / longest);
+  }
+  return renderer.render(camera, {.options = options, .form = ImageForm::Linear}).linear;
+}
+
+bool is_well_above_white(float exposure, float metered) {
+  constexpr float metered_white = 0.8f, most_light = 1.25f;  // the brightest surfaces' channel at the metered exposure
+  return exposure * metered_white > most_light * metered;
+}
+
+LightDimming dimming_of(const PreparedScene& prepared, std::unique_ptr<Resolver> none) {
+  const Scene& scene = prepared.scene();
+  if (!scene.needs_fill_light) return {};
+  Renderer renderer(prepared, std::move(none));
+  LightDimming least;
+  const auto meter = [&](const View& view) {
+    const LightDimming found =
+        dimming_in(metered_image(renderer, choose_camera(scene, view, 1), {.width = most_side, .height = most_side}));
+    if (found.factor < least.factor) least = found;
+  };
+  meter({.up = scene.up});
+  if (!scene.cameras.empty()) meter({.index = 0, .up = scene.up});
+  return least;
 }
 
 PreparedScene dimmed(PreparedScene scene, float factor) {

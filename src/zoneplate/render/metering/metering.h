@@ -15,9 +15,8 @@ inline constexpr double least_white = 0.25;
 
 /// The image that light is metered in: linear, of the whole view, at most 256 pixels along the longer side.
 ///
-/// `none` takes one sample per pixel.
-LinearImage metered_image(const PreparedScene& scene, const Camera& camera, RenderOptions options,
-                          std::unique_ptr<Resolver> none);
+/// Requires  the renderer's method, `none`, takes one sample per pixel.
+LinearImage metered_image(Renderer& renderer, const Camera& camera, RenderOptions options);
 
 /// True if surfaces are well above white at an exposure, where `metered` is auto_exposure of the metered image: not of
 /// those that are just white.
@@ -32,11 +31,11 @@ struct LightDimming {
 /// The factor that brings the lights of a scene that needs a fill light (Scene::needs_fill_light) to the brightness of
 /// auto_exposure, where they would clip the part least_white of its surfaces or more to white; 1 for all others.
 ///
-/// Exporters write thousands of candelas and lux. The fill light and emission, which an exposure would make black, keep
-/// their brightness.
+/// It is a property of the scene, so that views of it are alike: the least of the factors of the whole-scene view and
+/// of the scene's first camera, 256 pixels wide and high. Exporters write thousands of candelas and lux. The fill light
+/// and emission, which an exposure would make black, keep their brightness.
 /// Requires  the scene is lit by make_lighting without an environment, an intensity or a source of the options.
-LightDimming dimming_of(const PreparedScene& scene, const Camera& camera, const RenderOptions& options,
-                        std::unique_ptr<Resolver> none);
+LightDimming dimming_of(const PreparedScene& scene, std::unique_ptr<Resolver> none);
 
 /// The scene with the intensities of its lights multiplied by the factor.
 PreparedScene dimmed(PreparedScene scene, float factor);
