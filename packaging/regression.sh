@@ -18,7 +18,7 @@ usage='usage: regression.sh --models PATTERNS --references DIR [OPTION VALUE]...
 
 A variable of the environment sets a default: MODELS, REFERENCES, ..., UPDATE=true. The program is zoneplate on the PATH,
 or that of this source tree. Exit codes: 0 every image is near its reference; 1 a model does not render, two models have
-one name, or an image is missing, new, or not near; 2 wrong usage.'
+one name, or an image is missing, new, or not near; 2 wrong usage of this script.'
 set -u
 fail() { echo "regression: $2" >&2; exit "$1"; }
 while [ $# -gt 0 ]; do
@@ -36,7 +36,9 @@ while [ $# -gt 0 ]; do
 done
 [ -n "${MODELS:-}" ] && [ -n "${REFERENCES:-}" ] || { echo "$usage" >&2; fail 2 "needs --models and --references"; }
 OUTPUT=${OUTPUT:-rendered}
-program=$(command -v zoneplate || echo "$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")/zoneplate")
+program=$(realpath "$(command -v zoneplate || echo "$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")/zoneplate")")
+# A name that begins with a dash is not an option.
+for name in OUTPUT REFERENCES JUNIT REPORT; do [[ ${!name:-} != -* ]] || printf -v "$name" ./%s "${!name}"; done
 
 # The words of $MODELS are patterns, those of $OPTIONS and $IGNORE arguments. A pattern that matches nothing is an error:
 # a test of no model would pass for ever.
@@ -46,7 +48,7 @@ read -r -d '' -a patterns <<<"$MODELS"
 for pattern in "${patterns[@]}"; do
   matches=($pattern)
   [ ${#matches[@]} -gt 0 ] && [ -e "${matches[0]}" ] || fail 1 "no model matches $pattern"
-  models+=("${matches[@]}")
+  models+=("${matches[@]/#-/./-}")
 done
 set -f
 ignored=()
@@ -62,7 +64,7 @@ failed=0
   >"$place/render.jsonl"
 case $? in
   0) ;;
-  2) fail 1 "nothing was rendered; for models of one name in several folders, --name '{dir}_{model}.png'" ;;
+  2) fail 1 "nothing was rendered, for the reason above (models of one name need --name '{dir}_{model}.png')" ;;
   *) failed=1 ;;
 esac
 cp -R "$place/rendered/." "$OUTPUT/" || exit 1
@@ -70,10 +72,10 @@ cp -R "$place/rendered/." "$OUTPUT/" || exit 1
 if [ "${UPDATE:-false}" = true ]; then
   [ "$failed" -eq 0 ] || fail 1 "not every model renders: no image is accepted"
   mkdir -p "$REFERENCES" && cp -R "$place/rendered/." "$REFERENCES/" || exit 1
-  echo "images accepted in $REFERENCES: $(find "$place/rendered" -type f | wc -l)"
+  echo "images accepted in $REFERENCES: $(find "$place/rendered" -type f -printf . | wc -c)"
 fi
 references=$place/none
-if [ -n "$(find "$REFERENCES" -type f -print -quit 2>/dev/null)" ]; then
+if find "$REFERENCES" -type f 2>/dev/null | grep -qiE '\.(png|jpe?g|webp|hdr|exr|pfm)$'; then
   references=$(realpath "$REFERENCES")
 else
   echo "regression: $REFERENCES: has no images yet. Look at those in $OUTPUT; accept them with --update (in a workflow," \

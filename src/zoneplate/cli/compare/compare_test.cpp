@@ -164,11 +164,14 @@ TEST_F(CompareVerb, DoesNotMeasureIgnoredRegions) {
   save_bytes((place / "mask.png").string(), encode_png(mask));
   for (const std::string regions : {"--ignore mask.png", "--ignore 1,0,63,48 --ignore 0,1,1,47"}) {
     const ProgramAnswer answer =
-        run("compare cyclic --aa none --metric mae,flip -o out --force --json " + regions + small);
+        run("compare cyclic --aa none --metric mae,flip -o out --html page.html --force --json " + regions + small);
     ASSERT_EQ(answer.code, 0) << answer.out;
     const auto json = parsed_json(answer.out);
     EXPECT_EQ(json["scenes"][0]["methods"][0]["metrics"]["mae"]["value"], 0);
     EXPECT_EQ(json["scenes"][0]["methods"][0]["worst_regions"][0]["error"], 0);
+    EXPECT_EQ(json["scenes"][0]["ignored"][0], regions.starts_with("--ignore mask") ? "mask.png" : "1,0,63,48");
+    EXPECT_TRUE(contains(text_of("out/compare.txt"), "\nignored: "));
+    EXPECT_TRUE(contains(content_of_page(text_of("page.html")), " Ignored: "));
   }
 }
 
@@ -208,7 +211,7 @@ TEST_F(CompareVerb, TimesOfStagesAreThoseOfTheTurnThatCounts) {
   EXPECT_GT(stage(1, "display"), 0);
   EXPECT_GT(stage(2, "resolve"), 0);
   // The title of a run with one scene contains the scene, and the cost of the reference follows its name.
-  EXPECT_TRUE(contains(text_of("out/cost.svg"), "teapot: error against cost"));
+  EXPECT_TRUE(contains(text_of("out/cost.svg"), "teapot: FLIP ×1000 against cost"));
   EXPECT_TRUE(contains(text_of("out/compare.txt"), "against ssaa:n=2 ("));
   EXPECT_TRUE(contains(text_of("out/compare.txt"), " shaded samples per pixel)\n"));
 }
@@ -433,7 +436,7 @@ TEST(CostPlot, NamesMethodsOfLikeErrorAndOtherCost) {
   add("fxaa", 4, 0.0100), add("none", 6, 0.0098), add("close", 6.1, 0.0097), add("msaa", 9, 0.0050);
   find_front(scene.trials, *flip);
   const Plot plot = cost_plot(scene);
-  EXPECT_EQ(plot.title, "s: error against cost");
+  EXPECT_EQ(plot.title, "s: FLIP ×1000 against cost");
   EXPECT_EQ(plot.curves[1].labels, (std::vector<std::string>{"fxaa", "none", "", "msaa"}));
 }
 

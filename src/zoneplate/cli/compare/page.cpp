@@ -96,14 +96,15 @@ void ComparisonPage::add(const SceneTrials& scene) {
   // The page starts with the reference, and the first methods of the list.
   Json::Array chosen;
   for (std::size_t i = 0; i < std::min<std::size_t>(4, images.size()); ++i) chosen.emplace_back(std::uint64_t{i});
-  Json::Object out{{"name", scene.name},
-                   {"text", scene.failure.empty() ? scene.complaint : scene.failure + ": " + scene.complaint},
-                   {"images", std::move(images)},
-                   {"chosen", std::move(chosen)},
-                   {"fps", trial_frame_rate},
-                   {"frame", std::uint64_t{std::max<std::size_t>(scene.reference_film.size(), 1) - 1}},
-                   {"tables", Json::Array{page_table(results_of(scene), scene.scene, std::move(targets))}},
-                   {"plot", plot_of(scene.scene + ": error against cost", column, std::move(points))}};
+  Json::Object out{
+      {"name", scene.name},
+      {"text", scene.failure.empty() ? scene.complaint : scene.failure + ": " + scene.complaint},
+      {"images", std::move(images)},
+      {"chosen", std::move(chosen)},
+      {"fps", trial_frame_rate},
+      {"frame", std::uint64_t{std::max<std::size_t>(scene.reference_film.size(), 1) - 1}},
+      {"tables", Json::Array{page_table(results_of(scene), scene.scene, std::move(targets))}},
+      {"plot", plot_of(fmt::format("{}: {} against cost", scene.scene, column.head), column, std::move(points))}};
   if (scene.common_worst.error > 0)
     out.emplace_back("region",
                      Json::Object{{"x", scene.common_worst.x}, {"y", scene.common_worst.y}, {"size", Place::side}});
@@ -114,9 +115,10 @@ std::string ComparisonPage::text(const std::vector<SceneTrials>& scenes) {
   const std::string title = title_of(scenes);
   Json::Object content{
       {"title", title},
-      {"text", fmt::format("Ranked by {}. Times, samples and memory are those of a frame. ● is on the Pareto front: no "
+      {"text", fmt::format("Ranked by {}. Times and samples are those of a frame. ● is on the Pareto front: no "
                            "other method has less CPU time and a better value.",
-                           ranking_column(*scenes.at(0).ranking).head)},
+                           ranking_column(*scenes.at(0).ranking).head) +
+                   (scenes[0].ignored_texts.empty() ? "" : " Ignored: " + ignored_text(scenes[0]) + ".")},
       {"error_name", "FLIP"},
       {"scenes", std::move(scenes_)}};
   if (scenes.size() > 1) {
@@ -128,7 +130,8 @@ std::string ComparisonPage::text(const std::vector<SceneTrials>& scenes) {
                                 target_of(std::nullopt, m, means[m].is_on_front)));
     }
     content.emplace_back("tables", Json::Array{means_table_of(scenes, means)});
-    content.emplace_back("plot", plot_of("All scenes: mean error against mean cost", column, std::move(points)));
+    content.emplace_back(
+        "plot", plot_of(fmt::format("All scenes: mean {} against mean cost", column.head), column, std::move(points)));
   }
   return html_page(title, content, pictures_);
 }

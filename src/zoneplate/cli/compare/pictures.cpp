@@ -161,13 +161,15 @@ Plot cost_plot(const SceneTrials& scene) {
   std::vector<Dot> dots;
   for (const Trial& t : scene.trials)
     dots.push_back({t.method, t.cpu_ms(), t.value(scene.ranking->name), t.is_on_front});
-  return plot_of(scene.scene + ": error against cost", *scene.ranking, std::move(dots));
+  return plot_of(fmt::format("{}: {} against cost", scene.scene, ranking_column(*scene.ranking).head), *scene.ranking,
+                 std::move(dots));
 }
 
 Plot cost_plot(const std::vector<SceneTrials>& scenes) {
   std::vector<Dot> dots;
   for (const MethodMeans& m : means_of(scenes)) dots.push_back({m.method, m.cpu_ms, m.rank(), m.is_on_front});
-  return plot_of("All scenes: mean error against mean cost", *scenes.at(0).ranking, std::move(dots));
+  return plot_of(fmt::format("All scenes: mean {} against mean cost", ranking_column(*scenes.at(0).ranking).head),
+                 *scenes.at(0).ranking, std::move(dots));
 }
 
 }  // namespace zoneplate::cli

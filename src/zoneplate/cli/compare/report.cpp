@@ -186,6 +186,7 @@ Json scene_json(const SceneTrials& scene) {
                                                  {"shaded_samples", cost ? Json(cost->shaded()) : Json()},
                                                  {"estimated_error", number(scene.reference_error)}}},
                       {"turns", scene.turns},
+                      {"ignored", Json::Array(scene.ignored_texts.begin(), scene.ignored_texts.end())},
                       {"worst_region", place_json(scene.common_worst)},
                       {"crops", scene.name + "/crops.png"},
                       {"plot", scene.name + "/cost.svg"},
@@ -299,6 +300,8 @@ std::string facts_of(const SceneTrials& scene, const Trial& trial) {
   return fmt::format("{} {}, {:.1f} ms", column.head, column.text(trial.value(column.name)), trial.cpu_ms());
 }
 
+std::string ignored_text(const SceneTrials& scene) { return fmt::format("{}", fmt::join(scene.ignored_texts, ", ")); }
+
 std::string report_text(const std::vector<SceneTrials>& scenes) {
   const std::vector<Column> columns = columns_of(scenes);
   std::string text;
@@ -306,6 +309,7 @@ std::string report_text(const std::vector<SceneTrials>& scenes) {
     text +=
         fmt::format("{}{}, {}x{}, against {}{}\n", printable(s.scene), s.failure.empty() ? "" : " (" + s.failure + ")",
                     s.reference_picture.width(), s.reference_picture.height(), s.reference, reference_cost(s));
+    if (!s.ignored_texts.empty()) text += "ignored: " + printable(ignored_text(s)) + '\n';
     text += table_text(marked_table(s, columns)) + fewer_turns(s) + '\n';
   }
   if (scenes.size() > 1) text += means_text(scenes) + '\n';

@@ -13,6 +13,9 @@
 
 namespace zoneplate::cli {
 
+/// The regions that are not measured, as the command states them; empty if there are none.
+std::string ignored_text(const SceneTrials& scene);
+
 /// The results as text: one table per scene, and one of the means over scenes and by class of artifacts.
 std::string report_text(const std::vector<SceneTrials>& scenes);
 

@@ -294,7 +294,7 @@ void find_front(std::vector<Trial>& trials, const metrics::Metric& metric) {
 SceneTrials run_trials(const TrialSetup& stage, const TrialOptions& options, const TrialProgress& progress) {
   SceneTrials out;
   out.turns = stage.frames > 1 ? stage.frames : options.turns;
-  out.ignored = options.ignored;
+  out.ignored = options.ignored, out.ignored_texts = options.ignored_texts;
   out.ranking = options.metrics.at(0).metric;
   set_reference(stage, options, progress, out);
   const bool measures_uncovered = std::ranges::any_of(

@@ -66,6 +66,7 @@ struct SceneTrials {
   const metrics::Metric* ranking = nullptr;  ///< the first metric of the options
   int turns = 0;                             ///< turns of each method, if its time budget suffices
   metrics::IgnoredRegions ignored;           ///< not measured
+  std::vector<std::string> ignored_texts;    ///< the same as the command states it
   Place common_worst;                        ///< the region of the greatest mean error over all methods
   std::vector<Trial> trials;
 };
@@ -78,6 +79,7 @@ struct TrialOptions {
   int turns = 3;
   std::vector<metrics::Choice> metrics;  ///< the first one ranks
   metrics::IgnoredRegions ignored = {};
+  std::vector<std::string> ignored_texts = {};
 };
 
 /// A scene ready for rendering.

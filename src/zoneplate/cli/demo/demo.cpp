@@ -40,7 +40,7 @@ std::string list_of_lessons() {
     for (const Param& p : demo.params) {
       const std::string value =
           p.names.empty() ? fmt::format("{}", p.value) : std::string(Settings(demo.params).chosen(p.name));
-      text += fmt::format("      {:<18}{}\n", fmt::format("{}={}", p.name, value), p.meaning);
+      text += fmt::format("      {:<19} {}\n", fmt::format("{}={}", p.name, value), p.meaning);
     }
   }
   return text + fmt::format("  {:<22}{}\n", "all", "all lessons, into a folder");

@@ -196,8 +196,8 @@ TEST_F(Equality, SequencesPairByNumber) {
   }
   const ProgramAnswer answer = run("a/f.####.png b/f.####.png --metric psnr");
   EXPECT_EQ(answer.code, 1);
-  EXPECT_TRUE(contains(answer.out, "new         f.0003.png: there is no reference of this number")) << answer.out;
-  EXPECT_TRUE(contains(answer.out, "missing     f.0005.png: there is no test image of this number")) << answer.out;
+  EXPECT_TRUE(contains(answer.out, "new          f.0003.png: there is no reference of this number")) << answer.out;
+  EXPECT_TRUE(contains(answer.out, "missing      f.0005.png: there is no test image of this number")) << answer.out;
   EXPECT_TRUE(contains(answer.out, "2 of 8 images failed")) << answer.out;
   const ProgramAnswer shifted = run("a/g.####.png b/g.####.png --metric psnr");
   EXPECT_TRUE(contains(shifted.out, "the references are 0 to 7, the test images 1 to 8")) << shifted.out;

@@ -152,7 +152,7 @@ std::string text_of(const Judgement& judgement) {
     const std::vector<std::string> remarks = remarks_of(item);
     const bool is_listed = count > 1 && (!item.message.empty() || item.stored.has_news());
     if (is_listed)
-      text += fmt::format("{:<12}{}{}{}\n", name_of(item.outcome), printable(item.name),
+      text += fmt::format("{:<13}{}{}{}\n", name_of(item.outcome), printable(item.name),
                           item.message.empty() ? "" : ": ", printable(item.message));
     if (is_listed || count == 1)
       for (const std::string& remark : remarks) text += fmt::format("  {}\n", printable(remark));

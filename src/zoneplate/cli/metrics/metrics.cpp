@@ -218,24 +218,20 @@ FailedRenders read_failed_renders(const std::string& path, const std::string& te
     if (view.text("format") != "zoneplate-render") view.fail("is no line of zoneplate render");
     if (view.text("status") != "failed") continue;
     const std::string output = view.text("not_written");
-    const std::string name =
-        output.empty() ? "" : fs::weakly_canonical(output).lexically_relative(fs::weakly_canonical(test)).string();
-    if (name.empty() || name.starts_with(".."))
+    const fs::path name =
+        output.empty() ? fs::path() : fs::weakly_canonical(output).lexically_relative(fs::weakly_canonical(test));
+    if (name.empty() || name == "." || *name.begin() == "..")
       view.fail(fmt::format("failed, and would have made no image in {}: {}", test, view.text("error")));
-    out.emplace(name, view.text("error"));
+    out.emplace(name.string(), view.text("error"));
   }
   return out;
 }
 
-/// The images of an operand. With --rendered, a folder may be empty: before the first references are accepted, and if
+/// The images of an operand. With --rendered, a folder may have none: before the first references are accepted, and if
 /// render made none. Every image of the other folder then fails.
 metrics::PictureSet open_operand(const std::string& operand, const MetricsArgs& args) {
-  namespace fs = std::filesystem;
-  const auto is_empty = [&] {
-    const auto is_file = [](const fs::directory_entry& entry) { return !entry.is_directory(); };
-    return std::none_of(fs::recursive_directory_iterator(operand), {}, is_file);
-  };
-  if (!args.renders_path.empty() && fs::is_directory(operand) && is_empty()) return {.is_directory = true};
+  if (!args.renders_path.empty() && std::filesystem::is_directory(operand) && !metrics::has_pictures(operand))
+    return {.is_directory = true};
   return metrics::open_pictures(operand, decoder_limits(args.limits));
 }
 

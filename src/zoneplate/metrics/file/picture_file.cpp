@@ -239,6 +239,8 @@ std::vector<std::string> list_other_images(const std::string& directory) {
   return files_of<fs::recursive_directory_iterator>(directory, is_other_image_name);
 }
 
+bool has_pictures(const std::string& directory) { return !files_of(fs::path(directory), is_picture_name).empty(); }
+
 PictureFiles list_pictures(const std::string& operand) {
   const fs::path path(operand);
   if (is_directory(operand)) {

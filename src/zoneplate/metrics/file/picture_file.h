@@ -50,6 +50,9 @@ struct PictureFiles {
 /// Errors    ErrorKind::Input if a directory or a pattern matches no image.
 PictureFiles list_pictures(const std::string& operand);
 
+/// Whether a directory has an image that list_pictures lists.
+bool has_pictures(const std::string& directory);
+
 /// Lists the images of a directory and of its subfolders, in natural order of their paths.
 ///
 /// Errors    ErrorKind::Input if there is none, or a folder cannot be read.
