@@ -14,7 +14,8 @@ RUN apt-get update && ./zoneplate list methods && cmake --build build/release --
 FROM debian:12-slim
 COPY --from=build /source/build/release/packages/*.deb /tmp/
 RUN apt-get update && apt-get install --yes --no-install-recommends /tmp/*.deb fonts-dejavu-core \
-    libopenexr-3-1-30 liblcms2-2 libzstd1 libmeshoptimizer2d libassimp5 && rm -rf /tmp/*.deb /var/lib/apt/lists/*
+    libopenexr-3-1-30 liblcms2-2 libtiff6 libavif15 libjxl0.7 libzstd1 libmeshoptimizer2d libassimp5 \
+    && rm -rf /tmp/*.deb /var/lib/apt/lists/*
 USER nobody
 WORKDIR /work
 ENTRYPOINT ["zoneplate"]

@@ -5,11 +5,11 @@
 # pictures that leaves the header.
 set(fuzzed_sources ${library_sources} ${readers})
 list(FILTER fuzzed_sources INCLUDE REGEX "^src/zoneplate/(base|os|math|image|signal|sdf|codec|scene|formats)/|/builtin_makers_table")
-list(FILTER fuzzed_sources EXCLUDE REGEX "formats/gltf/draco\\.cpp$")
+list(FILTER fuzzed_sources EXCLUDE REGEX "formats/gltf/draco\\.cpp$|codec/system/in_child\\.cpp$")
 set(fuzzed_simd_sources ${simd_sources})
 list(FILTER fuzzed_simd_sources INCLUDE REGEX "^src/zoneplate/(base|os|math|image|signal|sdf|codec|scene|formats)/")
 
-add_library(zoneplate_fuzzed STATIC ${fuzzed_sources} fuzz/draco_seam.cpp)
+add_library(zoneplate_fuzzed STATIC ${fuzzed_sources} fuzz/draco_seam.cpp fuzz/child_seam.cpp)
 foreach(isa IN LISTS isas)
   add_library(zoneplate_fuzzed_${isa} OBJECT ${fuzzed_simd_sources})
   target_compile_options(zoneplate_fuzzed_${isa} PRIVATE ${flags_${isa}})
@@ -18,16 +18,16 @@ foreach(isa IN LISTS isas)
   target_precompile_headers(zoneplate_fuzzed_${isa} PRIVATE <hwy/highway.h>)
   target_sources(zoneplate_fuzzed PRIVATE $<TARGET_OBJECTS:zoneplate_fuzzed_${isa}>)
 endforeach()
-target_link_libraries(zoneplate_fuzzed PUBLIC zoneplate_flags fmt::fmt Threads::Threads JPEG::JPEG ${webpmux_library}
+target_link_libraries(zoneplate_fuzzed PUBLIC zoneplate_flags fmt::fmt Threads::Threads JPEG::JPEG ${webpmux_library} ${webpdemux_library}
                       ${webp_library} PNG::PNG ${CMAKE_DL_LIBS} ${seccomp_library} ${minizip_library} ${expat_library} z)
 target_precompile_headers(zoneplate_fuzzed PRIVATE ${common_headers})
 
 # Beside file formats: `scene`, what a child process answers, `manifest`, the lines of a batch,
 # and `sdf`, scenes of shapes.
-set(fuzz_formats gltf obj mtl ply stl 3mf amf png jpeg webp hdr exr pfm ktx2 bmp tga scene manifest sdf)
+set(fuzz_formats gltf obj mtl ply stl 3mf amf png jpeg webp hdr exr pfm ktx2 bmp tga gif apng tiff avif jxl scene manifest sdf)
 foreach(format IN LISTS fuzz_formats)
   set(kind model)
-  if(format MATCHES "png|jpeg|webp|hdr|exr|pfm|ktx2|bmp|tga")
+  if(format MATCHES "png|jpeg|webp|hdr|exr|pfm|ktx2|bmp|tga|gif|apng|tiff|avif|jxl")
     set(kind image)
   elseif(format MATCHES "scene|manifest|sdf")
     set(kind ${format})
@@ -42,7 +42,8 @@ add_executable(fuzz_item fuzz/item_fuzz.cpp src/zoneplate/cli/process/item_messa
 target_link_libraries(fuzz_item PRIVATE zoneplate_fuzzed)
 target_link_options(fuzz_item PRIVATE -fsanitize=fuzzer)
 add_executable(fuzz_seeds fuzz/seeds.cpp)
-target_link_libraries(fuzz_seeds PRIVATE zoneplate_fuzzed)
+find_library(tiff_library tiff REQUIRED)
+target_link_libraries(fuzz_seeds PRIVATE zoneplate_fuzzed ${tiff_library})
 
 # The default target builds the fuzz targets alone. The shared library would not even link: clang's sanitizers are part of
 # a program, never of a library.

@@ -26,8 +26,8 @@ set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_CURRENT_SOURCE_DIR}/cmake/package_archive.
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "libc6 (>= 2.36)")
-# Opened when a file needs them: EXR, Zstandard, meshopt and other formats; plots, captions and videos.
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "fonts-dejavu-core, libopenexr-3-1-30, liblcms2-2, libzstd1, libmeshoptimizer2d, libassimp5")
+# Opened when a file needs them: EXR, TIFF, AVIF, JPEG XL, Zstandard, meshopt and other formats; plots, captions and videos.
+set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "fonts-dejavu-core, libopenexr-3-1-30, liblcms2-2, libtiff6, libavif15, libjxl0.7, libzstd1, libmeshoptimizer2d, libassimp5")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "ffmpeg, gnuplot-nox")
 # Staged files get one time, that of SOURCE_DATE_EPOCH.
 set(CPACK_PRE_BUILD_SCRIPTS ${CMAKE_CURRENT_SOURCE_DIR}/cmake/package_times.cmake)

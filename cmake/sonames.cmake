@@ -4,7 +4,7 @@
 set(linked_suffixes ${CMAKE_FIND_LIBRARY_SUFFIXES})
 set(CMAKE_FIND_LIBRARY_SUFFIXES .so)
 set(sonames "")
-foreach(library assimp meshoptimizer OpenEXRCore zstd lcms2)
+foreach(library assimp avif jxl lcms2 meshoptimizer OpenEXRCore tiff zstd)
   string(TOLOWER ${library} name)
   find_library(shared_${name} ${library} REQUIRED)
   execute_process(COMMAND ${CMAKE_OBJDUMP} -p ${shared_${name}} OUTPUT_VARIABLE sections COMMAND_ERROR_IS_FATAL ANY)

@@ -12,7 +12,8 @@ set_target_properties(fuzz_appetite PROPERTIES UNITY_BUILD OFF) # each source ha
 
 add_executable(zoneplate_tests ${test_sources} ${whole_tests})
 find_library(meshoptimizer_library meshoptimizer REQUIRED) # packs what tests unpack
-target_link_libraries(zoneplate_tests PRIVATE ${meshoptimizer_library} zoneplate_cli GTest::gtest_main webpdemux)
+find_library(tiff_library tiff REQUIRED) # likewise
+target_link_libraries(zoneplate_tests PRIVATE ${meshoptimizer_library} ${tiff_library} zoneplate_cli GTest::gtest_main)
 # A fifth less to build than with -O1; what takes time is in the libraries, or in the tests named here.
 target_compile_options(zoneplate_tests PRIVATE -O0)
 set(laborious shade/environment/prepared_environment shade/surface/shading shade/reflection/brdf shade/surface/layered raster/coverage/coverage

@@ -266,7 +266,8 @@ TEST_F(Cli, ErrorsAreOneLineWithTheDocumentedCode) {
       {2, {"completions", "csh"}, "'csh' is not one of bash, zsh, fish; did you mean zsh?"},
       {2,
        {"triangles", "-o", "a.xyz"},
-       "--output: a.xyz is not a format that can be written (images: .png, .jpg, .webp, .exr, .pfm, .rgba; videos: "
+       "--output: a.xyz is not a format that can be written (images: .png, .jpg, .webp, .avif, .jxl, .exr, .pfm, "
+       ".rgba; videos: "
        ".apng, .webp, .gif, .mp4, .mov, .mkv, .webm)"},
       {2,
        {"triangles", "-o", "-", "--aov", "depth"},

@@ -21,11 +21,12 @@ std::string extension_of(const std::string& path);
 /// Errors    ErrorKind::Usage naming the path, its format and those with alpha.
 void check_alpha(const std::string& path);
 
-/// Saves a display-referred image in the format of the path's ending: .png, .jpg, .jpeg or .webp.
+/// Saves a display-referred image in the format of the path's ending: .png, .jpg, .jpeg or .webp, or .avif or .jxl,
+/// whose libraries are opened.
 ///
 /// The file is written whole or not at all.
 /// Errors    ErrorKind::Usage for another ending, and that of check_alpha for an image that is not opaque;
-///           ErrorKind::Output naming the file.
+///           ErrorKind::Output naming the file; ErrorKind::Input if the library is not installed.
 void save_image(const std::string& path, const Rgba8Image& image);
 
 /// Saves a scene-linear, premultiplied image in the format of the path's ending: .exr (half floats, with alpha) or

@@ -107,6 +107,8 @@ Json scenes_json() {
 constexpr SceneFormat picture_formats[] = {{".png", "8 or 16 bits per channel, sRGB; - writes to stdout"},
                                            {".jpg", "quality 92 or --jpeg-quality, no chroma subsampling (4:4:4)"},
                                            {".webp", "lossless or --webp-quality; several frames make an animation"},
+                                           {".avif", "lossless"},
+                                           {".jxl", "JPEG XL, lossless"},
                                            {".exr", "half floats in linear light, transparent, data passes as layers"},
                                            {".rgba", "raw sRGB-encoded values, 8 or 16 bits per channel"},
                                            {".pfm", "floats in linear light, before tone mapping"},

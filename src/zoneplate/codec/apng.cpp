@@ -68,6 +68,7 @@ Bytes encoded(const Rgba8Image& frame, const Rectangle& r, bool has_alpha) {
 }
 
 struct EncodedFrame {
+  FrameTime time;
   Rectangle rectangle;
   Bytes png;
 };
@@ -97,7 +98,7 @@ class Writer {
         put_png_word(counts, static_cast<std::uint32_t>(frames_.size()));
         put_png_word(counts, static_cast<std::uint32_t>(format_.loops));
         put_png_chunk(out_, "acTL", counts);
-        write_control(frames_[0].rectangle);
+        write_control(frames_[0]);
         is_before_data = false;
       }
       out_.insert(out_.end(), chunk.begin(), chunk.end());
@@ -105,7 +106,7 @@ class Writer {
   }
 
   void write_next(const EncodedFrame& frame) {
-    write_control(frame.rectangle);
+    write_control(frame);
     for_chunks(frame.png, [&](std::string_view name, auto data, auto) {
       if (name != "IDAT") return;
       Bytes numbered;
@@ -115,12 +116,13 @@ class Writer {
     });
   }
 
-  void write_control(const Rectangle& r) {
+  void write_control(const EncodedFrame& frame) {
+    const Rectangle& r = frame.rectangle;
     Bytes control;
     put_png_word(control, sequence_++);
     for (const int value : {r.width, r.height, r.x, r.y}) put_png_word(control, static_cast<std::uint32_t>(value));
-    put16(control, format_.seconds);
-    put16(control, format_.per);
+    put16(control, frame.time.seconds);
+    put16(control, frame.time.per);
     control.push_back(0);  // dispose_op: keep the frame as the background of the next one
     control.push_back(0);  // blend_op: replace the pixels below, do not blend
     put_png_chunk(out_, "fcTL", control);
@@ -136,8 +138,9 @@ class ApngEncoder final : public AnimationEncoder {
  public:
   explicit ApngEncoder(const AnimationFormat& format) : format_(format) {}
 
-  std::function<void()> add(std::shared_ptr<const Rgba8Image> frame) override {
+  std::function<void()> add(std::shared_ptr<const Rgba8Image> frame, std::optional<FrameTime> time) override {
     EncodedFrame& out = frames_.emplace_back();
+    out.time = time.value_or(FrameTime{format_.seconds, format_.per});
     return [&out, before = std::exchange(last_, frame), now = frame, has_alpha = format_.has_alpha] {
       out.rectangle = before ? difference(*before, *now) : Rectangle{0, 0, now->width(), now->height()};
       out.png = encoded(*now, out.rectangle, has_alpha);

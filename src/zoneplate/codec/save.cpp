@@ -15,6 +15,8 @@
 #include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
+#include "zoneplate/codec/system/avif.h"
+#include "zoneplate/codec/system/jxl.h"
 #include "zoneplate/codec/webp_still.h"
 #include "zoneplate/os/file.h"
 
@@ -46,7 +48,10 @@ std::vector<std::uint8_t> encode_image(const std::string& path, const Rgba8Image
   if (extension == ".png") return encode_png(image, {.has_alpha = has_alpha, .profile = profile});
   if (extension == ".jpg" || extension == ".jpeg") return encode_jpeg(image, usual_jpeg_quality, profile.icc);
   if (extension == ".webp") return encode_webp(image, has_alpha, std::nullopt, profile.icc);
-  throw Error(ErrorKind::Usage, path + ": display-referred images are saved as .png, .jpg, .jpeg or .webp");
+  if (extension == ".avif") return encode_avif(image, has_alpha);
+  if (extension == ".jxl") return encode_jxl(image, has_alpha);
+  throw Error(ErrorKind::Usage,
+              path + ": display-referred images are saved as .png, .jpg, .jpeg, .webp, .avif or .jxl");
 }
 
 std::vector<std::uint8_t> encode_image(const std::string& path, const LinearImage& image, const ColorProfile& profile) {
@@ -66,7 +71,8 @@ bool can_hold(std::string_view extension, const ColorProfile& profile) {
   const bool is_light = extension == ".exr" || extension == ".pfm";
   if (profile.chromaticities || is_light) return profile.chromaticities && extension == ".exr";
   if (!profile.icc.empty() && icc_pixels(profile.icc) != "RGB ") return false;
-  return extension == ".png" || (!profile.icc.empty() && !profile.cicp);
+  const bool holds_icc = extension == ".jpg" || extension == ".jpeg" || extension == ".webp";
+  return extension == ".png" || (holds_icc && !profile.icc.empty() && !profile.cicp);
 }
 
 void save_image(const std::string& path, const Rgba8Image& image) { save_bytes(path, encode_image(path, image)); }

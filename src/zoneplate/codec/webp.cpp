@@ -5,6 +5,7 @@
 #include <webp/mux.h>
 
 #include <cassert>
+#include <cmath>
 #include <memory>
 #include <mutex>
 #include <queue>
@@ -84,39 +85,49 @@ class WebpEncoder final : public AnimationEncoder {
  public:
   explicit WebpEncoder(const AnimationFormat& format) : format_(format) {}
 
-  std::function<void()> add(std::shared_ptr<const Rgba8Image> frame) override {
+  std::function<void()> add(std::shared_ptr<const Rgba8Image> frame, std::optional<FrameTime> time) override {
     const std::lock_guard lock(mutex_);
-    waiting_.push(std::move(frame));
+    waiting_.push({std::move(frame), end_});
+    if (time)
+      timed_ += static_cast<double>(time->seconds) / time->per;
+    else
+      ++untimed_;
+    end_ = static_cast<int>(std::lround(1000 * timed_)) + begin_of(untimed_);
     return [this] { encode_first(); };
   }
 
   std::vector<std::uint8_t> finish() override {
     assert(encoder_ && waiting_.empty());
     Data data;
-    if (WebPAnimEncoderAdd(encoder_.get(), nullptr, begin_of(encoded_), nullptr) == 0 ||
+    if (WebPAnimEncoderAdd(encoder_.get(), nullptr, end_, nullptr) == 0 ||
         WebPAnimEncoderAssemble(encoder_.get(), &data.data) == 0)
       fail(WebPAnimEncoderGetError(encoder_.get()));
     return {data.data.bytes, data.data.bytes + data.data.size};
   }
 
  private:
+  struct Waiting {
+    std::shared_ptr<const Rgba8Image> frame;
+    int begin = 0;  ///< in milliseconds
+  };
+
   void encode_first() {
     const std::lock_guard order(encoding_);
-    const std::shared_ptr<const Rgba8Image> frame = take_first();
-    if (!encoder_) encoder_ = make_encoder(*frame, format_.loops);
-    Picture picture(*frame, format_.has_alpha);
-    if (WebPAnimEncoderAdd(encoder_.get(), *picture, begin_of(encoded_++), &config_) == 0)
+    const Waiting first = take_first();
+    if (!encoder_) encoder_ = make_encoder(*first.frame, format_.loops);
+    Picture picture(*first.frame, format_.has_alpha);
+    if (WebPAnimEncoderAdd(encoder_.get(), *picture, first.begin, &config_) == 0)
       fail(WebPAnimEncoderGetError(encoder_.get()));
   }
 
-  std::shared_ptr<const Rgba8Image> take_first() {
+  Waiting take_first() {
     const std::lock_guard lock(mutex_);
-    std::shared_ptr<const Rgba8Image> first = std::move(waiting_.front());
+    Waiting first = std::move(waiting_.front());
     waiting_.pop();
     return first;
   }
 
-  /// The time in milliseconds at which frame `i` begins.
+  /// The time in milliseconds at which frame `i` begins, of frames without times of their own.
   int begin_of(std::size_t i) const {
     return static_cast<int>(
         (2000 * i * static_cast<std::size_t>(format_.seconds) / static_cast<std::size_t>(format_.per) + 1) / 2);
@@ -124,11 +135,13 @@ class WebpEncoder final : public AnimationEncoder {
 
   const AnimationFormat format_;
   const WebPConfig config_ = lossless();
-  std::mutex mutex_;  ///< of the queue
-  std::queue<std::shared_ptr<const Rgba8Image>> waiting_;
-  std::mutex encoding_;  ///< of the members below
+  std::mutex mutex_;  ///< of the queue and the times
+  std::queue<Waiting> waiting_;
+  double timed_ = 0;  ///< seconds of the frames with times of their own
+  std::size_t untimed_ = 0;
+  int end_ = 0;          ///< of all frames, in milliseconds
+  std::mutex encoding_;  ///< of the encoder
   Encoder encoder_;
-  std::size_t encoded_ = 0;
 };
 
 }  // namespace

@@ -11,8 +11,8 @@ namespace zoneplate {
 
 /// Encodes an animated WebP file, one frame at a time.
 ///
-/// Units     WebP stores whole milliseconds: frame i begins at round(1000 i seconds / per), so that rounding errors do
-///           not accumulate.
+/// Units     WebP stores whole milliseconds: frame i begins at round(1000 i seconds / per), and frames with times of their
+///           own at the rounded sum of these, so that rounding errors do not accumulate.
 ///
 /// Exact     lossless, including the colours of transparent pixels; the same bytes with the same version of libwebp.
 /// Errors    ErrorKind::Failed with libwebp's reason, for example sides above 16383 pixels.

@@ -131,7 +131,8 @@ std::optional<Scene> read_file(const std::string& name, const LoadOptions& optio
     throw Error(ErrorKind::Usage, "'" + options.format + "' is not a format that can be read (" + readable + ")");
   std::error_code ignored;
   const bool exists = std::filesystem::exists(name, ignored);
-  constexpr std::string_view images[] = {".png", ".jpg", ".jpeg", ".webp", ".bmp", ".tga"};
+  constexpr std::string_view images[] = {".png",  ".jpg",  ".jpeg", ".webp", ".gif", ".tif",
+                                         ".tiff", ".avif", ".jxl",  ".bmp",  ".tga"};
   if (exists && std::ranges::find(images, extension) != std::end(images))
     throw Error(ErrorKind::Input, name + ": is an image, expected a model; zoneplate filter antialiases images");
   throw Error(ErrorKind::Input, exists ? name + ": not a format that can be read (" + readable + ")"

@@ -15,8 +15,11 @@ struct Package {
 /// In the order of Library: the versions whose headers the program was built with (cmake/sonames.cmake), and the
 /// packages of Debian 12 that contain them.
 constexpr Package packages[] = {{soname_assimp, "libassimp5"},
+                                {soname_avif, "libavif15"},
+                                {soname_jxl, "libjxl0.7"},
                                 {soname_meshoptimizer, "libmeshoptimizer2d"},
                                 {soname_openexrcore, "libopenexr-3-1-30"},
+                                {soname_tiff, "libtiff6"},
                                 {soname_zstd, "libzstd1"},
                                 {soname_lcms2, "liblcms2-2"}};
 

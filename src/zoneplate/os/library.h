@@ -10,7 +10,7 @@ namespace zoneplate {
 
 /// Shared libraries that few files need. Each is loaded by the first such file: loading one takes as long as rendering
 /// a small image.
-enum class Library { Assimp, Meshoptimizer, OpenExr, Zstd, Lcms };
+enum class Library { Assimp, Avif, Jxl, Meshoptimizer, OpenExr, Tiff, Zstd, Lcms };
 
 /// Thrown in a sandboxed child, which must not load code, for a library that its parent did not open. It is not an
 /// Error, so that code which continues without an unreadable texture does not omit a readable one.

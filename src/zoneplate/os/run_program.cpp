@@ -24,6 +24,8 @@
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/os/file.h"
+#include "zoneplate/os/run_on_file.h"
 
 namespace zoneplate {
 namespace {
@@ -156,21 +158,26 @@ class Child {
   pid_t id_ = 0;
 };
 
-}  // namespace
-
-class RunningProgram::Process {
+/// A program that is running, and what it has printed.
+class Running {
  public:
-  Process(const std::string& program, const std::vector<std::string>& arguments, const ProgramLimits& limits)
+  /// `write` is its stdin.
+  Running(const std::string& program, const std::vector<std::string>& arguments, const ProgramLimits& limits)
       : program_(program), limits_(limits), complaints_(new_file(program)) {
-    int out[2], in[2] = {-1, -1};
-    if (::pipe2(out, O_CLOEXEC) != 0) fail(program, std::strerror(errno));
-    out_ = File(out[0]);
-    const File out_of_child(out[1]);
+    int in[2] = {-1, -1};
     // A socket, unlike a pipe, can be written without SIGPIPE if the program has ended.
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, in) != 0) fail(program, std::strerror(errno));
     in_ = File(in[0]);
-    const File in_of_child(in[1]);
-    child_.emplace(program, arguments, in_of_child.number(), out_of_child.number(), complaints_.number());
+    start(arguments, File(in[1]));
+  }
+  /// The contents of `file` are its stdin, which it may open again as /dev/stdin, and in which it may seek.
+  Running(const std::string& program, const std::vector<std::string>& arguments, std::span<const std::uint8_t> file,
+          const ProgramLimits& limits)
+      : program_(program), limits_(limits), complaints_(new_file(program)) {
+    File in_of_child = new_file(program);
+    if (const int error = write_fully(in_of_child.number(), file); error != 0) fail(program, std::strerror(error));
+    ::lseek(in_of_child.number(), 0, SEEK_SET);
+    start(arguments, std::move(in_of_child));
   }
 
   void write(std::span<const std::uint8_t> bytes) {
@@ -199,6 +206,14 @@ class RunningProgram::Process {
   }
 
  private:
+  void start(const std::vector<std::string>& arguments, File in_of_child) {
+    int out[2];
+    if (::pipe2(out, O_CLOEXEC) != 0) fail(program_, std::strerror(errno));
+    out_ = File(out[0]);
+    const File out_of_child(out[1]);
+    child_.emplace(program_, arguments, in_of_child.number(), out_of_child.number(), complaints_.number());
+  }
+
   void check_time(const Stopwatch& watch) const {
     if (limits_.check_time) limits_.check_time();
     if (watch.ms() > limits_.milliseconds) fail(program_, "did not answer in time");
@@ -229,6 +244,12 @@ class RunningProgram::Process {
   ProgramResult result_;
 };
 
+}  // namespace
+
+class RunningProgram::Process : public Running {
+  using Running::Running;
+};
+
 RunningProgram::RunningProgram(const std::string& program, const std::vector<std::string>& arguments,
                                const ProgramLimits& limits)
     : process_(std::make_unique<Process>(program, arguments, limits)) {}
@@ -249,6 +270,11 @@ ProgramResult run_child(const std::string& program, const std::vector<std::strin
   RunningProgram running(program, arguments, limits);
   running.write({reinterpret_cast<const std::uint8_t*>(input.data()), input.size()});
   return running.finish();
+}
+
+ProgramResult run_on_file(const std::string& program, const std::vector<std::string>& arguments,
+                          std::span<const std::uint8_t> file, const ProgramLimits& limits) {
+  return Running(program, arguments, file, limits).finish();
 }
 
 }  // namespace zoneplate

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 
 #include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/codec/color/icc_for_test.h"
@@ -17,6 +18,7 @@
 #include "zoneplate/codec/inspect/exif_for_test.h"
 #include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/png.h"
+#include "zoneplate/codec/system/tiff_file_for_test.h"
 #include "zoneplate/codec/webp_still.h"
 #include "zoneplate/image/orientation.h"
 #include "zoneplate/image/transfer.h"
@@ -109,6 +111,32 @@ TEST_F(Colors, FiltersOfCodesKeepThemAndTheirProfile) {
     succeed(fmt::format("filter {} --aa smaa -o out.png", name));
     EXPECT_EQ(profile("out.png"), profiles[0]);
   }
+}
+
+TEST_F(Colors, TiffHasItsProfileAndOrientation) {
+  if (!open_library(Library::Tiff)) GTEST_SKIP() << "libtiff6 is not installed";
+  const Rgba8Image upright = ramps(), stored = oriented(upright, 3);
+  TiffForTest tiff{.width = 64, .height = 64, .orientation = 3, .profile = icc_display_p3()};
+  for (const Rgba8& c : stored.values()) tiff.data.insert(tiff.data.end(), {c.r, c.g, c.b});
+  save("in.tif", tiff_of(tiff));
+  save("in.png", encode_png(upright, {.profile = {.icc = icc_display_p3()}}));
+  EXPECT_EQ(apart("in.tif", "in.png"), 0);
+  EXPECT_TRUE(contains(succeed("metrics in.png in.tif"), "identical"));
+  for (const char* name : {"in.tif", "in.png"})
+    EXPECT_EQ(succeed(fmt::format("filter {0} --aa smaa -o {0}.png", name)), "");
+  EXPECT_EQ(codes("in.tif.png"), codes("in.png.png"));
+  EXPECT_EQ(profile("in.tif.png").icc, icc_display_p3());
+  for (const char* name : {"in.tif", "in.png"}) succeed(fmt::format("signal resample {0} --size 50% -o {0}.pfm", name));
+  EXPECT_EQ(file("in.tif.pfm"), file("in.png.pfm"));
+
+  // Light has no codes that a profile could describe.
+  const float light[] = {0.5f, 2, 0};
+  tiff = {.width = 1, .height = 1, .bits = 32, .kind = SAMPLEFORMAT_IEEEFP, .profile = icc_display_p3()};
+  tiff.data.resize(sizeof light);
+  std::memcpy(tiff.data.data(), light, sizeof light);
+  save("light.tif", tiff_of(tiff));
+  EXPECT_TRUE(contains(succeed("filter light.tif --upscale bilinear:scale=2 -o light.exr"), "is not applied to light"));
+  EXPECT_EQ(srgb("light.tif").linear(0, 0), (Linear{0.5f, 2, 0, 1}));
 }
 
 TEST_F(Colors, OutputsThatCannotStateASpaceAreConverted) {

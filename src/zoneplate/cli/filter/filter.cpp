@@ -11,7 +11,9 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/args.h"
+#include "zoneplate/cli/batch/frame_name.h"
 #include "zoneplate/cli/filter/color.h"
+#include "zoneplate/cli/filter/frames.h"
 #include "zoneplate/cli/filter/items.h"
 #include "zoneplate/cli/filter/sequence.h"
 #include "zoneplate/cli/filter/still.h"
@@ -21,8 +23,10 @@
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/save.h"
+#include "zoneplate/codec/system/encoder_library.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/metrics/file/picture_file.h"
+#include "zoneplate/metrics/file/picture_set.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/upscale/upscaler.h"
 
@@ -112,6 +116,13 @@ UpscaleGrid grid_of(const Filters& filters, int width, int height, const std::st
   return {width, height, 0, 0, {size.x, size.y, std::nullopt}};
 }
 
+DisplayImage filtered(DisplayImage image, const Filters& filters, const std::string& input) {
+  if (filters.antialiasing) image = filters.antialiasing->post_process(std::move(image), Frame());
+  if (filters.upscaler)
+    image = filters.upscaler->upscale(image, grid_of(filters, image.width(), image.height(), input));
+  return image;
+}
+
 bool is_clamped(const Linear& c) {
   const auto is_outside = [&](float v) { return v < 0 || v > std::max(c.a, 0.0f); };
   return is_outside(c.r) || is_outside(c.g) || is_outside(c.b);
@@ -183,10 +194,7 @@ void filter_image(const FilterItem& item, const Filters& filters, const FilterAr
   if (!picture.is_scene_linear && is_linear_file(item.output))
     throw Error(ErrorKind::Usage, fmt::format("{}: is a display-referred image, and {} is scene-linear: write a .png",
                                               item.input, item.output));
-  DisplayImage image = std::move(picture.display);
-  if (filters.antialiasing) image = filters.antialiasing->post_process(std::move(image), Frame());
-  if (filters.upscaler)
-    image = filters.upscaler->upscale(image, grid_of(filters, image.width(), image.height(), item.input));
+  const DisplayImage image = filtered(std::move(picture.display), filters, item.input);
   const ColorProfile profile = profile_of(picture.space);
   if (args.bit_depth == 8) return out.save(item.output, encode_image(item.output, quantize8(image), profile));
   out.save(item.output, encode_png(quantize16(image), {.profile = profile}));
@@ -235,14 +243,16 @@ Syntax make_syntax(FilterArgs& args) {
           "  zoneplate filter shots/ --aa cmaa2 -o smooth/\n"
           "  zoneplate filter shot.png --aa smaa --upscale fsr1 --size 1920x1080 -o large.png\n"
           "  zoneplate filter frames/a.####.png --aa mlaa -o smooth/\n"
+          "  zoneplate filter film.apng --aa smaa -o smooth.apng\n"
           "  zoneplate filter c.####.exr --depth z.####.exr --motion v.####.exr --aa taa --jitter offsets.txt -o out/\n"
           "  zoneplate filter c.####.png --depth z.####.exr --motion v.####.exr --motion-scale -960,540 \\\n"
           "      --upscale fsr2 --size 1920x1080 --jitter offsets.txt -o out/\n",
       .notes =
-          "IMAGES is a PNG, JPEG, WebP, BMP or TGA file, a folder of them, or a sequence (name.####.png),\n"
-          "or a scene-linear .hdr, .exr or .pfm file, of which .exr and .pfm files are written, and by antialiasing "
-          "also\n"
-          "display-referred ones.\n"
+          "IMAGES is a PNG, JPEG, WebP, GIF, TIFF, AVIF, JPEG XL, BMP or TGA file, a folder of them, or a sequence\n"
+          "(name.####.png), or a scene-linear .hdr, .exr, .pfm, .tif or .jxl file, of which .exr and .pfm files are\n"
+          "written, and by antialiasing also display-referred ones. An animated PNG, GIF or WebP, or a video (.mp4,\n"
+          ".m4v, .mov, .mkv, .webm, .avi; by ffmpeg) is the sequence of its frames: the output is another animation,\n"
+          "whose frames have the same times, or images, as out.####.png or in a folder.\n"
           "A file that is read is not replaced without --force.\n"
           "Antialiasing filters work on 8-bit sRGB values. Pixels that the filter does not blend keep their exact "
           "value;\n"
@@ -267,8 +277,9 @@ Syntax make_syntax(FilterArgs& args) {
           "light.\n"};
   syntax.options = {
       {"--output,-o", "FILE",
-       "The image to write: .png, .jpg or .webp, or .exr or .pfm for a scene-linear one; for several inputs a folder, "
-       "which receives .png files (.exr of scene-linear ones), or a name with a frame number, as out.####.png",
+       "The image to write: .png, .jpg, .webp, .avif or .jxl, or .exr or .pfm for a scene-linear one; for an animation "
+       ".apng, .png, .webp, .gif, .mp4, .mov, .mkv or .webm; for several inputs a folder, which receives .png files "
+       "(.exr of scene-linear ones), or a name with a frame number, as out.####.png",
        "Options", true, [&](auto& text) { args.output = text; }},
       {"--anti-aliasing,--aa", "METHOD", "Filter, such as smaa or fxaa:preset=39: one of " + filter_names(), "Options",
        true, [&](auto& text) { args.method = text; }},
@@ -314,11 +325,35 @@ struct FilterWork {
   const std::vector<FilterItem>& items;
   const FramePasses& passes;
   const Filters& filters;
+  const std::optional<metrics::PictureSet>& video;  ///< its frames and times, if the operand is a video
 };
+
+/// The frames of the only item, if it is an animation; null if there are several items, or it is one image.
+std::optional<metrics::PictureSet> frames_of(const FilterWork& work, Delivery& out) {
+  if (work.video) return work.video;
+  const std::string& input = work.items.front().input;
+  if (work.items.size() > 1 || input == "-") return std::nullopt;
+  std::optional<metrics::PictureSet> frames;
+  out.read(input, [&] { frames = metrics::with_frames(metrics::open_pictures(input), out.limits().pixels); });
+  return frames->time_of ? std::move(frames) : std::nullopt;
+}
+
+void filter_frames(const FilterWork& work, const metrics::PictureSet& frames, Delivery& out) {
+  const FilterItem& item = work.items.front();
+  FrameSink sink(item, frames, work.args.bit_depth, out);
+  for (std::size_t i = 0; i < frames.names.size(); ++i) {
+    out.progress(frames.names[i], static_cast<double>(i) / static_cast<double>(frames.names.size()));
+    metrics::Picture picture = load_still(frames.open(i), out);
+    if (work.args.background) lay_over(picture, *work.args.background);
+    sink.add(filtered(std::move(picture.display), work.filters, item.input), frames.time_of(i));
+  }
+  sink.finish();
+}
 
 /// Runs in the confined process.
 void filter_all(const FilterWork& work, Delivery& out) {
   const FilterArgs& args = work.args;
+  const std::optional<metrics::PictureSet> frames = frames_of(work, out);
   if (!work.method.empty()) {
     if (const std::string gaps = gaps_in(work.items); !gaps.empty())
       out.warn(fmt::format("{}: has no frame {}: the history goes on without them", work.operand, gaps));
@@ -326,6 +361,7 @@ void filter_all(const FilterWork& work, Delivery& out) {
         args.upscaler.empty() ? 1 : parse_spec("upscaler", upscale::upscalers(), work.method).settings.number("scale");
     return filter_sequence({.method = work.method,
                             .items = work.items,
+                            .animation = frames,
                             .passes = work.passes,
                             .jitter = args.jitter,
                             .motion_scale = args.motion_scale,
@@ -337,6 +373,7 @@ void filter_all(const FilterWork& work, Delivery& out) {
                             .background = args.background},
                            out);
   }
+  if (frames) return filter_frames(work, *frames, out);
   double done = 0;
   for (const FilterItem& item : work.items) {
     out.progress(item.input, done++ / static_cast<double>(work.items.size()));
@@ -376,20 +413,33 @@ void run_filter(std::span<const std::string> arguments) {
     if (!args.jitter.empty()) kept.push_back(args.jitter);
   }
   check_outputs(items, kept);
-  if (items.front().output != args.output) {
+  if (items.front().output != args.output || find_frame_place(fs::path(args.output).filename().string())) {
     const fs::path folder = fs::path(items.front().output).parent_path();
     std::error_code error;
     if (!folder.empty()) fs::create_directories(folder, error);
     if (error) throw Error(ErrorKind::Output, args.output + ": " + error.message());
   }
-  for (const FilterItem& item : items) check_savable(item.output);
+  for (const FilterItem& item : items) {
+    check_savable(item.output);
+    open_encoder_library(extension_of(item.output), item.output);
+  }
+  std::optional<metrics::PictureSet> video;
+  const ProgramLimits program = video_limits(args.limits);
+  if (metrics::is_video_name(operand) && items.size() == 1) {
+    video = metrics::open_pictures(operand, program);
+    const std::vector<FrameTime> times = metrics::video_times(operand, video->names.size(), program);
+    video->time_of = [times](std::size_t i) { return times[i]; };
+  }
   if (args.bit_depth == 16 && extension_of(items.front().output) != ".png")
     throw Error(ErrorKind::Usage, "--bit-depth 16 is for .png, not " + items.front().output);
   with_threads(args.threads, [&] {
     Progress progress(args.progress ? *args.progress : parse_progress("auto"));
-    const FilterWork work{args, operand, method, items, passes, filters};
+    const FilterWork work{args, operand, method, items, passes, filters, video};
     ConfinedRun run = confined_run(work);
     run.progress = &progress;
+    FrameReceiver receiver(items.front(), kept, program);
+    if (items.size() == 1)
+      run.take = [&](const std::string& name, std::vector<std::uint8_t> bytes) { receiver.take(name, bytes); };
     run_confined(run, [&](Delivery& out) { filter_all(work, out); });
   });
 }

@@ -83,10 +83,8 @@ void check_numbers(std::span<const Sequence* const> sequences) {
 
 /// The files of a pass in the order of the items.
 std::vector<std::string> files_for(std::span<const FilterItem> items, const Sequence& pass, bool are_numbered) {
-  if (pass.files.paths.empty()) return {};
-  if (pass.files.paths.size() != items.size())
-    throw Error(ErrorKind::Input, fmt::format("{}: has {} frames, expected {}, one for each image", pass.name,
-                                              pass.files.paths.size(), items.size()));
+  if (pass.files.paths.empty() || items.size() == 1) return pass.files.paths;
+  check_count(pass.name, pass.files.paths.size(), items.size());
   if (!are_numbered || !pass.is_numbered()) return pass.files.paths;
   std::map<std::uint64_t, std::string> by_number;
   for (std::size_t i = 0; i < pass.files.paths.size(); ++i)
@@ -94,6 +92,11 @@ std::vector<std::string> files_for(std::span<const FilterItem> items, const Sequ
   std::vector<std::string> out;
   for (const FilterItem& item : items) out.push_back(by_number.at(*item.frame));
   return out;
+}
+
+bool is_folder(const std::string& path) {
+  std::error_code ignored;
+  return path.ends_with('/') || fs::is_directory(path, ignored);
 }
 
 }  // namespace
@@ -105,7 +108,11 @@ bool is_linear_file(const std::string& path) {
 
 std::vector<FilterItem> plan_items(const std::string& operand, const std::string& output) {
   const metrics::PictureFiles inputs = metrics::list_pictures(operand);
-  if (inputs.paths.size() == 1 && inputs.paths.front() == operand) return {{operand, output}};
+  if (inputs.paths.size() == 1 && inputs.paths.front() == operand) {
+    if (is_folder(output))
+      return {{.input = operand, .output = output_in_folder(output, operand), .is_in_folder = true}};
+    return {{.input = operand, .output = output}};
+  }
   std::vector<FilterItem> items;
   for (std::size_t i = 0; i < inputs.paths.size(); ++i) {
     FilterItem item{.input = inputs.paths[i], .output = {}};
@@ -141,6 +148,12 @@ FramePasses find_passes(const std::string& operand, std::span<const FilterItem> 
     if (s.is_numbered()) numbered.push_back(&s);
   if (frames.is_numbered()) check_numbers(numbered);
   return {files_for(items, depths, frames.is_numbered()), files_for(items, motions, frames.is_numbered())};
+}
+
+void check_count(const std::string& name, std::size_t files, std::size_t frames) {
+  if (files != frames)
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: has {} frames, expected {}, one for each image", name, files, frames));
 }
 
 std::string gaps_in(std::span<const FilterItem> items) {

@@ -13,6 +13,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/filter/color.h"
+#include "zoneplate/cli/filter/frames.h"
 #include "zoneplate/cli/filter/still.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/process/exr_layer.h"
@@ -63,8 +64,8 @@ Names channels_in(const std::string& path) {
   return exr_channel_names(file.bytes());
 }
 
-Names channels_of(const Pass& pass, const std::string& path, bool is_own_file) {
-  const Names found = channels_in(path);
+/// `found` are the channels of the file.
+Names channels_of(const Pass& pass, const std::string& path, const Names& found, bool is_own_file) {
   for (const Names& wanted : is_own_file ? pass.in_own_file : pass.in_frame)
     if (has_all(found, wanted)) return wanted;
   if (is_own_file)
@@ -76,13 +77,23 @@ Names channels_of(const Pass& pass, const std::string& path, bool is_own_file) {
 
 std::vector<FrameFiles> checked_files(const SequenceFilter& filter) {
   const std::vector<std::string>&depth = filter.passes.depth, &motion = filter.passes.motion;
+  const std::size_t count = filter.animation ? filter.animation->names.size() : filter.items.size();
+  if (!depth.empty()) check_count("--depth", depth.size(), count);
+  if (!motion.empty()) check_count("--motion", motion.size(), count);
   std::vector<FrameFiles> out;
-  for (std::size_t i = 0; i < filter.items.size(); ++i) {
-    FrameFiles frame{.color = filter.items[i].input, .output = filter.items[i].output};
+  for (std::size_t i = 0; i < count; ++i) {
+    FrameFiles frame;
+    if (filter.animation)
+      frame.color = fmt::format("{}, {}", filter.items[0].input, filter.animation->names[i]);
+    else
+      frame.color = filter.items[i].input, frame.output = filter.items[i].output;
+    const Names own = filter.animation ? Names{} : channels_in(frame.color);
     frame.depth = depth.empty() ? frame.color : depth[i], frame.motion = motion.empty() ? frame.color : motion[i];
-    frame.depth_channels = channels_of(depth_pass(), frame.depth, !depth.empty());
-    frame.motion_channels = channels_of(motion_pass(), frame.motion, !motion.empty());
-    frame.has_ids = has_all(channels_in(frame.color), {id_channel});
+    frame.depth_channels =
+        channels_of(depth_pass(), frame.depth, depth.empty() ? own : channels_in(frame.depth), !depth.empty());
+    frame.motion_channels =
+        channels_of(motion_pass(), frame.motion, motion.empty() ? own : channels_in(frame.motion), !motion.empty());
+    frame.has_ids = has_all(own, {id_channel});
     out.push_back(std::move(frame));
   }
   return out;
@@ -203,13 +214,19 @@ void filter_sequence(const SequenceFilter& filter, Delivery& out) {
   camera.vertical_fov = filter.fov * std::numbers::pi_v<float> / 180;
   ObjectNumbers objects;
   int2 frame_size{0, 0};
+  std::optional<FrameSink> sink;
+  if (filter.animation) sink.emplace(filter.items[0], *filter.animation, filter.bit_depth, out);
   for (std::size_t i = 0; i < files.size(); ++i) {
     out.progress(files[i].color, static_cast<double>(i) / static_cast<double>(files.size()));
-    Still still = load_still(files[i].color, {.layer = filter.layer}, out);
+    Still still;
+    if (filter.animation)
+      still.file = filter.animation->open(i), still.picture = load_still(still.file, out);
+    else
+      still = load_still(files[i].color, {.layer = filter.layer}, out);
     metrics::Picture& picture = still.picture;
     picture = in_space_of(std::move(picture), FilteredValues::Light, files[i].color, files[i].output, out);
     if (filter.background) lay_over(picture, *filter.background);
-    if (picture.is_scene_linear != is_linear_file(files[i].output))
+    if (!sink && picture.is_scene_linear != is_linear_file(files[i].output))
       throw Error(ErrorKind::Usage,
                   fmt::format("{}: is a {} image, and {} is not: write {}", files[i].color,
                               picture.is_scene_linear ? "scene-linear" : "display-referred", files[i].output,
@@ -242,6 +259,10 @@ void filter_sequence(const SequenceFilter& filter, Delivery& out) {
     } catch (const Error& error) {
       throw Error(error.kind(), files[i].color + ": " + error.what());
     }
+    if (sink) {
+      sink->add(display_of(std::move(image), space), filter.animation->time_of(i));
+      continue;
+    }
     if (!is_scene_linear) {
       save_codes(files[i].output, std::move(image), space, filter.bit_depth, out);
       continue;
@@ -249,6 +270,7 @@ void filter_sequence(const SequenceFilter& filter, Delivery& out) {
     const std::vector<std::string> left_out = save_light(files[i].output, image, still.file, {}, out);
     if (i == 0) warn_of_left_out(files[i].output, files[i].color, left_out, out);
   }
+  if (sink) sink->finish();
 }
 
 }  // namespace zoneplate::cli

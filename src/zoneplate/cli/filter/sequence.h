@@ -8,6 +8,7 @@
 #include "zoneplate/cli/filter/items.h"
 #include "zoneplate/cli/process/confined.h"
 #include "zoneplate/math/vec.h"
+#include "zoneplate/metrics/file/picture_set.h"
 
 namespace zoneplate::cli {
 
@@ -15,6 +16,8 @@ namespace zoneplate::cli {
 struct SequenceFilter {
   std::string method;  ///< as for upscale::make_method
   std::vector<FilterItem> items;
+  /// The frames of the only item, which is an animation; none: each item is a frame.
+  std::optional<metrics::PictureSet> animation = {};
   FramePasses passes;         ///< the files with the data of each frame; none: those of the frames
   std::string jitter;         ///< a text file with the sample of each frame; empty: that of the method
   float2 motion_scale{1, 1};  ///< from the unit of the motion files to pixels, x right, y down, now minus last

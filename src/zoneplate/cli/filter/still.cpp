@@ -8,7 +8,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/process/exr_layer.h"
-#include "zoneplate/codec/inspect/image_format.h"
+#include "zoneplate/codec/animated/animation_reader.h"
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/vec.h"
@@ -88,19 +88,25 @@ class Fill {
 
 Still load_still(const std::string& path, const ExrChoice& exr, Delivery& out) {
   Still still;
-  std::uint32_t frames = 0;
+  std::size_t frames = 0;
   out.read(path, [&] {
     still.file = metrics::open_image(path);
     still.file.exr = exr;
-    still.picture = metrics::decode_file(still.file, out.limits().pixels);
     frames = count_frames(still.file.bytes);
   });
-  tell_layer(still.file, out);
-  out.warn_of_flaw(still.picture.flaw), out.warn_of_flaw(still.picture.color_flaw);
   if (frames > 1)
     out.warn(fmt::format("{}: is an animation of {} frames, of which the first is filtered", path, frames));
-  if (still.picture.is_scene_linear) warn_of_filled(path, fill_not_finite(still.picture.linear, path), out);
+  still.picture = load_still(still.file, out);
   return still;
+}
+
+metrics::Picture load_still(const metrics::ImageFile& file, Delivery& out) {
+  metrics::Picture picture;
+  out.read(file.name, [&] { picture = metrics::decode_file(file, out.limits().pixels); });
+  tell_layer(file, out);
+  out.warn_of_flaw(picture.flaw), out.warn_of_flaw(picture.color_flaw);
+  if (picture.is_scene_linear) warn_of_filled(file.name, fill_not_finite(picture.linear, file.name), out);
+  return picture;
 }
 
 void warn_of_filled(const std::string& name, std::size_t pixels, Delivery& out) {

@@ -23,6 +23,9 @@ struct Still {
 /// Errors    those of load_picture (metrics/file/picture_file.h), of tell_layer and of fill_not_finite.
 Still load_still(const std::string& path, const ExrChoice& exr, Delivery& out);
 
+/// The same for an open file, or a frame of an animation.
+metrics::Picture load_still(const metrics::ImageFile& file, Delivery& out);
+
 /// Lays an image with alpha over a background, an encoded colour with straight alpha, in linear light.
 ///
 /// Exact     an opaque pixel keeps its values.

@@ -130,8 +130,9 @@ Syntax make_syntax(MetricsArgs& args) {
           "  zoneplate metrics golden/ made/ --metric ssim --threshold 0.98 --report report.html\n"
           "  zoneplate metrics golden/ made/ --metric pixels:tolerance=2 --threshold 0.1 --junit junit.xml\n",
       .notes =
-          "Operands are PNG, JPEG, WebP, BMP, TGA, HDR, EXR or PFM files, directories, sequences (name.####.png,\n"
-          "name.%04d.png) or videos (.mp4, .mov, .mkv, .webm, .avi, .gif, .apng; ffmpeg decodes them).\n"
+          "Operands are PNG, JPEG, WebP, GIF, TIFF, AVIF, JPEG XL, BMP, TGA, HDR, EXR or PFM files, directories,\n"
+          "sequences (name.####.png, name.%04d.png), animations (PNG, GIF, WebP) or videos (.mp4, .m4v, .mov, .mkv,\n"
+          ".webm, .avi; ffmpeg decodes them), which are sequences of their frames.\n"
           "The images of two directories and their subfolders are paired by path, those of two sequences by\n"
           "number. Every pair passes or fails by itself: an image that is missing, new, unreadable or of another\n"
           "size fails, and the others are still compared. Figures that a metric reports besides its value have\n"
@@ -195,14 +196,6 @@ Syntax make_syntax(MetricsArgs& args) {
   return syntax;
 }
 
-/// The limits of the program that decodes a video.
-ProgramLimits decoder_limits(const ReadingLimits& limits) {
-  ProgramLimits out = metrics::video_limits;
-  out.bytes = static_cast<std::size_t>(std::min<std::uint64_t>(out.bytes, limits.load.memory));
-  if (limits.seconds * 1000 < out.milliseconds) out.milliseconds = static_cast<int>(limits.seconds * 1000) + 1;
-  return out;
-}
-
 /// The images that render could not make, from the lines that it printed (cli/render/batch.h), by their paths within
 /// the folder `test`.
 FailedRenders read_failed_renders(const std::string& path, const std::string& test, const LoadLimits& limits) {
@@ -232,11 +225,14 @@ FailedRenders read_failed_renders(const std::string& path, const std::string& te
 metrics::PictureSet open_operand(const std::string& operand, const MetricsArgs& args) {
   if (!args.renders_path.empty() && std::filesystem::is_directory(operand) && !metrics::has_pictures(operand))
     return {.is_directory = true};
-  return metrics::open_pictures(operand, decoder_limits(args.limits));
+  return metrics::open_pictures(operand, video_limits(args.limits));
 }
 
-/// The same images, each of which is decoded within the limits, and of EXRs the layer that is meant.
+/// The same images, or the frames of the only one, each of which is decoded within the limits, and of EXRs the layer
+/// that is meant.
 metrics::PictureSet within_limits(metrics::PictureSet set, const std::string& layer, Delivery& out) {
+  if (set.files.size() == 1)
+    out.read(set.files[0], [&] { set = metrics::with_frames(std::move(set), out.limits().pixels); });
   set.open = [open = std::move(set.open), layer](std::size_t i) {
     metrics::ImageFile file = open(i);
     file.exr.layer = layer;

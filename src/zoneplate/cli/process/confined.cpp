@@ -91,6 +91,13 @@ std::vector<Option> limit_options(LoadLimits& load, double& seconds, bool& is_sa
            group, false, [&](auto&) { is_sandboxed = false; }}};
 }
 
+ProgramLimits video_limits(const ReadingLimits& limits) {
+  ProgramLimits out{.milliseconds = 3'600'000, .bytes = std::size_t{1} << 34};
+  out.bytes = static_cast<std::size_t>(std::min<std::uint64_t>(out.bytes, limits.load.memory));
+  if (limits.seconds * 1000 < out.milliseconds) out.milliseconds = static_cast<int>(limits.seconds * 1000) + 1;
+  return out;
+}
+
 Option allow_path_option(LoadLimits& load, const std::string& group) {
   return {"--allow-path", "PATH", "Allow models to read this file or folder outside their own; may be repeated",
           group,          false,  [&](auto& text) { load.allowed_paths.push_back(text); }};
@@ -124,7 +131,8 @@ std::vector<std::uint8_t> run_confined(const ConfinedRun& run, const std::functi
   const LoadLimits& load = run.limits.load;
   // Standard input cannot be read again, as would be necessary if its format turned out to need one of these libraries.
   if (std::ranges::find(run.readable, "-") != run.readable.end())
-    for (const Library library : {Library::OpenExr, Library::Lcms}) static_cast<void>(open_library(library));
+    for (const Library library : {Library::Avif, Library::Jxl, Library::Lcms, Library::OpenExr, Library::Tiff})
+      static_cast<void>(open_library(library));
   ItemProcess process({.name = run.name == "-" ? "standard input" : run.name,
                        .load = load,
                        .seconds = run.limits.seconds,

@@ -13,6 +13,7 @@
 #include "zoneplate/cli/process/item_messages.h"
 #include "zoneplate/cli/progress.h"
 #include "zoneplate/formats/import/load_options.h"
+#include "zoneplate/os/run_program.h"
 #include "zoneplate/report/figure.h"
 #include "zoneplate/report/plot.h"
 
@@ -32,6 +33,9 @@ std::vector<Option> limit_options(LoadLimits& load, double& seconds, bool& is_sa
 inline std::vector<Option> limit_options(ReadingLimits& limits, const std::string& subject = "the run") {
   return limit_options(limits.load, limits.seconds, limits.is_sandboxed, "Limits", subject);
 }
+/// The limits of a program that decodes or encodes a video.
+ProgramLimits video_limits(const ReadingLimits& limits);
+
 /// The option --allow-path of a verb that reads models.
 Option allow_path_option(LoadLimits& load, const std::string& group = "Limits");
 

@@ -13,6 +13,7 @@
 #include "zoneplate/cli/render/args.h"
 #include "zoneplate/cli/render/film.h"
 #include "zoneplate/codec/save.h"
+#include "zoneplate/codec/system/encoder_library.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {
@@ -51,6 +52,7 @@ void check_output(RenderArgs& args) {
   if (std::filesystem::is_directory(args.output, ignored))
     throw Error(ErrorKind::Output, args.output + ": is a directory; write into it with a / at its end");
   if (!is_film) check_picture_ending(args.output);
+  open_encoder_library(extension_of(args.output), args.output);
 }
 
 // Refuses options of the command line that change nothing for this kind of output. Those of the configuration are for
@@ -82,7 +84,8 @@ void check_effects(const RenderArgs& args, const std::string& ending) {
 [[noreturn]] void refuse_single_output(const RenderArgs& args) {
   const std::string& last = args.inputs.back();
   if (args.output.empty() &&
-      (is_encoded_by_ffmpeg(last) || is_one_of(extension_of(last), {".png", ".jpg", ".jpeg", ".webp", ".pfm", ".exr"})))
+      (is_encoded_by_ffmpeg(last) ||
+       is_one_of(extension_of(last), {".png", ".jpg", ".jpeg", ".webp", ".avif", ".jxl", ".pfm", ".exr"})))
     throw Error(ErrorKind::Usage, fmt::format("no output: did you mean -o {}?", last));
   throw Error(
       ErrorKind::Usage,
@@ -92,16 +95,17 @@ void check_effects(const RenderArgs& args, const std::string& ending) {
 }  // namespace
 
 bool is_picture_ending(const std::string& extension) {
-  return is_one_of(extension, {".png", ".jpg", ".jpeg", ".webp", ".pfm", ".exr", ".rgba"});
+  return is_one_of(extension, {".png", ".jpg", ".jpeg", ".webp", ".avif", ".jxl", ".pfm", ".exr", ".rgba"});
 }
 
 void check_picture_ending(const std::string& output) {
   if (output != "-" && !is_picture_ending(extension_of(output)))
     throw Error(
         ErrorKind::Usage,
-        fmt::format("--output: {} is not a format that can be written (images: .png, .jpg, .webp, .exr, .pfm, .rgba; "
-                    "videos: .apng, .webp, .gif, .mp4, .mov, .mkv, .webm)",
-                    output));
+        fmt::format(
+            "--output: {} is not a format that can be written (images: .png, .jpg, .webp, .avif, .jxl, .exr, .pfm, "
+            ".rgba; videos: .apng, .webp, .gif, .mp4, .mov, .mkv, .webm)",
+            output));
 }
 
 void check_environment(RenderArgs& args) {

@@ -10,7 +10,10 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/codec/apng.h"
+#include "zoneplate/codec/png/png_chunk.h"
+#include "zoneplate/codec/save.h"
 #include "zoneplate/codec/webp.h"
+#include "zoneplate/os/run_on_file.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -19,6 +22,7 @@ using Words = std::vector<std::string>;
 
 // The colours of video are BT.709, and tagged as such with the transfer curve of sRGB: untagged files are decoded by
 // BT.601 or BT.709 depending on the player and on the size.
+constexpr const char* to_palette = "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=sierra2_4a";
 constexpr const char* to_bt709 = "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int";
 const Words bt709_tags = {"-colorspace", "bt709",        "-color_primaries", "bt709",
                           "-color_trc",  "iec61966-2-1", "-color_range",     "tv"};
@@ -47,10 +51,7 @@ const std::vector<Codec>& codecs() {
         {".mkv", together({h264, bt709_tags, {"-f", "matroska"}}), true},
         {".webm", together({vp9, bt709_tags, {"-f", "webm"}})},
         {".gif",
-         {"-vf",
-          fmt::format("fps=min(source_fps\\,{}),split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=sierra2_4a",
-                      most_gif_rate),
-          "-loop", "0", "-f", "gif"}}};
+         {"-vf", fmt::format("fps=min(source_fps\\,{}),{}", most_gif_rate, to_palette), "-loop", "0", "-f", "gif"}}};
   }();
   return all;
 }
@@ -65,28 +66,18 @@ int even(int side, bool is_needed) { return is_needed ? side + side % 2 : side; 
 
 constexpr int longest_wait_ms = 3'600'000;  // GIF: all frames are encoded after the last one
 
+const Words reproducible = {"-map_metadata", "-1", "-fflags", "+bitexact", "-flags:v", "+bitexact", "-threads", "1"};
+
 Words arguments_for(const std::string& output, int width, int height, const AnimationFormat& format) {
-  Words words = {"-v",
-                 "error",
-                 "-f",
-                 "rawvideo",
-                 "-pix_fmt",
-                 "rgba",
-                 "-s",
-                 fmt::format("{}x{}", even(width, has_even_sides(output)), even(height, has_even_sides(output))),
-                 "-r",
-                 fmt::format("{}/{}", format.per, format.seconds),
-                 "-i",
-                 "-",
-                 "-map_metadata",
-                 "-1",
-                 "-fflags",
-                 "+bitexact",
-                 "-flags:v",
-                 "+bitexact",
-                 "-threads",
-                 "1"};
-  for (const std::string& word : find_codec(output)->words) words.push_back(word);
+  Words words = {
+      "-v",       "error",
+      "-f",       "rawvideo",
+      "-pix_fmt", "rgba",
+      "-s",       fmt::format("{}x{}", even(width, has_even_sides(output)), even(height, has_even_sides(output))),
+      "-r",       fmt::format("{}/{}", format.per, format.seconds),
+      "-i",       "-"};
+  for (const Words& part : {reproducible, find_codec(output)->words})
+    words.insert(words.end(), part.begin(), part.end());
   words.push_back("-");
   return words;
 }
@@ -143,12 +134,43 @@ void FfmpegFilm::write_row() {
   row_.clear();
 }
 
-std::vector<std::uint8_t> FfmpegFilm::encode() {
-  ProgramResult answer = ffmpeg_.finish();
+namespace {
+
+std::vector<std::uint8_t> film_of(ProgramResult answer) {
   if (answer.code != 0 || answer.out.empty())
     throw Error(ErrorKind::Failed,
                 fmt::format("ffmpeg: {}", answer.complaint.empty() ? "wrote nothing" : answer.complaint));
   return std::move(answer.out);
+}
+
+/// The time of the last frame of an APNG in hundredths of a second, which ffmpeg would not read.
+std::int64_t last_delay(std::span<const std::uint8_t> apng) {
+  std::int64_t delay = 0;
+  constexpr std::size_t time_at = 20;
+  for_png_chunks(apng, [&](std::string_view name, std::span<const std::uint8_t> data) {
+    if (name != "fcTL" || data.size() < time_at + 4) return true;
+    const std::uint32_t time = get_png_word(data.subspan(time_at));
+    const std::int64_t seconds = time >> 16, per = std::max(time & 0xffff, 1u);
+    delay = (200 * seconds + per) / (2 * per);
+    return true;
+  });
+  return delay;
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> FfmpegFilm::encode() { return film_of(ffmpeg_.finish()); }
+
+std::vector<std::uint8_t> encode_film(const std::string& output, std::span<const std::uint8_t> apng,
+                                      const ProgramLimits& limits) {
+  // ffmpeg's reader of APNG seeks. The times of the frames are kept as they are, in microseconds.
+  Words words = {"-v",          "error",          "-f",       "apng", "-i", "file:/dev/stdin", "-vsync",
+                 "passthrough", "-enc_time_base", "1:1000000"};
+  const Words gif = {"-vf", to_palette, "-loop", "0", "-final_delay", fmt::format("{}", last_delay(apng)), "-f", "gif"};
+  for (const Words& part : {reproducible, extension_of(output) == ".gif" ? gif : find_codec(output)->words})
+    words.insert(words.end(), part.begin(), part.end());
+  words.push_back("-");
+  return film_of(run_on_file("ffmpeg", words, apng, limits));
 }
 
 }  // namespace zoneplate::cli

@@ -30,6 +30,13 @@ constexpr int most_gif_rate = 50;
 /// The encoder of a film that is not encoded by ffmpeg: WebP by its name, else APNG.
 std::unique_ptr<AnimationEncoder> make_film_encoder(const std::string& output, const AnimationFormat& format);
 
+/// Encodes the frames of an animated PNG by ffmpeg as a film (is_encoded_by_ffmpeg), with their times.
+///
+/// Edges     a GIF repeats endlessly; how long a video shows its last frame is ffmpeg's choice.
+/// Errors    ErrorKind::Failed naming ffmpeg: it is not installed, exceeds a limit, or fails.
+std::vector<std::uint8_t> encode_film(const std::string& output, std::span<const std::uint8_t> apng,
+                                      const ProgramLimits& limits);
+
 /// A film that ffmpeg encodes while further frames are drawn.
 ///
 /// Edges     odd sides of an opaque video, whose codec requires even ones, repeat the last column and row; a .gif of

@@ -96,8 +96,8 @@ const std::string& only_operand(const Syntax& syntax, const std::string& what) {
 
 std::string image_notes() {
   std::string text =
-      "IMAGE is a PNG, JPEG, WebP, BMP, TGA, HDR, EXR or PFM file, - for stdin, or a generated pattern,\n"
-      "NAME or NAME:PARAMETER=VALUE,...\n"
+      "IMAGE is a PNG, JPEG, WebP, GIF, TIFF, AVIF, JPEG XL, BMP, TGA, HDR, EXR or PFM file (of an animation the\n"
+      "first frame), - for stdin, or a generated pattern, NAME or NAME:PARAMETER=VALUE,...\n"
       "(for a file with such a name write ./NAME):\n";
   for (const PatternEntry& entry : patterns()) {
     std::string params;

@@ -5,11 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/filter/still.h"
 #include "zoneplate/cli/process/exr_layer.h"
+#include "zoneplate/codec/animated/animation_reader.h"
 #include "zoneplate/codec/exr/exr.h"
 #include "zoneplate/codec/exr/exr_layer.h"
 #include "zoneplate/codec/exr/exr_replace.h"
@@ -18,6 +21,7 @@
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/save.h"
+#include "zoneplate/codec/system/system_format.h"
 #include "zoneplate/formats/import/image_file.h"
 #include "zoneplate/image/orientation.h"
 #include "zoneplate/image/transfer.h"
@@ -120,20 +124,32 @@ struct Loaded {
   Signal signal;
   std::string flaw = {}, color_flaw = {};
   std::size_t filled = 0;  ///< pixels that were not finite
+  std::size_t frames = 1;  ///< of which it is the first
 };
 
 Loaded load_file(const std::string& operand, const SignalChoice& choice, ImageContent content,
                  std::uint64_t most_pixels) {
   metrics::ImageFile file = metrics::open_image(operand);
   file.exr = choice.exr;
-  const ImageColor color =
+  ImageColor color =
       content == ImageContent::Data ? ImageColor{.space = nullptr} : read_image_color(file.bytes, operand);
   const bool is_png = !file.bytes.empty() && file.bytes[0] == 0x89;
-  Loaded out{.signal = {}, .color_flaw = color.flaw};
+  Loaded out{.signal = {}, .frames = count_frames(file.bytes)};
   if (is_light(file.bytes)) {
     LinearImage light = decode_light(file, most_pixels);
     out.filled = fill_not_finite(light, operand);
     out.signal = signal_of(std::move(light), color, choice.uses_codes);
+  } else if (const SystemFormat* const format = find_system_format(file.bytes)) {
+    StoredImage stored = format->decode(file.bytes, operand, most_pixels);
+    if (content == ImageContent::Colors) color = color_of(stored, std::move(color), operand);
+    const auto take = [&]<class Pixel>(Plane<Pixel>& pixels) {
+      if constexpr (std::is_same_v<Pixel, Linear>) {
+        pixels = oriented(std::move(pixels), color.orientation);
+        out.filled = fill_not_finite(pixels, operand);
+      }
+      out.signal = signal_of(std::move(pixels), color, choice.uses_codes);
+    };
+    std::visit(take, stored.pixels);
   } else if (is_png) {
     PngImage png = decode_png_as_stored(file.bytes, operand, most_pixels);
     out.signal = png.pixels16.empty() ? signal_of(std::move(png.pixels), color, choice.uses_codes)
@@ -143,6 +159,7 @@ Loaded load_file(const std::string& operand, const SignalChoice& choice, ImageCo
     out.signal = signal_of(decoded.texels.as<Rgba8>(), color, choice.uses_codes);
     out.flaw = std::move(decoded.flaw);
   }
+  out.color_flaw = color.flaw;
   out.signal.origin = {std::move(file), color.space};
   return out;
 }
@@ -165,6 +182,7 @@ Signal load(const std::string& operand, const SignalChoice& choice, ImageContent
   tell_layer(loaded.signal.origin.file, out);
   out.warn_of_flaw(loaded.flaw), out.warn_of_flaw(loaded.color_flaw);
   warn_of_filled(operand, loaded.filled, out);
+  warn_of_frames(operand, loaded.frames, out);
   return std::move(loaded.signal);
 }
 
@@ -180,6 +198,11 @@ ExrWindow display_window(const Signal& signal) {
 }
 
 }  // namespace
+
+void warn_of_frames(const std::string& operand, std::size_t frames, Delivery& out) {
+  if (frames > 1)
+    out.warn(fmt::format("{}: is an animation of {} frames, of which the first is taken", operand, frames));
+}
 
 LinearImage load_signal(const std::string& operand, bool uses_codes, std::uint64_t most_pixels) {
   Loaded loaded = load(operand, {uses_codes}, ImageContent::Colors, most_pixels);

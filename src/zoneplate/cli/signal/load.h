@@ -29,15 +29,19 @@ struct Signal {
   SignalOrigin origin = {};
 };
 
-/// Loads the IMAGE operand of a subcommand of `signal`: a PNG (8 or 16 bits), JPEG, WebP, HDR, EXR, PFM, BMP or TGA
-/// file, "-" for stdin, or a procedural pattern (signal/pattern/pattern.h). A file that has the name of a pattern must
-/// be given with its folder. Pixels that are not finite are filled (filter/still.h).
+/// Loads the IMAGE operand of a subcommand of `signal`: a PNG (8 or 16 bits), JPEG, WebP, GIF, TIFF, AVIF, JPEG XL,
+/// HDR, EXR, PFM, BMP or TGA file, "-" for stdin, or a procedural pattern (signal/pattern/pattern.h). A file that has
+/// the name of a pattern must be given with its folder. Of an animation the first frame is loaded. Pixels that are not
+/// finite are filled (filter/still.h).
 ///
-/// Shape     turned as its Exif orientation says.
+/// Shape     turned as its orientation says.
 /// Units     linear light of Rec.709 primaries; with `uses_codes`, the codes in [0, 1] as they are. Premultiplied.
 /// Errors    ErrorKind::Input naming the file and the cause, also for more than `most_pixels`; ErrorKind::Usage for a
 ///           pattern's parameters.
 LinearImage load_signal(const std::string& operand, bool uses_codes, std::uint64_t most_pixels = LoadLimits().pixels);
+
+/// Warns that the first of several frames is taken.
+void warn_of_frames(const std::string& operand, std::size_t frames, Delivery& out);
 
 /// How an image is loaded.
 struct SignalChoice {
@@ -46,8 +50,8 @@ struct SignalChoice {
 };
 
 /// The same within the limits of a confined process. Of a damaged JPEG what can be decoded is loaded, with a warning,
-/// where the function above throws; a profile that means nothing is a warning, too, and so are filled pixels and those
-/// of tell_layer (process/exr_layer.h).
+/// where the function above throws; a profile that means nothing and an animation are warnings, too, and so are filled
+/// pixels and those of tell_layer (process/exr_layer.h).
 LinearImage load_signal(const std::string& operand, const SignalChoice& choice, Delivery& out);
 
 /// The same with the primaries of the file, for results that are written with its profile. Light of which no codes of

@@ -10,9 +10,11 @@
 #include "zoneplate/base/utf8.h"
 #include "zoneplate/cli/process/exr_layer.h"
 #include "zoneplate/cli/signal/args.h"
+#include "zoneplate/cli/signal/load.h"
 #include "zoneplate/cli/signal/show.h"
 #include "zoneplate/cli/texture/texture.h"
 #include "zoneplate/cli/values.h"
+#include "zoneplate/codec/animated/animation_reader.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/formats/import/image_file.h"
 #include "zoneplate/image/half.h"
@@ -33,8 +35,14 @@ struct LevelsArgs : SignalArgs {
   bool weights_by_alpha = true, shows_ripmap = false;
 };
 
-DecodedImage load_texels(const std::string& operand, const std::string& layer, Delivery& out) {
-  if (is_pattern(operand)) return {shown(make_pattern(operand), false)};
+/// Texels of an image, which is the first of `frames`.
+struct LoadedTexels {
+  DecodedImage image;
+  std::size_t frames = 1;
+};
+
+LoadedTexels load_texels(const std::string& operand, const std::string& layer, Delivery& out) {
+  if (is_pattern(operand)) return {{shown(make_pattern(operand), false)}};
   const MappedFileWatch watch;
   metrics::ImageFile file = metrics::open_image(operand);
   file.exr.layer = layer;
@@ -50,8 +58,9 @@ DecodedImage load_texels(const std::string& operand, const std::string& layer, D
     image = decode_image(file.bytes, operand, out.limits().pixels, layer);
   }
   tell_layer(file, out);
+  const std::size_t frames = count_frames(file.bytes);
   watch.check(operand);
-  return image;
+  return {std::move(image), frames};
 }
 
 /// Texels of any format as display codes.
@@ -232,9 +241,10 @@ void run_texture_levels(std::span<const std::string> arguments) {
   run_subcommand(args, {input}, {}, [&](Delivery& out) {
     TexelImage texels;
     out.read(input, [&] {
-      DecodedImage image = load_texels(input, args.layer, out);
-      out.warn_of_flaw(image.flaw);
-      texels = std::move(image.texels);
+      LoadedTexels loaded = load_texels(input, args.layer, out);
+      out.warn_of_flaw(loaded.image.flaw);
+      warn_of_frames(input, loaded.frames, out);
+      texels = std::move(loaded.image.texels);
     });
     const bool is_color = args.meaning == TexelMeaning::Color;
     args.options.weights_by_alpha = args.weights_by_alpha && is_color;

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <map>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "zoneplate/base/error.h"
@@ -19,6 +20,7 @@
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/png/png_chunk.h"
+#include "zoneplate/codec/system/system_format.h"
 #include "zoneplate/codec/webp_still.h"
 
 namespace zoneplate {
@@ -132,6 +134,20 @@ FileColor of_png(ByteSpan file) {
   return out;
 }
 
+/// TIFF and AVIF. What is unspecified of code points is that of sRGB.
+FileColor of_tags(const ColorTags& tags) {
+  FileColor out;
+  out.is_grey = tags.is_grey;
+  out.profile.icc.assign(tags.profile.begin(), tags.profile.end());
+  if (!tags.cicp || !tags.profile.empty()) return out;
+  constexpr std::uint8_t unspecified = 2;
+  std::array<std::uint8_t, 4> cicp = srgb_cicp;
+  for (std::size_t i = 0; i < tags.cicp->size(); ++i)
+    if ((*tags.cicp)[i] != unspecified) cicp[i] = (*tags.cicp)[i];
+  if (cicp != srgb_cicp) out.profile.cicp = cicp;
+  return out;
+}
+
 /// The profile lies in parts in several APP2 segments, numbered from 1.
 FileColor of_jpeg(ByteSpan file) {
   FileColor out;
@@ -207,6 +223,8 @@ FileColor read_file_color(ByteSpan bytes) {
   if (is_png(bytes)) return of_png(bytes);
   if (is_jpeg(bytes)) return of_jpeg(bytes);
   if (is_webp(bytes)) return of_webp(bytes);
+  if (const SystemFormat* const format = find_system_format(bytes))
+    return format->find_colors ? of_tags(format->find_colors(bytes)) : FileColor{};
   FileColor out;
   if (is_hdr(bytes)) out.scale = of_hdr(bytes);
   if (is_pfm(bytes)) out.scale = of_pfm(bytes);
@@ -245,7 +263,7 @@ ImageColor read_image_color(ByteSpan bytes, const std::string& name) {
     out.space = std::make_shared<const RgbSpace>(std::move(space));
   } catch (const Error& error) {
     const char* const what = is_icc               ? "ICC profile"
-                             : file.profile.cicp  ? "cICP chunk"
+                             : file.profile.cicp  ? (is_png(bytes) ? "cICP chunk" : "code points (nclx)")
                              : is_light           ? "chromaticities attribute"
                              : file.profile.gamma ? "gAMA chunk"
                                                   : "cHRM chunk";
@@ -253,6 +271,16 @@ ImageColor read_image_color(ByteSpan bytes, const std::string& name) {
                            is_light ? "light of Rec.709 primaries" : "sRGB");
   }
   return out;
+}
+
+ImageColor color_of(const StoredImage& image, ImageColor stated, const std::string& name) {
+  stated.orientation = image.orientation;
+  if (!std::holds_alternative<LinearImage>(image.pixels) || !stated.space) return stated;
+  if (!stated.space->is_standard)
+    stated.flaw = fmt::format("{}: has {}, which is not applied to light: it is taken as light of Rec.709 primaries",
+                              name, stated.space->name);
+  stated.space = nullptr;
+  return stated;
 }
 
 }  // namespace zoneplate

@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "zoneplate/codec/system/stored_image.h"
 #include "zoneplate/image/rgb_space.h"
 
 namespace zoneplate {
@@ -40,5 +41,9 @@ struct ImageColor {
 ///
 /// Errors    those of open_icc_library (codec/color/icc.h), for a file with an ICC profile.
 ImageColor read_image_color(std::span<const std::uint8_t> bytes, const std::string& name);
+
+/// The same for an image that a SystemFormat has decoded: with its orientation, and without a space of light, which is
+/// taken to have Rec.709 primaries; that is a flaw if the file states another space.
+ImageColor color_of(const StoredImage& image, ImageColor stated, const std::string& name);
 
 }  // namespace zoneplate

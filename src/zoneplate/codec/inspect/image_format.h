@@ -10,14 +10,12 @@
 
 namespace zoneplate {
 
-/// The name of an image format by a file's first bytes, with an article: "a PNG", "an AVIF"; "no known" for others.
+/// The name of an image format by a file's first bytes, with an article: "a PNG", "an AVIF", "an MP4 video"; "no known"
+/// for others.
 std::string_view format_of_image(std::span<const std::uint8_t> bytes);
 
-/// The error of a file that is none of the formats that its reader has, which `expected` lists: "a.gif: is a GIF image,
+/// The error of a file that is none of the formats that its reader has, which `expected` lists: "a.psd: is a PSD image,
 /// expected PNG or JPEG".
 Error unread_format(std::span<const std::uint8_t> bytes, const std::string& name, std::string_view expected);
-
-/// The number of images that a file shows one after the other: those of an animated PNG; else 1.
-std::uint32_t count_frames(std::span<const std::uint8_t> bytes);
 
 }  // namespace zoneplate

@@ -171,7 +171,8 @@ TEST(GltfMaterial, ImageErrorsNameTheFirstImage) {
   GltfMaker m = painted(R"({"emissiveTexture":{"index":0},"occlusionTexture":{"index":1}})");
   m.rest = R"(,"images":[{"bufferView":0,"name":"x"},{"bufferView":0}],"textures":[{"source":0},{"source":1}])";
   EXPECT_EQ(error_of(m, strict),
-            "image 0 'x': is no known image, expected PNG, JPEG, WebP, HDR, EXR, PFM, KTX2, BMP or TGA");
+            "image 0 'x': is no known image, expected PNG, JPEG, WebP, GIF, TIFF, AVIF, JPEG XL, HDR, EXR, PFM, KTX2, "
+            "BMP or TGA");
   m.rest = R"(,"images":[{"uri":"none.png"},{}],"textures":[{"source":0},{"source":1}])";
   EXPECT_EQ(error_of(m, strict).rfind("image 0: ", 0), 0u);
   m.rest = R"(,"images":[{"bufferView":1},{}],"textures":[{"source":0},{"source":1}])";

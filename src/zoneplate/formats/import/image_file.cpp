@@ -8,6 +8,8 @@
 
 #include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/codec/animated/gif.h"
+#include "zoneplate/codec/animated/webp_reader.h"
 #include "zoneplate/codec/bitmap/bmp.h"
 #include "zoneplate/codec/bitmap/tga.h"
 #include "zoneplate/codec/exr/exr.h"
@@ -17,6 +19,7 @@
 #include "zoneplate/codec/ktx2/ktx2.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
+#include "zoneplate/codec/system/system_format.h"
 #include "zoneplate/codec/webp_still.h"
 
 namespace zoneplate {
@@ -41,17 +44,22 @@ Plane<float4> decode_exr_light(std::span<const std::uint8_t> bytes, const std::s
   const auto take_row = [&](std::span<const Linear> row) {
     check_deadline();
     if (y == 0) image = Plane<float4>(static_cast<int>(row.size()), find_exr_size(bytes)->y);
-    std::transform(row.begin(), row.end(), image.row(y++).begin(), straight);
+    std::transform(row.begin(), row.end(), image.row(y++).begin(), [](const Linear& c) { return straight(c); });
   };
   decode_exr_rows(bytes, name, max_pixels, take_row, layer);
   return image;
 }
 
-Plane<float4> decode_pfm_light(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
-  const LinearImage decoded = decode_pfm(bytes, name, max_pixels);
-  Plane<float4> image(decoded.width(), decoded.height());
-  std::ranges::transform(decoded.values(), image.values().begin(), straight);
+Plane<float4> straight(const LinearImage& light) {
+  Plane<float4> image(light.width(), light.height());
+  std::ranges::transform(light.values(), image.values().begin(), [](const Linear& c) { return straight(c); });
   return image;
+}
+
+TexelImage texels_of(StoredImage image) {
+  if (const auto* const light = std::get_if<LinearImage>(&image.pixels)) return straight(*light);
+  if (auto* const codes = std::get_if<Rgba16Image>(&image.pixels)) return std::move(*codes);
+  return std::get<Rgba8Image>(std::move(image.pixels));
 }
 
 TexelImage decode_png_texels(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels) {
@@ -72,6 +80,8 @@ std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes) {
   if (is_exr(bytes)) return find_exr_size(bytes);
   if (is_ktx2(bytes)) return find_ktx2_size(bytes);
   if (is_pfm(bytes)) return find_pfm_size(bytes);
+  if (is_gif(bytes)) return find_gif_size(bytes);
+  if (const SystemFormat* const format = find_system_format(bytes)) return format->find_size(bytes);
   if (is_png(bytes) && bytes.size() >= 24) return int2{big_endian(bytes, 16, 4), big_endian(bytes, 20, 4)};
   return is_bmp(bytes) ? find_bmp_size(bytes) : find_tga_size(bytes);
 }
@@ -82,6 +92,7 @@ std::uint64_t decoded_image_memory(std::span<const std::uint8_t> bytes) {
   const std::uint64_t texel = is_ktx2(bytes)                                    ? ktx2_texel_memory(bytes)
                               : is_hdr(bytes) || is_exr(bytes) || is_pfm(bytes) ? sizeof(float4)
                               : is_png(bytes) && has_16_bits(bytes)             ? sizeof(Rgba16)
+                              : find_system_format(bytes)                       ? sizeof(float4)
                                                                                 : sizeof(Rgba8);
   return static_cast<std::uint64_t>(size->x) * static_cast<std::uint64_t>(size->y) * texel;
 }
@@ -93,8 +104,10 @@ std::uint64_t image_working_memory(std::span<const std::uint8_t> bytes) {
   if (is_exr(bytes)) return exr_working_memory(bytes);
   if (is_ktx2(bytes)) return ktx2_working_memory(bytes);
   if (is_pfm(bytes)) return pixels * sizeof(Linear);
-  // Every pixel once more, and its alpha.
-  if (is_webp(bytes)) return 5 * pixels;
+  // Every pixel once more, and its alpha; of an animation, two images that its frames are drawn to.
+  if (is_webp(bytes)) return (is_animated_webp(bytes) ? 13 : 5) * pixels;
+  if (is_gif(bytes)) return 2 * sizeof(Rgba8) * pixels;
+  if (find_system_format(bytes)) return sizeof(Linear) * pixels;
   if (!is_jpeg(bytes)) return 0;
   // libjpeg keeps all coefficients of a progressive image, two bytes each.
   const std::optional<JpegFrame> frame = read_jpeg_frame(bytes);
@@ -107,15 +120,19 @@ DecodedImage decode_image(std::span<const std::uint8_t> bytes, const std::string
     JpegImage image = decode_jpeg(bytes, name, max_pixels);
     return {std::move(image.pixels), std::move(image.flaw)};
   }
+  if (is_animated_webp(bytes)) return {decode_first_webp_frame(bytes, name, max_pixels)};
   if (is_webp(bytes)) return {decode_webp(bytes, name, max_pixels)};
+  if (is_gif(bytes)) return {decode_gif(bytes, name, max_pixels)};
   if (is_hdr(bytes)) return {decode_hdr_rgba(bytes, name, max_pixels)};
   if (is_exr(bytes)) return {decode_exr_light(bytes, name, max_pixels / 4, layer)};
   if (is_png(bytes)) return {decode_png_texels(bytes, name, max_pixels)};
   if (is_ktx2(bytes)) return {decode_ktx2(bytes, name, max_pixels)};
-  if (is_pfm(bytes)) return {decode_pfm_light(bytes, name, max_pixels)};
+  if (is_pfm(bytes)) return {straight(decode_pfm(bytes, name, max_pixels))};
+  if (const SystemFormat* const format = find_system_format(bytes))
+    return {texels_of(format->decode(bytes, name, max_pixels))};
   if (is_bmp(bytes)) return {decode_bmp(bytes, name, max_pixels)};
   if (is_tga(bytes)) return {decode_tga(bytes, name, max_pixels)};
-  throw unread_format(bytes, name, "PNG, JPEG, WebP, HDR, EXR, PFM, KTX2, BMP or TGA");
+  throw unread_format(bytes, name, "PNG, JPEG, WebP, GIF, TIFF, AVIF, JPEG XL, HDR, EXR, PFM, KTX2, BMP or TGA");
 }
 
 std::optional<std::string> size_warning(const TextureImage& image) {

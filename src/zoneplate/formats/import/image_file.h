@@ -14,8 +14,8 @@
 
 namespace zoneplate {
 
-/// Width and height as the header of a PNG, JPEG, WebP, HDR, EXR, PFM, KTX2, BMP or TGA states them; nothing for other
-/// bytes.
+/// Width and height as the header of an image states them that decode_image reads, or more of an AVIF; nothing for
+/// other bytes.
 std::optional<int2> find_image_size(std::span<const std::uint8_t> bytes);
 
 /// The size of the decoded image in bytes, from its header; 0 if find_image_size returns nothing.
@@ -38,12 +38,13 @@ struct DecodedImage {
   }
 };
 
-/// Decodes the image of a texture, PNG, JPEG, WebP, HDR, EXR, PFM, KTX2, BMP or TGA by its first bytes, regardless of
-/// its name.
+/// Decodes the image of a texture, PNG, JPEG, WebP, GIF, TIFF, AVIF, JPEG XL, HDR, EXR, PFM, KTX2, BMP or TGA by its
+/// first bytes, regardless of its name. The orientation of a TIFF, AVIF or JPEG XL does not turn it. Of an animation
+/// the first frame is taken.
 ///
-/// Texels keep the format of the file: 8 bits, 16 bits of a 16-bit PNG, and linear floats of HDR and EXR. Colours of an
-/// EXR are divided by alpha where alpha is above 0. An EXR may have a quarter of `max_pixels`, because decoding takes
-/// four times the memory per pixel.
+/// Texels keep the format of the file: 8 bits, 16 bits of a PNG, TIFF, AVIF or JPEG XL of more than 8, and linear
+/// floats of HDR, EXR and of a TIFF or JPEG XL of floats. Colours of an EXR are divided by alpha where alpha is above
+/// 0. An EXR may have a quarter of `max_pixels`, because decoding takes four times the memory per pixel.
 ///
 /// Of a damaged JPEG what can be decoded is kept. `layer` is of an EXR (codec/exr_layer.h).
 ///

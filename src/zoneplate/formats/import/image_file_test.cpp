@@ -144,11 +144,14 @@ TEST(ImageFile, WarnsOfWhatIsDrawnSmaller) {
 TEST(ImageFile, OtherFormatsAreNamed) {
   const auto bytes = [](const std::string& text) { return Bytes(text.begin(), text.end()); };
   EXPECT_EQ(error_of(bytes("RIFF....WEBPVP8 ")), "tex: not a sound WebP file");
-  EXPECT_EQ(error_of(bytes("\xabKTX 11\xbb\r\n\x1a\n")),
-            "tex: is a KTX 1 image, expected PNG, JPEG, WebP, HDR, EXR, PFM, KTX2, BMP or TGA");
-  EXPECT_EQ(error_of(bytes("GIF89a")),
-            "tex: is a GIF image, expected PNG, JPEG, WebP, HDR, EXR, PFM, KTX2, BMP or TGA");
-  EXPECT_EQ(error_of({}), "tex: is no known image, expected PNG, JPEG, WebP, HDR, EXR, PFM, KTX2, BMP or TGA");
+  EXPECT_EQ(
+      error_of(bytes("\xabKTX 11\xbb\r\n\x1a\n")),
+      "tex: is a KTX 1 image, expected PNG, JPEG, WebP, GIF, TIFF, AVIF, JPEG XL, HDR, EXR, PFM, KTX2, BMP or TGA");
+  EXPECT_EQ(error_of(bytes("8BPS")),
+            "tex: is a PSD image, expected PNG, JPEG, WebP, GIF, TIFF, AVIF, JPEG XL, HDR, EXR, PFM, KTX2, BMP or TGA");
+  EXPECT_EQ(
+      error_of({}),
+      "tex: is no known image, expected PNG, JPEG, WebP, GIF, TIFF, AVIF, JPEG XL, HDR, EXR, PFM, KTX2, BMP or TGA");
   EXPECT_NE(error_of(bytes("\x89PNG\r\n\x1a\n")), "no error");
   EXPECT_NE(error_of(bytes("\xff\xd8\xff")), "no error");
 }

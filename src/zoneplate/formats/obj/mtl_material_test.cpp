@@ -193,7 +193,8 @@ TEST_F(MtlScene, WarnsOfWhatIsMissing) {
   EXPECT_EQ(scene.materials[0].base_color.x, 0.8f);
   EXPECT_EQ(warnings_of(scene),
             "m.obj: texture gone.png: not found in the model's folder\n"
-            "m.obj: texture bad.png: is no known image, expected PNG, JPEG, WebP, HDR, EXR, PFM, KTX2, BMP or TGA\n"
+            "m.obj: texture bad.png: is no known image, expected PNG, JPEG, WebP, GIF, TIFF, AVIF, JPEG XL, HDR, EXR, "
+            "PFM, KTX2, BMP or TGA\n"
             "m.obj: material m: not drawn: refl\n");
   write("model/m.obj", "mtllib a.mtl b c.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
   write("model/b c.mtl", "");

@@ -7,11 +7,16 @@
 #include <charconv>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <type_traits>
+#include <variant>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/codec/animated/gif.h"
+#include "zoneplate/codec/animated/webp_reader.h"
 #include "zoneplate/codec/bitmap/bmp.h"
 #include "zoneplate/codec/bitmap/tga.h"
 #include "zoneplate/codec/exr/exr.h"
@@ -21,6 +26,7 @@
 #include "zoneplate/codec/jpeg.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
+#include "zoneplate/codec/system/system_format.h"
 #include "zoneplate/codec/webp_still.h"
 #include "zoneplate/image/orientation.h"
 #include "zoneplate/os/file.h"
@@ -33,29 +39,25 @@ namespace fs = std::filesystem;
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
-DisplayImage display_of(const Rgba8Image& codes) {
+template <class Code>
+DisplayImage display_of(const Plane<Code>& codes) {
+  constexpr float most = std::numeric_limits<decltype(Code::r)>::max();
   DisplayImage image(codes.width(), codes.height());
-  std::ranges::transform(codes.values(), image.values().begin(), [](Rgba8 c) {
-    const auto unit = [](std::uint8_t code) { return static_cast<float>(code) / 255; };
-    return Display{unit(c.r), unit(c.g), unit(c.b), unit(c.a)};
-  });
-  return image;
-}
-
-DisplayImage display_of(const Rgba16Image& codes) {
-  DisplayImage image(codes.width(), codes.height());
-  std::ranges::transform(codes.values(), image.values().begin(), [](Rgba16 c) {
-    const auto unit = [](std::uint16_t code) { return static_cast<float>(code) / 65535; };
-    return Display{unit(c.r), unit(c.g), unit(c.b), unit(c.a)};
+  std::ranges::transform(codes.values(), image.values().begin(), [](Code c) {
+    return Display{static_cast<float>(c.r) / most, static_cast<float>(c.g) / most, static_cast<float>(c.b) / most,
+                   static_cast<float>(c.a) / most};
   });
   return image;
 }
 
 DisplayImage decode_display(std::span<const std::uint8_t> bytes, const std::string& path, std::uint64_t most_pixels) {
+  if (is_animated_webp(bytes)) return display_of(decode_first_webp_frame(bytes, path, most_pixels));
   if (is_webp(bytes)) return display_of(decode_webp(bytes, path, most_pixels));
+  if (is_gif(bytes)) return display_of(decode_gif(bytes, path, most_pixels));
   if (is_bmp(bytes)) return display_of(decode_bmp(bytes, path, most_pixels));
   if (!is_png(bytes) && is_tga(bytes)) return display_of(decode_tga(bytes, path, most_pixels));
-  if (!is_png(bytes)) throw unread_format(bytes, path, "PNG, JPEG, WebP, HDR, EXR, PFM, BMP or TGA");
+  if (!is_png(bytes))
+    throw unread_format(bytes, path, "PNG, JPEG, WebP, GIF, TIFF, AVIF, JPEG XL, HDR, EXR, PFM, BMP or TGA");
   const PngImage png = decode_png_as_stored(bytes, path, most_pixels);
   return png.pixels16.empty() ? display_of(png.pixels) : display_of(png.pixels16);
 }
@@ -88,14 +90,15 @@ std::string lower_extension(const fs::path& path) {
   return extension;
 }
 
+constexpr std::string_view picture_endings[] = {".png",  ".apng", ".jpg", ".jpeg", ".webp", ".gif", ".tif", ".tiff",
+                                                ".avif", ".jxl",  ".hdr", ".exr",  ".pfm",  ".bmp", ".tga"};
+
 bool is_picture_name(const fs::path& path) {
-  constexpr std::string_view known[] = {".png", ".jpg", ".jpeg", ".webp", ".hdr", ".exr", ".pfm", ".bmp", ".tga"};
-  return std::ranges::find(known, lower_extension(path)) != std::end(known);
+  return std::ranges::find(picture_endings, lower_extension(path)) != std::end(picture_endings);
 }
 
 bool is_other_image_name(const fs::path& path) {
-  constexpr std::string_view known[] = {".apng", ".gif",  ".tif", ".tiff", ".avif", ".heic", ".jxl", ".ktx2",
-                                        ".dds",  ".webm", ".mp4", ".mov",  ".mkv",  ".avi",  ".m4v"};
+  constexpr std::string_view known[] = {".heic", ".ktx2", ".dds", ".webm", ".mp4", ".mov", ".mkv", ".avi", ".m4v"};
   return std::ranges::find(known, lower_extension(path)) != std::end(known);
 }
 
@@ -152,8 +155,7 @@ bool is_directory(const std::string& path) {
 /// Requires at least one image in a directory.
 std::vector<std::string> if_any(std::vector<std::string> paths, const std::string& directory) {
   if (paths.empty())
-    throw Error(ErrorKind::Input,
-                directory + ": the directory holds no .png, .jpg, .jpeg, .webp, .hdr, .exr, .pfm, .bmp or .tga file");
+    throw Error(ErrorKind::Input, fmt::format("{}: the directory holds no {} file", directory, image_endings()));
   return paths;
 }
 
@@ -183,13 +185,48 @@ Picture picture_of(DisplayImage codes, const ImageColor& color) {
   return {std::move(codes), std::move(light)};
 }
 
+Picture picture_of(StoredImage image, const ImageColor& color) {
+  return std::visit(
+      [&]<class Pixel>(Plane<Pixel>& pixels) {
+        if constexpr (std::is_same_v<Pixel, Linear>)
+          return make_picture(oriented(std::move(pixels), color.orientation));
+        else
+          return picture_of(display_of(pixels), color);
+      },
+      image.pixels);
+}
+
+/// A frame with the colours that its animation states.
+Picture picture_of_frame(const ImageFile& file) {
+  const ImageColor color = read_image_color(file.bytes, file.name);
+  Picture picture = picture_of(file.decode_frame().display, color);
+  picture.space = color.space, picture.color_flaw = color.flaw;
+  return picture;
+}
+
 }  // namespace
+
+std::string image_endings() {
+  std::string text;
+  for (const std::string_view& ending : picture_endings)
+    text += (text.empty() ? "" : &ending == std::end(picture_endings) - 1 ? " or " : ", ") + std::string(ending);
+  return text;
+}
+
+Picture picture_of(const TexelImage& codes) {
+  return make_picture(codes.kind() == TexelKind::Codes16 ? display_of(codes.as<Rgba16>())
+                                                         : display_of(codes.as<Rgba8>()));
+}
 
 Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t most_pixels,
                        const ExrChoice& exr) {
-  const ImageColor color = read_image_color(bytes, name);
+  ImageColor color = read_image_color(bytes, name);
   Picture picture;
-  if (is_jpeg(bytes)) {
+  if (const SystemFormat* const format = find_system_format(bytes)) {
+    StoredImage image = format->decode(bytes, name, most_pixels);
+    color = color_of(image, std::move(color), name);
+    picture = picture_of(std::move(image), color);
+  } else if (is_jpeg(bytes)) {
     JpegImage image = decode_jpeg(bytes, name, most_pixels);
     picture = picture_of(display_of(image.pixels), color);
     picture.flaw = std::move(image.flaw);
@@ -217,12 +254,13 @@ Picture in_srgb(Picture picture) {
 ImageFile open_image(const std::string& path) {
   auto file = std::make_shared<const FileBytes>(path);
   const std::span<const std::uint8_t> bytes = file->bytes();
-  return {path, bytes, std::move(file)};
+  return {.name = path, .bytes = bytes, .owner = std::move(file)};
 }
 
 Picture decode_file(const ImageFile& file, std::uint64_t most_pixels) {
   const MappedFileWatch watch;
-  Picture picture = decode_picture(file.bytes, file.name, most_pixels, file.exr);
+  Picture picture = file.decode_frame ? in_srgb(picture_of_frame(file))
+                                      : decode_picture(file.bytes, file.name, most_pixels, file.exr);
   watch.check(file.name);
   return picture;
 }

@@ -8,20 +8,25 @@
 
 #include "zoneplate/metrics/file/stored.h"
 #include "zoneplate/metrics/picture.h"
+#include "zoneplate/scene/texel_image.h"
 
 namespace zoneplate::metrics {
+
+/// The endings of the image files that are found in folders: ".png, .jpg ... or .tga".
+std::string image_endings();
 
 /// Opens an image file; "-" is stdin.
 ///
 /// Errors    ErrorKind::Input naming the file and the cause.
 ImageFile open_image(const std::string& path);
 
-/// Decodes an image from a PNG (8 or 16 bits), JPEG, WebP, HDR, EXR, PFM, BMP or TGA file, recognised by its first
-/// bytes. Of a damaged JPEG what can be decoded is kept, with a flaw.
+/// Decodes an image from a PNG (8 or 16 bits), JPEG, WebP, GIF, TIFF, AVIF, JPEG XL, HDR, EXR, PFM, BMP or TGA file,
+/// recognised by its first bytes, or the frame of an animation, as sRGB. Of a damaged JPEG what can be decoded is kept,
+/// with a flaw. Of an animation without `decode_frame` the first frame is decoded.
 ///
-/// HDR, EXR and PFM contain unbounded linear light, which is kept as it is stored, with NaN and infinities; their
-/// display-referred values are clamped. Values stay as they are stored, in the colour space of the file, and the image
-/// is turned as its Exif orientation says.
+/// HDR, EXR, PFM, and TIFF and JPEG XL of floats contain unbounded linear light, which is kept as it is stored, with
+/// NaN and infinities; their display-referred values are clamped. Values stay as they are stored, in the colour space
+/// of the file, and the image is turned as its orientation (of Exif, TIFF, AVIF or JPEG XL) says.
 /// Errors    ErrorKind::Input naming the file and the cause, also for more than `most_pixels`.
 Picture decode_file(const ImageFile& file, std::uint64_t most_pixels = std::uint64_t{1} << 28);
 
@@ -35,6 +40,9 @@ Picture in_srgb(Picture picture);
 /// Loads an image in sRGB, or light of Rec.709 primaries.
 Picture load_picture(const std::string& path, std::uint64_t most_pixels = std::uint64_t{1} << 28);
 
+/// A display-referred picture of codes, which has their values exactly.
+Picture picture_of(const TexelImage& codes);
+
 /// The image files of one operand, in order.
 struct PictureFiles {
   std::vector<std::string> paths;
@@ -43,8 +51,8 @@ struct PictureFiles {
 
 /// Lists the files of one operand, in order.
 ///
-/// A directory: its .png, .jpg, .jpeg, .webp, .hdr, .exr, .pfm, .bmp and .tga files in natural order (9 before 10),
-/// without subfolders. A name whose last component contains `####` or `%04d`: the files with a number in its place, in
+/// A directory: its files with the endings of image formats (image_endings) in natural order (9 before 10), without
+/// subfolders. A name whose last component contains `####` or `%04d`: the files with a number in its place, in
 /// the order of the numbers. Any other operand: that file.
 ///
 /// Errors    ErrorKind::Input if a directory or a pattern matches no image.

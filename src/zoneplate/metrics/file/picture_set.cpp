@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -12,9 +14,11 @@
 #include <string_view>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/codec/png.h"
+#include "zoneplate/base/lower_case.h"
+#include "zoneplate/codec/animated/animation_reader.h"
 #include "zoneplate/metrics/file/picture_file.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/os/mapped_file_guard.h"
 #include "zoneplate/os/run_program.h"
 
 namespace zoneplate::metrics {
@@ -25,13 +29,6 @@ namespace fs = std::filesystem;
 bool is_directory(const std::string& path) {
   std::error_code ignored;
   return fs::is_directory(path, ignored);
-}
-
-bool is_video_name(const std::string& path) {
-  std::string extension = fs::path(path).extension().string();
-  std::ranges::transform(extension, extension.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
-  constexpr std::array<std::string_view, 8> known = {".mp4", ".m4v", ".mov", ".mkv", ".webm", ".avi", ".gif", ".apng"};
-  return std::ranges::find(known, extension) != known.end();
 }
 
 /// Splits a stream of PNG files at their ends.
@@ -56,47 +53,70 @@ std::vector<std::span<const std::uint8_t>> split_png_stream(std::span<const std:
   return images;
 }
 
+/// What a program of ffmpeg prints about a video.
+std::vector<std::uint8_t> output_of(const std::string& program, const std::string& path,
+                                    std::vector<std::string> arguments, const ProgramLimits& limits) {
+  arguments.insert(arguments.begin(), {"-v", "error"});
+  try {
+    ProgramResult result = run_child(program, arguments, "", limits);
+    if (result.code == 0) return std::move(result.out);
+    throw Error(ErrorKind::Input,
+                result.complaint.empty() ? program + " cannot read it" : program + ": " + result.complaint);
+  } catch (const Error& reason) {
+    throw Error(ErrorKind::Input, fmt::format("{}: {}", path, reason.what()));
+  }
+}
+
+/// Microseconds of a line of ffprobe that begins with a decimal number of seconds.
+std::optional<std::int64_t> microseconds_in(std::string_view line) {
+  double seconds = 0;
+  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), seconds);
+  if (error != std::errc() || !(std::abs(seconds) < 1e9)) return std::nullopt;
+  return std::llround(seconds * 1e6);
+}
+
+/// The frames of an animation, of which the last decoded one is kept.
+class FrameCursor {
+ public:
+  FrameCursor(ImageFile file, std::uint64_t most_pixels)
+      : file_(std::move(file)), most_pixels_(most_pixels), reader_(opened()) {}
+
+  const AnimationReader* reader() const { return reader_.get(); }
+  const ImageFile& file() const { return file_; }
+
+  const AnimationFrame& at(std::size_t i) {
+    if (i + 1 < done_) reader_ = opened(), done_ = 0;
+    for (; done_ < i + 1; ++done_) frame_ = reader_->next();
+    return frame_;
+  }
+
+ private:
+  std::unique_ptr<AnimationReader> opened() const { return open_animation(file_.bytes, file_.name, most_pixels_); }
+
+  const ImageFile file_;
+  const std::uint64_t most_pixels_;
+  std::unique_ptr<AnimationReader> reader_;
+  std::size_t done_ = 0;
+  AnimationFrame frame_;
+};
+
 /// The frames of a video, which are kept as PNG files in memory.
 PictureSet open_video(const std::string& path, const ProgramLimits& limits) {
   std::error_code error;
   if (!fs::exists(path, error)) throw Error(ErrorKind::Input, path + ": no such file");
   check_is_file(path);
-  auto stream = std::make_shared<std::vector<std::uint8_t>>();
-  try {
-    ProgramResult result = run_child("ffmpeg",
-                                     {"-v",
-                                      "error",
-                                      "-nostdin",
-                                      "-i",
-                                      "file:" + path,
-                                      "-map",
-                                      "0:v:0",
-                                      "-vsync",
-                                      "passthrough",
-                                      "-sws_flags",
-                                      "accurate_rnd+full_chroma_int+full_chroma_inp",
-                                      "-c:v",
-                                      "png",
-                                      "-pred",
-                                      "mixed",
-                                      "-compression_level",
-                                      "1",
-                                      "-f",
-                                      "image2pipe",
-                                      "-"},
-                                     "", limits);
-    if (result.code != 0)
-      throw Error(ErrorKind::Input, result.complaint.empty() ? "ffmpeg cannot read it" : "ffmpeg: " + result.complaint);
-    *stream = std::move(result.out);
-  } catch (const Error& reason) {
-    throw Error(ErrorKind::Input, fmt::format("{}: {}", path, reason.what()));
-  }
+  const auto stream = std::make_shared<std::vector<std::uint8_t>>(
+      output_of("ffmpeg", path,
+                {"-nostdin", "-i", "file:" + path, "-map", "0:v:0", "-vsync", "passthrough", "-sws_flags",
+                 "accurate_rnd+full_chroma_int+full_chroma_inp", "-c:v", "png", "-pred", "mixed", "-compression_level",
+                 "1", "-f", "image2pipe", "-"},
+                limits));
   const auto images = split_png_stream(*stream);
   if (images.empty()) throw Error(ErrorKind::Input, path + ": the video has no frame");
   PictureSet set{.are_frames = true};
   for (std::size_t i = 0; i < images.size(); ++i) set.names.push_back(fmt::format("frame {}", i + 1));
   set.open = [stream, images, path](std::size_t i) {
-    return ImageFile{fmt::format("{}, frame {}", path, i + 1), images[i], stream};
+    return ImageFile{.name = fmt::format("{}, frame {}", path, i + 1), .bytes = images[i], .owner = stream};
   };
   return set;
 }
@@ -104,6 +124,57 @@ PictureSet open_video(const std::string& path, const ProgramLimits& limits) {
 std::string without_extension(const std::string& path) { return fs::path(path).replace_extension().string(); }
 
 }  // namespace
+
+bool is_video_name(const std::string& path) {
+  constexpr std::array<std::string_view, 6> known = {".mp4", ".m4v", ".mov", ".mkv", ".webm", ".avi"};
+  return std::ranges::find(known, lower_case(fs::path(path).extension().string())) != known.end();
+}
+
+std::vector<FrameTime> video_times(const std::string& path, std::size_t frames, const ProgramLimits& limits) {
+  const std::vector<std::uint8_t> out = output_of(
+      "ffprobe", path, {"-select_streams", "v:0", "-show_entries", "packet=pts_time", "-of", "csv=p=0", "file:" + path},
+      limits);
+  std::vector<std::int64_t> begins;
+  const std::string_view text(reinterpret_cast<const char*>(out.data()), out.size());
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.size(), text.find('\n', at));
+    if (const std::optional<std::int64_t> begin = microseconds_in(text.substr(at, end - at))) begins.push_back(*begin);
+    at = end + 1;
+  }
+  std::ranges::sort(begins);
+  constexpr std::int64_t unknown = 40'000;  // 25 frames per second
+  const std::int64_t mean =
+      begins.size() < 2 ? unknown : (begins.back() - begins.front()) / static_cast<std::int64_t>(begins.size() - 1);
+  std::vector<FrameTime> times(frames, FrameTime::of_microseconds(mean));
+  if (begins.size() != frames) return times;
+  // The last frame lasts as long as the one before.
+  for (std::size_t i = 0; i + 1 < frames; ++i) times[i] = FrameTime::of_microseconds(begins[i + 1] - begins[i]);
+  if (frames > 1) times[frames - 1] = times[frames - 2];
+  return times;
+}
+
+PictureSet with_frames(PictureSet set, std::uint64_t most_pixels) {
+  if (set.is_directory || set.names.size() != 1 || set.files.size() != 1) return set;
+  const MappedFileWatch watch;
+  const auto cursor = std::make_shared<FrameCursor>(set.open(0), most_pixels);
+  watch.check(set.files[0]);
+  if (!cursor->reader()) {
+    set.open = [cursor](std::size_t) { return cursor->file(); };  // standard input cannot be opened again
+    return set;
+  }
+  const AnimationInfo info = cursor->reader()->info();
+  PictureSet frames{.are_frames = true, .loops = info.loops, .has_alpha = info.has_alpha};
+  for (std::size_t i = 0; i < info.frames; ++i) frames.names.push_back(fmt::format("frame {}", i + 1));
+  frames.files = std::move(set.files);
+  frames.open = [cursor](std::size_t i) {
+    ImageFile file = cursor->file();
+    file.name = fmt::format("{}, frame {}", file.name, i + 1);
+    file.decode_frame = [cursor, i] { return picture_of(cursor->at(i).image); };
+    return file;
+  };
+  frames.time_of = [cursor](std::size_t i) { return cursor->at(i).time; };
+  return frames;
+}
 
 PictureSet open_pictures(const std::string& operand, const ProgramLimits& decoder) {
   if (is_video_name(operand) && !is_directory(operand)) return open_video(operand, decoder);

@@ -10,11 +10,11 @@
 #include <map>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/codec/animated/animation_reader.h"
 #include "zoneplate/codec/exr/exr.h"
 #include "zoneplate/codec/exr/exr_header.h"
 #include "zoneplate/codec/exr/exr_layer.h"
 #include "zoneplate/codec/inspect/color_space.h"
-#include "zoneplate/codec/inspect/image_format.h"
 
 namespace zoneplate::metrics {
 namespace {
@@ -92,9 +92,11 @@ class StoredComparison {
     compare_colors(reference, test);
     compare_layers();
     compare_meanings(reference, test);
-    for (std::size_t side = 0; side < 2; ++side)
-      if (const std::uint32_t frames = count_frames(files_[side]->bytes); frames > 1)
+    for (std::size_t side = 0; side < 2; ++side) {
+      if (files_[side]->decode_frame) continue;
+      if (const std::size_t frames = count_frames(files_[side]->bytes); frames > 1)
         differ(fmt::format("{} is an animation of {} frames, of which the first is compared", names[side], frames));
+    }
     return std::move(out_);
   }
 

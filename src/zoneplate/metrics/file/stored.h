@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -13,12 +14,14 @@
 
 namespace zoneplate::metrics {
 
-/// The bytes of an image file, and its name for messages.
+/// The bytes of an image file, or a frame of an animated one, and its name for messages.
 struct ImageFile {
   std::string name;
   std::span<const std::uint8_t> bytes;
   std::shared_ptr<const void> owner = nullptr;  ///< of the bytes
   ExrChoice exr = {};                           ///< the image that is meant, if it is an EXR
+  /// The frame of the animation in the bytes; null: the bytes are one image.
+  std::function<Picture()> decode_frame = {};
 };
 
 /// A number of pixels of one channel: "R" of the measured layer, "depth.Z" of another, "left.R" of the part `left`.
