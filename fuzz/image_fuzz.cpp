@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // A fuzz target of libFuzzer: bytes that pretend to be an image.
 //
-// The codecs are libraries without sanitizers; what is watched is what we do with them. Checksums of a PNG's chunks are
+// The codecs are libraries without sanitizers, those of TIFF, AVIF and JPEG XL in a child process; what is watched is
+// what we do with them. Checksums of a PNG's chunks are
 // put right first, since a wrong one ends the reading before anything else is seen.
 #include <zlib.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/codec/animated/animation_reader.h"
 #include "zoneplate/codec/exr/exr_dwa.h"
 #include "zoneplate/codec/exr/exr_header.h"
 #include "zoneplate/codec/exr/exr_layer.h"
@@ -53,7 +57,8 @@ void unpack_dwa(const Bytes& packed) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Bytes bytes(data, data + size);
-  if (std::string_view(ZONEPLATE_FUZZ_FORMAT) == "png") put_checksums_right(bytes);
+  const std::string_view format = ZONEPLATE_FUZZ_FORMAT;
+  if (format == "png" || format == "apng") put_checksums_right(bytes);
   zoneplate::color_space_of(bytes);
   try {
     zoneplate::ColorProfile profile = zoneplate::read_file_color(bytes).profile;
@@ -66,12 +71,21 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   zoneplate::exr_layers(zoneplate::read_exr_parts(bytes));
   if (std::string_view(ZONEPLATE_FUZZ_FORMAT) == "exr") unpack_dwa(bytes);
   try {
-    if (std::string_view(ZONEPLATE_FUZZ_FORMAT) == "pfm") {
+    const std::string name = "image";
+    if (const auto animation = zoneplate::open_animation(bytes, name, max_pixels)) {
+      constexpr std::size_t most_frames = 20;
+      const auto info = animation->info();
+      for (std::size_t i = 0; i < std::min(info.frames, most_frames); ++i) {
+        const zoneplate::TexelImage frame = animation->next().image;
+        if (frame.width() != info.size.x || frame.height() != info.size.y) std::abort();
+      }
+    }
+    if (format == "pfm") {
       zoneplate::decode_pfm(bytes, "image", max_pixels);  // no texture is one
       return 0;
     }
     const auto stated = zoneplate::find_image_size(bytes);
-    if (std::string_view(ZONEPLATE_FUZZ_FORMAT) == "exr") return 0;
+    if (format == "exr") return 0;
     const zoneplate::TexelImage image = zoneplate::decode_image(bytes, "image", max_pixels).texels;
     // The budget of an import is asked by what the header states.
     if (!stated || stated->x < image.width() || stated->y < image.height()) std::abort();

@@ -4,6 +4,8 @@
 #include <memory>
 #include <string>
 
+#include "zoneplate/codec/animated/gif_file_for_test.h"
+#include "zoneplate/codec/apng.h"
 #include "zoneplate/codec/bitmap/pillow_files_for_test.h"
 #include "zoneplate/codec/color/icc_for_test.h"
 #include "zoneplate/codec/exr/exr_encode.h"
@@ -12,6 +14,10 @@
 #include "zoneplate/codec/ktx2/files_for_test.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
+#include "zoneplate/codec/system/avif.h"
+#include "zoneplate/codec/system/jxl.h"
+#include "zoneplate/codec/system/tiff_file_for_test.h"
+#include "zoneplate/codec/webp.h"
 #include "zoneplate/codec/webp_still.h"
 #include "zoneplate/formats/3mf/maker_for_test.h"
 #include "zoneplate/formats/gltf/gltf.h"
@@ -38,6 +44,45 @@ Bytes parts_of(const GltfMaker& m) {
   out.push_back(0);
   out.insert(out.end(), m.binary.begin(), m.binary.end());
   return out;
+}
+
+/// Strips and tiles of codes, a palette and light.
+void write_tiffs(const std::string& folder) {
+  const Bytes codes(16 * 16 * 8, 77);
+  int number = 0;
+  const auto put = [&](const TiffForTest& t) { write(folder, std::to_string(number++) + ".tif", tiff_of(t)); };
+  for (const int compression : {COMPRESSION_NONE, COMPRESSION_LZW, COMPRESSION_ADOBE_DEFLATE, COMPRESSION_PACKBITS})
+    put({.width = 7,
+         .height = 5,
+         .samples = 4,
+         .compression = static_cast<std::uint16_t>(compression),
+         .alpha = EXTRASAMPLE_ASSOCALPHA,
+         .rows_per_strip = 2,
+         .data = codes});
+  put({.width = 20,
+       .height = 9,
+       .planes = PLANARCONFIG_SEPARATE,
+       .orientation = 6,
+       .tile = 16,
+       .mode = "wb",
+       .data = codes});
+  put({.width = 9, .height = 3, .samples = 1, .bits = 1, .photometric = PHOTOMETRIC_MINISWHITE, .data = codes});
+  put({.width = 3,
+       .height = 3,
+       .samples = 1,
+       .bits = 16,
+       .photometric = PHOTOMETRIC_MINISBLACK,
+       .mode = "w8",
+       .data = codes});
+  put({.width = 3, .height = 3, .bits = 32, .kind = SAMPLEFORMAT_IEEEFP, .data = codes});
+  put({.width = 16, .height = 16, .photometric = PHOTOMETRIC_YCBCR, .compression = COMPRESSION_JPEG, .data = codes});
+  put({.width = 2,
+       .height = 1,
+       .samples = 1,
+       .bits = 2,
+       .photometric = PHOTOMETRIC_PALETTE,
+       .palette = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11},
+       .data = codes});
 }
 
 /// A triangle that is packed by Draco, instanced, has variants and a material with all textures.
@@ -124,6 +169,21 @@ void write_images(const std::string& root) {
   write(root + "/jpeg", "pixel.jpg", encode_jpeg(Rgba8Image(1, 1)));
   write(root + "/webp", "rgba.webp", encode_webp(image, true));
   write(root + "/webp", "rgb.webp", encode_webp(image, false));
+  Animation film{.format = {.loops = 2, .has_alpha = true}, .frames = {image, image}};
+  film.frames[1](1, 1) = {9, 8, 7, 6};
+  write(root + "/apng", "film.png", encode_apng(film));
+  write(root + "/webp", "film.webp", encode_webp(film));
+  GifMaker gif(4, 3, {0, 0, 0, 255, 0, 0, 0, 255, 0, 0, 0, 255}, 3);
+  gif.frame(
+         {.width = 4, .height = 3, .indices = {0, 1, 2, 3, 0, 1, 2, 3, 3, 3, 3, 3}, .delay = 5, .is_interlaced = true})
+      .frame({.x = 1, .y = 1, .width = 2, .height = 1, .indices = {1, 2}, .disposal = 3, .transparent = 1})
+      .frame({.width = 1, .height = 1, .indices = {0}, .disposal = 2, .colors = {1, 2, 3, 4, 5, 6}});
+  write(root + "/gif", "film.gif", gif.end());
+  write_tiffs(root + "/tiff");
+  write(root + "/avif", "rgba.avif", encode_avif(image, true));
+  write(root + "/avif", "rgb.avif", encode_avif(image, false));
+  write(root + "/jxl", "rgba.jxl", encode_jxl(image, true));
+  write(root + "/jxl", "rgb.jxl", encode_jxl(image, false));
   for (const PillowFile& file : pillow_bmp_files)
     write(root + "/bmp", file.name + std::string(".bmp"), {file.bytes.begin(), file.bytes.end()});
   for (const PillowFile& file : pillow_tga_files)
