@@ -121,7 +121,7 @@ inline IccBytes icc_display_p3() { return icc_of_primaries(p3_primaries, icc_srg
 inline IccBytes icc_of_table() {
   IccBytes lut;
   put_icc(lut, "mft2"), put_icc(lut, 0);
-  for (const std::uint32_t byte : {3, 3, 2, 0}) put_icc(lut, byte, 1);  // channels in and out, nodes, padding
+  for (const std::uint32_t byte : {3u, 3u, 2u, 0u}) put_icc(lut, byte, 1);  // channels in and out, nodes, padding
   for (int i = 0; i < 9; ++i) put_icc_fixed(lut, i % 4 == 0);
   constexpr std::uint32_t steps = 256;
   put_icc(lut, steps, 2), put_icc(lut, 2, 2);

@@ -220,8 +220,8 @@ std::vector<std::uint8_t> encode_avif(const Rgba8Image& image, bool has_alpha) {
       throw Error(ErrorKind::Failed, fmt::format("an image of {} x {} pixels cannot be encoded as AVIF: {}",
                                                  image.width(), image.height(), library.result_text(result)));
   };
-  const auto yuv =
-      owned(library.make_image(image.width(), image.height(), 8, AVIF_PIXEL_FORMAT_YUV444), library.free_image);
+  const auto width = static_cast<std::uint32_t>(image.width()), height = static_cast<std::uint32_t>(image.height());
+  const auto yuv = owned(library.make_image(width, height, 8, AVIF_PIXEL_FORMAT_YUV444), library.free_image);
   // The identity as the matrix stores green, blue and red themselves.
   yuv->yuvRange = AVIF_RANGE_FULL;
   yuv->colorPrimaries = AVIF_COLOR_PRIMARIES_BT709;
