@@ -52,7 +52,9 @@ for pattern in "${patterns[@]}"; do
 done
 set -f
 ignored=()
-for region in ${IGNORE:-}; do ignored+=(--ignore "$([ -e "$region" ] && realpath "$region" || echo "$region")"); done
+# One mask may have spaces in its name.
+if [ -e "${IGNORE:-}" ]; then regions=("$IGNORE"); else regions=(${IGNORE:-}); fi
+for region in ${regions[@]+"${regions[@]}"}; do ignored+=(--ignore "$([ -e "$region" ] && realpath "$region" || echo "$region")"); done
 
 # A new folder, so that images of an earlier run, of models that are gone or that fail now, are not taken for this one's.
 place=$(mktemp -d) || exit 1

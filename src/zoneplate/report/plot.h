@@ -53,6 +53,11 @@ struct PlotSize {
   int width = 720, height = 440;  ///< pixels of the PNG; the SVG has the same aspect ratio
 };
 
+/// Leaves out the labels that would lie over one to their left or below, by the width of an average letter.
+///
+/// Requires  `x` and `y` have their ranges.
+void thin_labels(std::span<Curve> curves, const Axis& x, const Axis& y);
+
 /// Draws the plot as the text of an SVG file, or as an image; legible at half size.
 ///
 /// The plot is drawn by gnuplot in a child process, in `milliseconds` at most. Texts are unchanged, except that '

@@ -71,19 +71,10 @@ Plot plot_of(const std::string& title, const metrics::Metric& metric, std::vecto
   Curve others{.name = "other methods", .mark = Curve::Mark::Points, .color = Curve::grey};
   const bool is_logarithmic = column.is_error() && std::ranges::all_of(dots, [](const Dot& d) { return *d.value > 0; });
   const auto [least, most] = dots.empty() ? std::pair(0.0, 0.0) : range_of(dots);
-  // Ratios of errors and of times, or the part of a linear axis, at which names do not overlap.
-  constexpr double lower = 0.94, later = 1.4, part = 0.04;
-  std::optional<Dot> last;
   for (const Dot& d : dots) {
     Curve& curve = d.is_on_front ? front : others;
     curve.points.emplace_back(d.ms, column.scale * *d.value);
-    const auto is_apart = [&] {
-      return is_logarithmic ? *d.value <= lower * *last->value
-                            : std::abs(*d.value - *last->value) >= part * (most - least);
-    };
-    const bool is_named = !d.is_on_front || !last || is_apart() || d.ms >= later * last->ms;
-    curve.labels.push_back(is_named ? d.method : "");
-    if (d.is_on_front && is_named) last = d;
+    curve.labels.push_back(d.method);
   }
   // The names of many methods would overlap; then only those on the front are labelled.
   constexpr std::size_t few = 16;
@@ -99,6 +90,7 @@ Plot plot_of(const std::string& title, const metrics::Metric& metric, std::vecto
     const double margin = 0.1 * (most - least);
     plot.y.low = column.scale * (least - margin), plot.y.high = column.scale * (most + margin);
   }
+  if (plot.y.low < plot.y.high) thin_labels({&front, 1}, plot.x, plot.y);
   plot.curves = {std::move(others), std::move(front)};
   return plot;
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Antialiasing: one region of an image by every method, with its cost and its error against the reference.
+// Antialiasing: one region of an image by many methods, with its cost and its error against the reference.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/cli/demo/demo.h"
@@ -58,27 +59,6 @@ std::string heading_of(std::string method) {
   return method;
 }
 
-/// Leaves out the labels of points that would lie over that of a lower one: many methods shade one sample per pixel.
-void thin_labels(std::vector<Curve>& curves, double greatest) {
-  constexpr double wide = 3, high = 0.055;  // a ratio of samples, and a part of the axis
-  std::vector<std::pair<double, double>> taken;
-  std::vector<std::pair<std::pair<double, double>, std::string*>> all;
-  for (Curve& curve : curves)
-    for (std::size_t i = 0; i < curve.points.size(); ++i) all.emplace_back(curve.points[i], &curve.labels[i]);
-  std::stable_sort(all.begin(), all.end(),
-                   [](const auto& a, const auto& b) { return a.first.second < b.first.second; });
-  for (const auto& [point, label] : all) {
-    const bool is_free = std::ranges::none_of(taken, [&, at = point](const auto& other) {
-      return at.first < wide * other.first && other.first < wide * at.first &&
-             std::abs(at.second - other.second) < high * greatest;
-    });
-    if (is_free)
-      taken.push_back(point);
-    else
-      label->clear();
-  }
-}
-
 Lesson make(const DemoSize& size, const Settings&) {
   const int side = size.panel, width = side * 4 / 3, crop_side = side / 2;
   Scene scene = scene_of(scene_name);
@@ -110,21 +90,21 @@ Lesson make(const DemoSize& size, const Settings&) {
                                   fmt::format("{}\nerror {}\u00a0%, {} shaded", heading_of(ways[i].method),
                                               number(error, 2), number(shaded, 2))});
   }
-  thin_labels(curves, greatest);
-  const Plot plot{.title = "",
-                  .x = {.label = "shaded samples per pixel and frame",
-                        .low = least / 1.6,
-                        .high = 3 * most,
-                        .is_logarithmic = true},
-                  .y = {.label = "error (%)", .low = 0, .high = 1.08 * greatest},
-                  .curves = curves};
+  Plot plot{.title = "",
+            .x = {.label = "shaded samples per pixel and frame",
+                  .low = least / 1.6,
+                  .high = 3 * most,
+                  .is_logarithmic = true},
+            .y = {.label = "error (%)", .low = 0, .high = 1.08 * greatest},
+            .curves = std::move(curves)};
+  thin_labels(plot.curves, plot.x, plot.y);
   const int gap = size.style().gap_px,
             rest = static_cast<int>(columns) * (crop_side + gap) - width - crop_side - 2 * gap;
   figure.rows[0] = {
       {marked(exact.picture, x, y, factor, crop_side), "The frame marks the region below, enlarged 8 times."},
       {crop_of(exact.picture, x, y, factor, crop_side),
        fmt::format("Reference\n{}: {} shaded samples per pixel.", reference, number(exact.shaded / pixels, 1))},
-      plot_panel(plot, rest - gap, side, "Error against cost.")};
+      plot_panel(plot, rest - gap, side, "Error against cost; the captions below have the figures of each method.")};
   figure.text =
       "Error: root mean square difference from the reference over the whole image, of sRGB values, white being 100 %; "
       "shaded: shaded samples per pixel and frame. Post-process filters shade no more samples than no antialiasing, "
@@ -140,6 +120,6 @@ Lesson make(const DemoSize& size, const Settings&) {
 
 }  // namespace
 
-Demo demo_antialiasing() { return {"antialiasing", "the same region by every method, with error and cost", make}; }
+Demo demo_antialiasing() { return {"antialiasing", "the same region by 24 methods, with error and cost", make}; }
 
 }  // namespace zoneplate::cli

@@ -28,9 +28,11 @@ constexpr std::array<Enlarged, 4> enlarged_by = {
 Lesson make(const DemoSize& size, const Settings&) {
   const int side = size.panel, small = side / reduction;
   const LinearImage original = shoot(scene_of("teapot"), "ssaa:n=8", side, side);
-  const Texture texture(shown(resample(original, small, small, make_kernel("mitchell"))), TexelMeaning::Color);
+  const Texture texture(shown(resample(original, small, small, make_kernel("box"))), TexelMeaning::Color);
   const auto luminance = luminance_of(original);
-  const auto crop = [&](const LinearImage& image) { return crop_of(shown(image), side * 2 / 3, side / 2, 4, side); };
+  const int crop_x = side * 2 / 3, crop_y = side / 2, factor = 4;
+  const auto framed = [&](const LinearImage& image) { return marked(shown(image), crop_x, crop_y, factor, side); };
+  const auto crop = [&](const LinearImage& image) { return crop_of(shown(image), crop_x, crop_y, factor, side); };
   Figure figure{.title = "Texture filters where a texture is enlarged", .rows = {{}, {}}};
   Table table{{"filter", "error"}, {}};
   for (std::size_t i = 0; i < enlarged_by.size(); ++i) {
@@ -45,19 +47,18 @@ Lesson make(const DemoSize& size, const Settings&) {
       }
     const std::string error = number(100 * rms_difference(luminance_of(image), luminance), 2);
     figure.rows[0].push_back(
-        {shown(image), fmt::format("{}\n{} Error {}\u00a0%.", enlarged_by[i].filter, enlarged_by[i].meaning, error)});
+        {framed(image), fmt::format("{}\n{} Error {}\u00a0%.", enlarged_by[i].filter, enlarged_by[i].meaning, error)});
     figure.rows[1].push_back({crop(image), ""});
     table.rows.push_back({enlarged_by[i].filter, error + " %"});
   }
-  figure.rows[0].push_back({shown(original), "The image before its reduction"});
+  figure.rows[0].push_back({framed(original), "The image before its reduction"});
   figure.rows[1].push_back({crop(original), ""});
   figure.text = fmt::format(
-      "An image of {0} × {0} pixels is reduced to {1} × {1} texels, and drawn as a texture at its own size, so that "
-      "each "
-      "texel covers {2} × {2} pixels. Errors: root mean square of the difference from the image before its reduction, "
-      "in "
-      "linear light, in percent of white. Below: a region, enlarged 4 times.",
-      side, small, reduction);
+      "An image of {0} × {0} pixels is reduced to {1} × {1} texels by a box, and drawn as a texture at its own size, "
+      "so "
+      "that each texel covers {2} × {2} pixels. Errors: root mean square of the difference from the image before its "
+      "reduction, in linear light, in percent of white. Below: the region in the frame, enlarged {3} times.",
+      side, small, reduction, factor);
   return {.frames = {figure}, .tables = {table}};
 }
 

@@ -62,8 +62,9 @@ std::array<Measured, 8> shoot_all(const Scene& scene, int side) {
   return all;
 }
 
-void add_boards(const Scene& scene, int side, int crop_y, std::array<double, 8>& errors, Figure& figure) {
-  const auto all = shoot_all(scene, side);
+/// Two rows of images, each with a row of crops below.
+std::vector<std::vector<Panel>> rows_of(const std::array<Measured, 8>& all, int side, int crop_y) {
+  std::vector<std::vector<Panel>> rows;
   for (std::size_t half = 0; half < 2; ++half) {
     std::vector<Panel> pictures, crops;
     for (std::size_t i = 4 * half; i < 4 * half + 4; ++i) {
@@ -73,10 +74,10 @@ void add_boards(const Scene& scene, int side, int crop_y, std::array<double, 8>&
       const int x = side / 2, y = crop_y;
       pictures.push_back({marked(all[i].picture, x, y, factor, side), caption});
       crops.push_back({crop_of(all[i].picture, x, y, factor, side), ""});
-      errors[i] = all[i].error;
     }
-    figure.rows.push_back(std::move(pictures)), figure.rows.push_back(std::move(crops));
+    rows.push_back(std::move(pictures)), rows.push_back(std::move(crops));
   }
+  return rows;
 }
 
 constexpr std::string_view boards[] = {"checkerboard", "bricks"};
@@ -86,12 +87,12 @@ Lesson make(const DemoSize& size, const Settings& settings) {
   const int side = size.panel;
   const bool has_bricks = settings.chosen("board") == "bricks";
   const Rgba8Image wall = has_bricks ? shown(make_pattern("bricks")) : Rgba8Image();
-  Figure figure{.title = "Texture filters: what a pixel takes of the texture under it"};
-  std::array<double, 8> errors{};
-  add_boards(board(has_bricks ? &wall : nullptr), side, side * (has_bricks ? 56 : 45) / 100, errors, figure);
+  const std::array<Measured, 8> all = shoot_all(board(has_bricks ? &wall : nullptr), side);
+  Figure figure{.title = "Texture filters: what a pixel takes of the texture under it",
+                .rows = rows_of(all, side, side * (has_bricks ? 56 : 45) / 100)};
   Table table{{"filter", "error"}, {}};
   for (std::size_t i = 0; i < reduced.size(); ++i)
-    table.rows.push_back({reduced[i].filter, number(100 * errors[i], 2) + " %"});
+    table.rows.push_back({reduced[i].filter, number(100 * all[i].error, 2) + " %"});
   figure.text = fmt::format(
       "A board of {0} × {0} pixels, turned by 45°, one sample per pixel; the frames mark the regions that are enlarged "
       "{1} times. Errors: root mean square of the difference from 1024 samples per pixel in linear light, in percent "
