@@ -139,6 +139,7 @@ ReceiversOfPixels find_ground(const Scene& scene, const LinesOfSight& lines) {
           store(at, out.position), store(square.up, out.face), store(square.up, out.normal);
           out.margin[i] = square.margin;
           store_image_position(256 * pixels[i].x + 128, 256 * pixels[i].y + 128, out, i);
+          out.surface[i] = 0;
         }
       };
 }

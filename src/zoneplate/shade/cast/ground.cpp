@@ -93,6 +93,7 @@ void Ground::shade(const FragmentBatch& batch, FragmentOutputs& out) const {
     if (visibility_.needs_footprint())
       store_footprint(batch, i, corner(1) - corner(0), corner(2) - corner(0), receivers);
     store_image_position(batch.x[i], batch.y[i], receivers, i);
+    receivers.surface[i] = 0;
   }
 
   // The radiance of a white diffuse surface under the lights, and the part of it that arrives.

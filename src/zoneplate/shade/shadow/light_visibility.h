@@ -23,6 +23,7 @@ struct Receivers {
   alignas(64) float margin[capacity];
   alignas(64) std::int32_t x[capacity], y[capacity];  ///< in the image, as in FragmentBatch
   alignas(64) std::uint32_t seed[capacity];           ///< hash of x and y
+  alignas(64) std::uint32_t surface[capacity];        ///< the instance; 0 on the ground
   /// Half of the change of the position from one pixel to the next, shortened so that position ± dx ± dy stay within
   /// the triangle; zero where LightVisibility::needs_footprint is false.
   alignas(64) float dx[3][capacity], dy[3][capacity];

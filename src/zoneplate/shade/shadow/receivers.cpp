@@ -97,6 +97,7 @@ void make_receiver(const Scene& scene, const RayHit& hit, const float* const (&c
   const float4x4& world = scene.instances[hit.instance].world_from_object;
   store(triangle_of(world, normal_matrix(world), corner, viewer), hit.b1, hit.b2, out, i);
   store_image_position(256 * pixel.x + 128, 256 * pixel.y + 128, out, i);
+  out.surface[i] = hit.instance;
 }
 
 void make_receivers(const Scene& scene, const FragmentBatch& batch, const ReceiverRecord& record,
@@ -121,6 +122,7 @@ void make_receivers(const Scene& scene, const FragmentBatch& batch, const Receiv
       store_footprint(batch, i, triangle.position[1] - triangle.position[0],
                       triangle.position[2] - triangle.position[0], out);
     store_image_position(batch.x[i], batch.y[i], out, i);
+    out.surface[i] = known_instance;
   }
 }
 

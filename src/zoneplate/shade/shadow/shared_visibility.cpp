@@ -13,7 +13,7 @@ void copy_entry(const Receivers& from, int i, Receivers& to, int k) {
   };
   copy(from.position, to.position), copy(from.face, to.face), copy(from.normal, to.normal);
   copy(from.dx, to.dx), copy(from.dy, to.dy);
-  to.margin[k] = from.margin[i], to.seed[k] = from.seed[i];
+  to.margin[k] = from.margin[i], to.seed[k] = from.seed[i], to.surface[k] = from.surface[i];
   to.x[k] = from.x[i], to.y[k] = from.y[i];
 }
 
@@ -22,7 +22,9 @@ void copy_entry(const Receivers& from, int i, Receivers& to, int k) {
 SharedVisibility::SharedVisibility(const TracedVisibility& rays, int lights, const ShadowOptions& shadows,
                                    const OcclusionOptions& occlusion, Image image)
     : rays_(rays), image_(std::move(image)) {
-  if (shadows.method == ShadowMethod::Soft && shadows.spacing > 1)
+  // Fewer rays cost less than what is interpolated.
+  constexpr int fewest = 16;
+  if (shadows.method == ShadowMethod::Soft && shadows.spacing > 1 && shadows.samples >= fewest)
     for (int k = 0; k < lights; ++k) lights_.push_back(make_query(shadows.spacing, shadows.samples));
   if (occlusion.samples > 0) environment_ = make_query(occlusion.spacing, occlusion.samples);
 }
@@ -59,9 +61,12 @@ void SharedVisibility::evaluate(bool is_ground, std::span<const PixelPosition> p
   for (std::size_t k = 0; k < pixels.size(); ++k) {
     const int i = static_cast<int>(k);
     values[k] = {};
-    if (!found[k] || !rays.is_lit(seen, i)) continue;
-    values[k].position = {seen.position[0][k], seen.position[1][k], seen.position[2][k]};
-    values[k].normal = {seen.normal[0][k], seen.normal[1][k], seen.normal[2][k]};
+    if (!found[k]) continue;
+    values[k] = {{seen.position[0][k], seen.position[1][k], seen.position[2][k]},
+                 {seen.normal[0][k], seen.normal[1][k], seen.normal[2][k]},
+                 VisibilityGrid::Value::unlit,
+                 seen.surface[k]};
+    if (!rays.is_lit(seen, i)) continue;
     from[static_cast<std::size_t>(lit.count)] = k;
     copy_entry(seen, i, lit, lit.count++);
   }

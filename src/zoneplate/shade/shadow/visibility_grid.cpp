@@ -3,22 +3,29 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <utility>
 
 #include "zoneplate/base/out_of_memory.h"
+#include "zoneplate/math/random.h"
 
 namespace zoneplate {
 namespace {
 
-/// Points of a cell's neighbourhood along one axis, of which the second is the cell's own.
+/// Cells of a neighbourhood along one axis, of which the second is the receiver's own.
 constexpr int width = 4;
-/// Points along a side of a block.
+/// The most pixels of a cell.
+constexpr int most_per_cell = 2;
+/// Cells along a side of a block.
 constexpr int block_side = 16;
 
 /// Of the normals of points of one surface.
 constexpr float least_cosine = 0.98f;
-/// The greatest cosine of half the sum of two normals with the line between their points.
-constexpr float greatest_slope = 0.15f;
+/// The greatest sine of the angle between the line of two points and the plane across the sum of their normals: this at
+/// least, and the sine of the angle between the normals. It is 0 on a circle.
+constexpr float least_slope = 0.1f;
+/// The sine of the slope from which on a point is above a surface, whose other points are no lower.
+constexpr float occluding_slope = 0.15f;
 /// The least sum of the weights of the points on the surface; that of all is 1.
 constexpr float least_weight = 0.3f;
 /// The fewest such points.
@@ -28,40 +35,32 @@ constexpr float greatest_deviation = 0.03f;
 /// The variance of the mean of evenly distributed rays, relative to that of as many independent ones.
 constexpr float evenness = 0.3f;
 /// Weight of a plane without slope, relative to that of the points: where these lie on a line, it decides across.
-constexpr float flatness = 0.02f;
+constexpr float flatness = 0.005f;
 
 /// Rounds down.
 int quotient(int a, int b) { return a / b - (a % b < 0); }
 
-/// The cubic B-spline at the points -1, 0, 1 and 2 from a place t after point 0.
-std::array<float, width> spline(float t) {
-  const float s = 1 - t;
+/// The cubic B-spline.
+float spline(float t) {
   constexpr float sixth = 1 / 6.0f;
-  return {s * s * s * sixth, (4 - 6 * t * t + 3 * t * t * t) * sixth, (4 - 6 * s * s + 3 * s * s * s) * sixth,
-          t * t * t * sixth};
+  const float d = std::abs(t), rest = std::max(0.0f, 2 - d);
+  return (d < 1 ? 4 - 6 * d * d + 3 * d * d * d : rest * rest * rest) * sixth;
 }
 
-/// Points about a cell.
-constexpr std::size_t neighbours = std::size_t{width} * width;
-using OfNeighbours = std::array<float, neighbours>;
+/// The most pixels about a cell.
+constexpr std::size_t most_neighbours = std::size_t{width} * width * most_per_cell;
+using OfNeighbours = std::array<float, most_neighbours>;
 
 /// Weighted moments of places (x, y) and values.
 struct Moments {
   float one = 0, x = 0, y = 0, xx = 0, xy = 0, yy = 0, f = 0, xf = 0, yf = 0, ff = 0;
 
-  Moments(const OfNeighbours& weight, const OfNeighbours& value, float u, float v) {
-    for (int b = 0; b < width; ++b) {
-      // The sums of a row, in which y is constant.
-      float row_one = 0, row_x = 0, row_xx = 0, row_f = 0, row_xf = 0;
-      const float py = static_cast<float>(b - 1) - v;
-      for (int a = 0; a < width; ++a) {
-        const auto k = static_cast<std::size_t>(b * width + a);
-        const float px = static_cast<float>(a - 1) - u, wx = weight[k] * px, wf = weight[k] * value[k];
-        row_one += weight[k], row_x += wx, row_xx += wx * px;
-        row_f += wf, row_xf += wx * value[k], ff += wf * value[k];
-      }
-      one += row_one, x += row_x, xx += row_xx, f += row_f, xf += row_xf;
-      y += row_one * py, xy += row_x * py, yy += row_one * py * py, yf += row_f * py;
+  Moments(const OfNeighbours& weight, const OfNeighbours& value, const OfNeighbours& px, const OfNeighbours& py,
+          std::size_t count) {
+    for (std::size_t k = 0; k < count; ++k) {
+      const float wx = weight[k] * px[k], wy = weight[k] * py[k], wf = weight[k] * value[k];
+      one += weight[k], x += wx, y += wy, xx += wx * px[k], xy += wx * py[k], yy += wy * py[k];
+      f += wf, xf += wx * value[k], yf += wy * value[k], ff += wf * value[k];
     }
   }
 };
@@ -88,6 +87,7 @@ struct VisibilityGrid::Point {
   std::atomic<bool> is_known = false;
   std::atomic<float> visible = Value::nothing;
   std::array<std::atomic<float>, 3> position, normal;
+  std::atomic<std::uint32_t> surface;
 
   void store(const Value& v) {
     const auto put = [](std::array<std::atomic<float>, 3>& to, float3 from) {
@@ -96,30 +96,34 @@ struct VisibilityGrid::Point {
       to[2].store(from.z, std::memory_order_relaxed);
     };
     put(position, v.position), put(normal, v.normal);
+    surface.store(v.surface, std::memory_order_relaxed);
     visible.store(v.visible, std::memory_order_relaxed);
     is_known.store(true, std::memory_order_release);
   }
 };
 
 struct VisibilityGrid::Block {
-  std::array<Point, std::size_t{block_side} * block_side> points;
+  std::array<Point, std::size_t{block_side} * block_side * most_per_cell> points;
 };
 
-/// The points about a cell: by coordinate, then by row and column.
+/// The pixels about a cell: by coordinate, then by row, column and number.
 struct VisibilityGrid::Neighbours {
+  OfNeighbours x, y;  ///< along the axes of the lattice, from the cell's point
   std::array<OfNeighbours, 3> position, normal;
+  std::array<std::uint32_t, most_neighbours> surface;
   OfNeighbours visible;
+  std::size_t count = 0;
   bool is_even = true;  ///< all have the same value
 };
 
 VisibilityGrid::VisibilityGrid(int step, int w, int h, int rays)
-    : step_(step), noise_(evenness / static_cast<float>(rays)) {
+    : step_(step), per_cell_(step > 2 ? most_per_cell : 1), noise_(evenness / static_cast<float>(rays)) {
   const int det = step * step + 1;
-  // Point (i, j) is the pixel (step i - j, i + step j).
-  first_i_ = -1, first_j_ = quotient(-w, det) - 1;
+  // Those about the cells of positions in the image, which are half a pixel beyond the outer pixels' centres.
+  first_i_ = -2, first_j_ = quotient(-w - step, det) - 1;
   const int last_i = (step * w + h) / det + width, last_j = step * h / det + width;
   row_ = (last_i - first_i_) / block_side + 1;
-  growing("shared visibility", [&] {
+  growing("sharing of visibility", [&] {
     blocks_ = std::vector<std::atomic<Block*>>(static_cast<std::size_t>(row_) *
                                                static_cast<std::size_t>((last_j - first_j_) / block_side + 1));
   });
@@ -138,23 +142,35 @@ VisibilityGrid::Cell VisibilityGrid::cell_of(const Receivers& receivers, int k) 
   return {i, j, static_cast<float>(along - i * whole) * scale, static_cast<float>(down - j * whole) * scale};
 }
 
+PixelPosition VisibilityGrid::pixel_of(int i, int j, int n) const {
+  // A place in [0, step) along both axes: x in its own part of them.
+  const auto place = [&](int from, int to, int axis) {
+    const std::uint32_t random =
+        hash(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(2 * n + axis));
+    return from + static_cast<int>(random % static_cast<std::uint32_t>(to - from));
+  };
+  return {step_ * i - j + place(step_ * n / per_cell_, step_ * (n + 1) / per_cell_, 0) - step_ / 2,
+          i + step_ * j + place(0, step_, 1) - step_ / 2};
+}
+
 /// The first thread that needs a block makes it.
-VisibilityGrid::Point& VisibilityGrid::point(int i, int j) {
+VisibilityGrid::Point& VisibilityGrid::point(int i, int j, int n) {
   const auto column = static_cast<unsigned>(i - first_i_), row = static_cast<unsigned>(j - first_j_);
   assert(i >= first_i_ && j >= first_j_ && static_cast<int>(column / block_side) < row_);
   std::atomic<Block*>& block =
       blocks_[std::size_t{row / block_side} * static_cast<std::size_t>(row_) + column / block_side];
   Block* found = block.load(std::memory_order_acquire);
   if (found == nullptr) {
-    auto made = growing("shared visibility", [] { return std::make_unique<Block>(); });
+    auto made = growing("sharing of visibility", [] { return std::make_unique<Block>(); });
     if (block.compare_exchange_strong(found, made.get(), std::memory_order_acq_rel)) found = made.release();
   }
-  return found->points[row % block_side * block_side + column % block_side];
+  return found
+      ->points[(row % block_side * block_side + column % block_side) * most_per_cell + static_cast<unsigned>(n)];
 }
 
 void VisibilityGrid::evaluate_missing(const Receivers& receivers, std::span<const int> which,
                                       const Evaluate& evaluate) {
-  std::vector<std::pair<int, int>> missing;  // (j, i)
+  std::vector<std::array<int, 3>> missing;  // j, i and number
   Cell last{first_i_ - width, first_j_ - width, 0, 0};
   for (const int k : which) {
     const Cell cell = cell_of(receivers, k);
@@ -164,7 +180,8 @@ void VisibilityGrid::evaluate_missing(const Receivers& receivers, std::span<cons
     };
     for (int j = cell.j - 1; j < cell.j - 1 + width; ++j)
       for (int i = cell.i - 1; i < cell.i - 1 + width; ++i)
-        if (!was_seen(i, j) && !point(i, j).is_known.load(std::memory_order_acquire)) missing.emplace_back(j, i);
+        for (int n = 0; n < per_cell_ && !was_seen(i, j); ++n)
+          if (!point(i, j, n).is_known.load(std::memory_order_acquire)) missing.push_back({j, i, n});
     last = cell;
   }
   std::sort(missing.begin(), missing.end());
@@ -175,20 +192,29 @@ void VisibilityGrid::evaluate_missing(const Receivers& receivers, std::span<cons
   for (std::size_t first = 0; first < missing.size(); first += pixels.size()) {
     const std::size_t count = std::min(pixels.size(), missing.size() - first);
     for (std::size_t k = 0; k < count; ++k) {
-      const auto [j, i] = missing[first + k];
-      pixels[k] = {step_ * i - j, i + step_ * j};
+      const auto [j, i, n] = missing[first + k];
+      pixels[k] = pixel_of(i, j, n);
     }
     evaluate({pixels.data(), count}, values.data());
-    for (std::size_t k = 0; k < count; ++k) point(missing[first + k].second, missing[first + k].first).store(values[k]);
+    for (std::size_t k = 0; k < count; ++k) {
+      const auto [j, i, n] = missing[first + k];
+      point(i, j, n).store(values[k]);
+    }
   }
 }
 
 VisibilityGrid::Neighbours VisibilityGrid::neighbours_of(const Cell& cell) {
   Neighbours out;
-  std::size_t k = 0;
+  const float scale = 1 / static_cast<float>(step_ * step_ + 1);
+  std::size_t& k = out.count;
   for (int j = cell.j - 1; j < cell.j - 1 + width; ++j)
-    for (int i = cell.i - 1; i < cell.i - 1 + width; ++i, ++k) {
-      const Point& p = point(i, j);
+    for (int place = 0; place < width * per_cell_; ++place, ++k) {
+      const int i = cell.i - 1 + place / per_cell_, n = place % per_cell_;
+      const Point& p = point(i, j, n);
+      const PixelPosition pixel = pixel_of(i, j, n);
+      out.x[k] = static_cast<float>(step_ * pixel.x + pixel.y) * scale - static_cast<float>(cell.i);
+      out.y[k] = static_cast<float>(step_ * pixel.y - pixel.x) * scale - static_cast<float>(cell.j);
+      out.surface[k] = p.surface.load(std::memory_order_relaxed);
       for (std::size_t c = 0; c < 3; ++c) {
         out.position[c][k] = p.position[c].load(std::memory_order_relaxed);
         out.normal[c][k] = p.normal[c].load(std::memory_order_relaxed);
@@ -201,28 +227,38 @@ VisibilityGrid::Neighbours VisibilityGrid::neighbours_of(const Cell& cell) {
 
 float VisibilityGrid::at(const Receivers& r, int i, const Cell& cell, const Neighbours& near) const {
   if (r.is_ground && near.is_even) return near.visible[0];
-  const std::array<float, width> across = spline(cell.u), down = spline(cell.v);
-  OfNeighbours weight;
-  for (std::size_t k = 0; k < neighbours; ++k) weight[k] = across[k % width] * down[k / width];
-  float least = 1, greatest = 0;
+  OfNeighbours weight, across, down, above;
+  float least = 1, greatest = 0, reach = 0;
   int count = 0;
   const auto& [px, py, pz] = near.position;
   const auto& [nx, ny, nz] = near.normal;
-  for (std::size_t k = 0; k < neighbours; ++k) {
+  for (std::size_t k = 0; k < near.count; ++k) {
     const float x = px[k] - r.position[0][i], y = py[k] - r.position[1][i], z = pz[k] - r.position[2][i];
     const float a = r.normal[0][i], b = r.normal[1][i], c = r.normal[2][i];
     const float cosine = nx[k] * a + ny[k] * b + nz[k] * c;
     const float rise = x * (nx[k] + a) + y * (ny[k] + b) + z * (nz[k] + c);
-    constexpr float steepest = 4 * greatest_slope * greatest_slope;
-    const bool is_on_surface = near.visible[k] != Value::nothing && cosine >= least_cosine &&
-                               rise * rise <= steepest * (x * x + y * y + z * z);
+    const float steepest = 4 * (least_slope * least_slope + std::max(0.0f, 1 - cosine * cosine));
+    across[k] = near.x[k] - cell.u, down[k] = near.y[k] - cell.v;
+    weight[k] = spline(across[k]) * spline(down[k]);
+    const float distance = x * x + y * y + z * z, height = x * a + y * b + z * c;
+    const bool is_of_surface =
+        near.surface[k] == r.surface[i] && cosine >= least_cosine && rise * rise <= steepest * distance;
+    const bool is_on_surface = weight[k] > 0 && is_of_surface && near.visible[k] >= 0;
+    const bool is_above = weight[k] > 0 && !is_of_surface && near.visible[k] != Value::nothing && height > 0 &&
+                          height * height > occluding_slope * occluding_slope * distance;
+    above[k] = is_above ? distance : HUGE_VALF;
+    reach = is_on_surface ? std::max(reach, distance) : reach;
     weight[k] = is_on_surface ? weight[k] : 0;
     count += is_on_surface;
     least = is_on_surface ? std::min(least, near.visible[k]) : least;
     greatest = is_on_surface ? std::max(greatest, near.visible[k]) : greatest;
   }
   if (count < least_points) return Value::nothing;
-  const Moments moments(weight, near.visible, cell.u, cell.v);
+  constexpr float close = 4;  // twice as far
+  if (std::any_of(above.begin(), above.begin() + static_cast<std::ptrdiff_t>(near.count),
+                  [&](float distance) { return distance <= close * reach; }))
+    return Value::nothing;
+  const Moments moments(weight, near.visible, across, down, near.count);
   if (moments.one < least_weight) return Value::nothing;
   if (least == greatest) return least;
   const FittedPlane plane = fit(moments);

@@ -15,14 +15,16 @@ namespace zoneplate {
 
 /// The visibility of one light at some pixels of the image, from which that of the fragments between is interpolated.
 ///
-/// The pixels are a square lattice whose rows rise one pixel in `step`, so that no row or column of the image lies
-/// between the points of the lattice. A point is evaluated when the first fragment near it asks, for the surface that
-/// the centre of its pixel shows, whoever asks: what a fragment gets depends on its position, its surface and the scene
-/// only.
+/// Two pixels lie in every cell of a square lattice whose rows rise one pixel in `step`, or one where `step` is 2, each
+/// at a place that a hash of the cell's indices chooses, so that shadows of one period cannot lie between them. A pixel
+/// is evaluated when the first fragment near it asks, for the surface that its centre shows, whoever asks: what a
+/// fragment gets depends on its position, its surface and the scene only.
 ///
-/// A fragment uses those of the 4 × 4 nearest points that lie on its surface: the normals differ by less than 11.5
-/// degrees, and the points lie in each other's tangent planes as those of a smooth surface do. A plane is fitted to
-/// their values, weighted by a cubic B-spline, and gives the fragment's value if they lie close to it.
+/// A fragment uses the pixels of the 4 × 4 nearest cells that lie on its surface: of the same instance, with a normal
+/// that differs by less than 11.5 degrees, and in each other's tangent planes as far as those of a smooth surface are,
+/// which points of two parallel surfaces are not. A plane is fitted to their values, weighted by a cubic B-spline, and
+/// gives the fragment's value if they lie close to it, and if none of the others lies close above the surface, whose
+/// shadow may begin between them.
 ///
 /// Exact     scalar arithmetic in one order; the same for any number of threads, instruction set and crop.
 /// Source    Ward, Rubinstein and Clear, A Ray Tracing Solution for Diffuse Interreflection, SIGGRAPH 1988, with moving
@@ -34,7 +36,9 @@ class VisibilityGrid {
   struct Value {
     float3 position, normal;
     float visible = nothing;
-    static constexpr float nothing = -1;  ///< no surface, or none that faces the light
+    std::uint32_t surface = 0;            ///< as Receivers::surface
+    static constexpr float nothing = -1;  ///< no surface
+    static constexpr float unlit = -2;    ///< a surface that does not face the light
   };
   /// Stores the values of at most FragmentBatch::capacity pixels.
   using Evaluate = std::function<void(std::span<const PixelPosition> pixels, Value* values)>;
@@ -56,19 +60,20 @@ class VisibilityGrid {
   struct Block;
   struct Neighbours;
   struct Cell {
-    int i, j;    ///< of the point before the receiver along both axes of the lattice
+    int i, j;    ///< of the lattice's point before the receiver along both of its axes
     float u, v;  ///< from there to the receiver, in [0, 1)
     bool is_that_of(const Cell& other) const { return i == other.i && j == other.j; }
   };
   Cell cell_of(const Receivers& receivers, int i) const;
-  Point& point(int i, int j);
+  PixelPosition pixel_of(int i, int j, int n) const;
+  Point& point(int i, int j, int n);
   void evaluate_missing(const Receivers& receivers, std::span<const int> which, const Evaluate& evaluate);
   Neighbours neighbours_of(const Cell& cell);
   float at(const Receivers& receivers, int i, const Cell& cell, const Neighbours& neighbours) const;
 
-  int step_;
+  int step_, per_cell_;          ///< pixels between the lattice's points; pixels of a cell
   float noise_;                  ///< the variance of a value of 1/2 by its rays, times 4
-  int first_i_, first_j_, row_;  ///< of the blocks: the least indices of points, and the blocks of a row
+  int first_i_, first_j_, row_;  ///< of the blocks: the least indices of cells, and the blocks of a row
   std::vector<std::atomic<Block*>> blocks_;
 };
 
