@@ -203,6 +203,18 @@ TEST_F(Options, LightsThatWouldClipASceneToWhiteAreDimmed) {
   for (const char* options : {"--exposure 0", "--light-intensity 1"})
     EXPECT_EQ(middle(rendered(fmt::format("bright.gltf {}", options))), (Rgba8{255, 255, 255, 255})) << options;
   EXPECT_FALSE(contains(run("bright.gltf -o a.exr --size 64").out, "dimmed"));
+  // Coloured surfaces clip as grey ones do; what emits light of its own is not dimmed.
+  const auto with_material = [](const std::string& text) {
+    std::string file = bright_gltf();
+    const std::string old = R"({"pbrMetallicRoughness": {"metallicFactor": 0}})";
+    return file.replace(file.find(old), old.size(), text);
+  };
+  write("red.gltf",
+        with_material(R"({"pbrMetallicRoughness": {"metallicFactor": 0, "baseColorFactor": [1, 0, 0, 1]}})"));
+  EXPECT_TRUE(contains(run("red.gltf -o a.png --size 64").out, "dimmed"));
+  write("glow.gltf", with_material(R"({"pbrMetallicRoughness": {"baseColorFactor": [0, 0, 0, 1], "roughnessFactor": 1},
+                                       "emissiveFactor": [1, 1, 1]})"));
+  EXPECT_FALSE(contains(run("glow.gltf -o a.png --size 64").out, "dimmed"));
 }
 
 TEST_F(Options, AModelThatCannotBeSeenIsWarnedAbout) {

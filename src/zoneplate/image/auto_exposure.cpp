@@ -8,7 +8,7 @@
 namespace zoneplate {
 
 float auto_exposure(const LinearImage& image) {
-  constexpr float target = 0.8f, most = 0x1p24f;
+  constexpr float target = 0.8f, most = 0x1p100f;
   std::vector<float> brightness;
   for (const Linear& c : image.values()) {
     const float greatest = std::max({c.r, c.g, c.b});

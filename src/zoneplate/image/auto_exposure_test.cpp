@@ -25,8 +25,8 @@ TEST(AutoExposure, CountsCoveredPixelsWithLight) {
 
 TEST(AutoExposure, HasLimits) {
   const float infinity = std::numeric_limits<float>::infinity();
-  EXPECT_EQ(auto_exposure(LinearImage(1, 1, Linear{infinity, 0, 0, 1})), 0x1p-24f);
-  EXPECT_EQ(auto_exposure(LinearImage(1, 1, Linear{1e-20f, 0, 0, 1})), 0x1p24f);
+  EXPECT_EQ(auto_exposure(LinearImage(1, 1, Linear{infinity, 0, 0, 1})), 0x1p-100f);
+  EXPECT_EQ(auto_exposure(LinearImage(1, 1, Linear{1e-37f, 0, 0, 1})), 0x1p100f);
 }
 
 }  // namespace

@@ -168,8 +168,8 @@ Frame frame_of(const FrameFiles& files, LinearImage color, const SequenceFilter&
       throw Error(
           ErrorKind::Input,
           fmt::format("{}: pixel ({}, {}) has depth {} and motion ({}, {}), expected a distance and finite numbers",
-                      files.depth, i % static_cast<std::size_t>(width), i / static_cast<std::size_t>(width), depth,
-                      found.x, found.y));
+                      std::isnan(depth) || depth < 0 ? files.depth : files.motion, i % static_cast<std::size_t>(width),
+                      i / static_cast<std::size_t>(width), depth, found.x, found.y));
     const bool is_empty = depth >= farthest;
     depth = std::min(depth, farthest);
     frame.reversed_depth.values()[i] = near / std::max(depth, near);

@@ -5,6 +5,8 @@
 #include FT_FREETYPE_H
 #include FT_OUTLINE_H
 
+#include <fmt/format.h>
+
 #include <filesystem>
 
 #include "zoneplate/base/callback_error.h"
@@ -71,7 +73,10 @@ bool Font::load(char32_t code) const {
 
 sdf::Outline Font::outline(char32_t code) const {
   sdf::Outline out;
-  if (!load(code) || face_->glyph->format != FT_GLYPH_FORMAT_OUTLINE) return out;
+  if (!load(code))
+    throw Error(ErrorKind::Input,
+                fmt::format("the font's glyph of U+{:04X} cannot be read", static_cast<std::uint32_t>(code)));
+  if (face_->glyph->format != FT_GLYPH_FORMAT_OUTLINE) return out;
   GlyphPen pen{sdf::Pen(out), 1 / em()};
   FT_Outline_Funcs functions{};
   functions.move_to = [](const FT_Vector* to, void* user) {

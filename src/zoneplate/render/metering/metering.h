@@ -10,7 +10,7 @@
 
 namespace zoneplate {
 
-/// The part of a picture's surfaces from which on it counts as clipped.
+/// The part of an image's surfaces from which on it counts as clipped.
 inline constexpr double least_white = 0.25;
 
 /// The image that light is metered in: linear, of the whole view, at most 256 pixels along the longer side.
@@ -29,7 +29,8 @@ struct LightDimming {
 };
 
 /// The factor that brings the lights of a scene that needs a fill light (Scene::needs_fill_light) to the brightness of
-/// auto_exposure, where they would clip the part least_white of its surfaces or more to white; 1 for all others.
+/// auto_exposure, where they would clip the luminance of the part least_white of its surfaces or more; 1 for all
+/// others. What the fill light and emission make of a picture does not count.
 ///
 /// It is a property of the scene, so that views of it are alike: the least of the factors of the whole-scene view and
 /// of the scene's first camera, 256 pixels wide and high. Exporters write thousands of candelas and lux. The fill light

@@ -183,7 +183,10 @@ void TextureSet::find_uses(const Scene& scene) {
       const TextureImage& image = scene.images.at(static_cast<std::size_t>(use.image));
       if (image.pixels.empty()) throw Error(ErrorKind::Input, "texture " + image.name + ": has no texels");
       LevelOptions options{mips_.filter, use.sampler.wrap_u, use.sampler.wrap_v, {}};
-      const bool has_alpha = material.alpha_mode != AlphaMode::Opaque && &use == &material.base_color_texture;
+      // A cutoff of 0 leaves every texel visible.
+      const bool has_alpha = (material.alpha_mode == AlphaMode::Blend ||
+                              (material.alpha_mode == AlphaMode::Mask && material.alpha_cutoff > 0)) &&
+                             &use == &material.base_color_texture;
       if (mips_.keeps_coverage && has_alpha && material.alpha_mode == AlphaMode::Mask)
         options.kept_cutoff = material.alpha_cutoff;
       options.weights_by_alpha = mips_.weights_by_alpha && has_alpha;

@@ -160,12 +160,12 @@ TEST(TextureSet, AnImageIsThereOnceForEachMeaning) {
 TEST(TextureSet, BaseColoursAreWeightedByAlphaWhereItCounts) {
   Rgba8Image pixels(2, 1, Rgba8{255, 0, 0, 255});
   pixels(1, 0) = {0, 255, 0, 0};
-  const auto green = [&](std::initializer_list<AlphaMode> modes, const MipOptions& mips) {
+  const auto green = [&](std::initializer_list<AlphaMode> modes, const MipOptions& mips, float cutoff = 0.5f) {
     Scene scene = flat_triangle();
     scene.images = {{"leaf", pixels}};
     for (const AlphaMode mode : modes) {
       Material m = scene.materials[0];
-      m.alpha_mode = mode, m.base_color_texture.image = 0;
+      m.alpha_mode = mode, m.alpha_cutoff = cutoff, m.base_color_texture.image = 0;
       scene.materials.push_back(m);
     }
     const TextureSet set(scene, mips);
@@ -173,6 +173,7 @@ TEST(TextureSet, BaseColoursAreWeightedByAlphaWhereItCounts) {
     return view.unorm15[4 * view.texel(0, 1, 0) + 1];
   };
   EXPECT_EQ(green({AlphaMode::Mask}, {}), 0);
+  EXPECT_EQ(green({AlphaMode::Mask}, {}, 0), 32767);
   EXPECT_EQ(green({AlphaMode::Blend, AlphaMode::Mask}, {}), 0);
   EXPECT_EQ(green({AlphaMode::Blend}, {.weights_by_alpha = false}), 32767);
   EXPECT_EQ(green({AlphaMode::Opaque}, {}), 32767);

@@ -185,10 +185,14 @@ LinearImage SampleMean::resolved(const TaauInput& frame, const LinearImage& colo
                                .most_borrowed = std::max(most_borrowed_samples, most_borrowed_frames * frame_weight),
                                .history = is_first ? nullptr : floats_of(history_),
                                .count = count_.values().data()};
-  // exp(-2.29 d²), with d in output pixels: a Gaussian near to the Blackman-Harris window of Karis 2014, by axis.
+  // exp(-2.29 d²), with d in output pixels: a Gaussian near to the Blackman-Harris window of Karis 2014, by axis. Where
+  // all samples are farther than 4 pixels, at scales above 8, it is raised for all of them, so that it does not vanish.
   const auto weight = [](float offset, int k, float scale) {
-    const float d = (static_cast<float>(k - 1) - offset) * scale;
-    return exp(-2.29f * (d * d));
+    const auto square = [&](int at) {
+      const float d = (static_cast<float>(at - 1) - offset) * scale;
+      return d * d;
+    };
+    return exp(-2.29f * (square(k) - std::max(0.0f, std::min({square(0), square(1), square(2)}) - 16)));
   };
   std::vector<float> weights[3];
   for (int k = 0; k < 3; ++k)

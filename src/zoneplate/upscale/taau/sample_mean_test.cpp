@@ -77,10 +77,13 @@ TEST(SampleMean, AMotionByWholePixelsKeepsTheBits) {
 }
 
 TEST(SampleMean, OneColourStaysThatColour) {
-  SampleMean mean(67, 41);  // a scale of its own along each axis
-  for (int i = 0; i < 5; ++i) {
-    const LinearImage image = mean.accumulate(frame_of([](double, double, int) { return 0.3; }, i, {0.3f, -1.7f}));
-    for (const Linear& c : image.values()) ASSERT_EQ(c, (Linear{0.3f, 0.15f, 0.075f, 1}));
+  // A scale of its own along each axis, and one at which samples lie far from some pixels.
+  for (const auto& [w, h] : {std::pair(67, 41), std::pair(15 * width, 12 * height)}) {
+    SampleMean mean(w, h);
+    for (int i = 0; i < 5; ++i) {
+      const LinearImage image = mean.accumulate(frame_of([](double, double, int) { return 0.3; }, i, {0.3f, -1.7f}));
+      for (const Linear& c : image.values()) ASSERT_EQ(c, (Linear{0.3f, 0.15f, 0.075f, 1})) << w;
+    }
   }
 }
 
