@@ -15,11 +15,11 @@ namespace zoneplate {
 /// The ending of a path in lower case, with its dot.
 std::string extension_of(const std::string& path);
 
-/// Requires that an image that is not opaque is written to a format with alpha, which .jpg, .jpeg, .pfm, .mp4, .mov and
-/// .mkv are not.
+/// Requires that an image that is not opaque is written to a format with alpha, which those of the endings .jpg, .jpeg,
+/// .pfm, .mp4, .mov and .mkv are not; `extension` is as extension_of returns it.
 ///
-/// Errors    ErrorKind::Usage naming the path, its format and those with alpha.
-void check_alpha(const std::string& path);
+/// Errors    ErrorKind::Usage with `name` in front, the format and those with alpha.
+void check_alpha(std::string_view extension, const std::string& name);
 
 /// Saves a display-referred image in the format of the path's ending: .png, .jpg, .jpeg or .webp, or .avif or .jxl,
 /// whose libraries are opened.

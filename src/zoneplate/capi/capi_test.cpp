@@ -121,6 +121,39 @@ TEST(Capi, RendersTheBytesOfTheRenderer) {
   }
 }
 
+// The formats without alpha refuse it in files and in memory alike, and take the image over a background.
+TEST(Capi, FormatsWithoutAlphaRefuseIt) {
+  const SceneHandle scene = load("teapot");
+  const auto check = [&](const ImageHandle& image, const char* format, zoneplate_status expected) {
+    const std::string path = testing::TempDir() + "zoneplate_capi_alpha." + format;
+    const auto has_refused = [&](zoneplate_status status, const std::string& name) {
+      EXPECT_EQ(status, expected) << name;
+      if (expected == ZONEPLATE_OK) return;
+      EXPECT_TRUE(std::string(zoneplate_error_text()).starts_with(name + ": the image is not opaque, and "))
+          << zoneplate_error_text();
+    };
+    has_refused(zoneplate_image_save(image.get(), path.c_str()), path);
+    EXPECT_EQ(std::ifstream(path).good(), expected == ZONEPLATE_OK) << path;
+    std::remove(path.c_str());
+    zoneplate_image* bytes = nullptr;
+    has_refused(zoneplate_image_encode(image.get(), format, &bytes), std::string("'") + format + "'");
+    EXPECT_EQ(bytes != nullptr, expected == ZONEPLATE_OK);
+    zoneplate_image_free(bytes);
+  };
+  zoneplate_render_options options = small;
+  for (const zoneplate_status expected : {ZONEPLATE_OK, ZONEPLATE_USAGE}) {
+    options.is_transparent = expected == ZONEPLATE_USAGE;
+    options.form = ZONEPLATE_SRGB8;
+    const ImageHandle codes = render(scene.get(), options);
+    for (const char* format : {"jpg", "jpeg"}) check(codes, format, expected);
+    check(codes, "webp", ZONEPLATE_OK);
+    options.form = ZONEPLATE_LINEAR;
+    const ImageHandle light = render(scene.get(), options);
+    check(light, "pfm", expected);
+    check(light, "exr", ZONEPLATE_OK);
+  }
+}
+
 TEST(Capi, GivesDataPassesAsViews) {
   zoneplate_render_options options = small;
   options.passes = "depth,normal,object-id,crypto-object";

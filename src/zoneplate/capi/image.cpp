@@ -30,30 +30,34 @@ zoneplate_type type_of(std::monostate) { throw Error(ErrorKind::Usage, "the imag
   throw Error(ErrorKind::Usage, fmt::format("'{}' is not a format of this image; there are {}", format, formats));
 }
 
-std::vector<std::uint8_t> encode(const LinearImage& image, bool has_alpha, const std::string& format) {
-  if (has_alpha) check_alpha('.' + format);
+std::vector<std::uint8_t> encode(const LinearImage& image, bool has_alpha, const std::string& format,
+                                 const std::string& name) {
+  if (has_alpha) check_alpha('.' + format, name);
   if (format == "pfm") return encode_pfm(image);
   if (format != "exr") refuse_format(format, "exr and pfm");
   return encode_exr(image.width(), image.height(), rgba_channels(image));
 }
-std::vector<std::uint8_t> encode(const Rgba8Image& image, bool has_alpha, const std::string& format) {
-  if (has_alpha) check_alpha('.' + format);
+std::vector<std::uint8_t> encode(const Rgba8Image& image, bool has_alpha, const std::string& format,
+                                 const std::string& name) {
+  if (has_alpha) check_alpha('.' + format, name);
   if (format == "jpg" || format == "jpeg") return encode_jpeg(image);
   if (format == "webp") return encode_webp(image, has_alpha);
   if (format != "png") refuse_format(format, "png, jpg and webp");
   return encode_png(image, {.has_alpha = has_alpha});
 }
-std::vector<std::uint8_t> encode(const Rgba16Image& image, bool has_alpha, const std::string& format) {
+std::vector<std::uint8_t> encode(const Rgba16Image& image, bool has_alpha, const std::string& format,
+                                 const std::string&) {
   if (format != "png") refuse_format(format, "png");
   return encode_png(image, {.has_alpha = has_alpha});
 }
-std::vector<std::uint8_t> encode(std::monostate color, bool, const std::string&) {
+std::vector<std::uint8_t> encode(std::monostate color, bool, const std::string&, const std::string&) {
   static_cast<void>(type_of(color));
   return {};
 }
 
-std::vector<std::uint8_t> encode(const zoneplate_image& image, const std::string& format) {
-  return std::visit([&](const auto& color) { return encode(color, image.has_alpha(), format); }, image.color());
+/// `name` is for messages.
+std::vector<std::uint8_t> encode(const zoneplate_image& image, const std::string& format, const std::string& name) {
+  return std::visit([&](const auto& color) { return encode(color, image.has_alpha(), format, name); }, image.color());
 }
 
 /// Whether alpha is less than its maximum anywhere.
@@ -113,8 +117,9 @@ zoneplate_status zoneplate_image_array(const zoneplate_image* image, const char*
 
 zoneplate_status zoneplate_image_encode(const zoneplate_image* image, const char* format, zoneplate_image** bytes) {
   return guarded([&] {
+    const std::string ending = &required(format, "format");
     const auto file = std::make_shared<const std::vector<std::uint8_t>>(
-        encode(required(image, "image"), &required(format, "format")));
+        encode(required(image, "image"), ending, fmt::format("'{}'", ending)));
     auto out = std::make_unique<zoneplate_image>();
     out->add("bytes", array_of(file->data(), ZONEPLATE_UINT8, {std::ssize(*file)}), file);
     required(bytes, "bytes") = out.release();
@@ -125,7 +130,7 @@ zoneplate_status zoneplate_image_save(const zoneplate_image* image, const char* 
   return guarded([&] {
     const std::string file = &required(path, "path");
     const std::string extension = extension_of(file);
-    save_bytes(file, encode(required(image, "image"), extension.empty() ? extension : extension.substr(1)));
+    save_bytes(file, encode(required(image, "image"), extension.empty() ? extension : extension.substr(1), file));
   });
 }
 

@@ -26,7 +26,7 @@ std::string extension_of(const std::string& path) {
   return lower_case(std::filesystem::path(path).extension().string());
 }
 
-void check_alpha(const std::string& path) {
+void check_alpha(std::string_view extension, const std::string& name) {
   struct Format {
     std::string_view extension, name, with_alpha;
   };
@@ -34,17 +34,17 @@ void check_alpha(const std::string& path) {
   static constexpr Format formats[] = {{".jpg", "JPEG", images},        {".jpeg", "JPEG", images},
                                        {".pfm", "PFM", "an .exr"},      {".mp4", "H.264 video", videos},
                                        {".mov", "H.264 video", videos}, {".mkv", "H.264 video", videos}};
-  const auto found = std::ranges::find(formats, extension_of(path), &Format::extension);
+  const auto found = std::ranges::find(formats, extension, &Format::extension);
   if (found == std::end(formats)) return;
   throw Error(ErrorKind::Usage,
-              fmt::format("{}: the image is not opaque, and {} has no alpha: write {}, or give it a background", path,
+              fmt::format("{}: the image is not opaque, and {} has no alpha: write {}, or give it a background", name,
                           found->name, found->with_alpha));
 }
 
 std::vector<std::uint8_t> encode_image(const std::string& path, const Rgba8Image& image, const ColorProfile& profile) {
   const std::string extension = extension_of(path);
   const bool has_alpha = std::ranges::any_of(image.values(), [](Rgba8 c) { return c.a != 255; });
-  if (has_alpha) check_alpha(path);
+  if (has_alpha) check_alpha(extension, path);
   if (extension == ".png") return encode_png(image, {.has_alpha = has_alpha, .profile = profile});
   if (extension == ".jpg" || extension == ".jpeg") return encode_jpeg(image, usual_jpeg_quality, profile.icc);
   if (extension == ".webp") return encode_webp(image, has_alpha, std::nullopt, profile.icc);
@@ -59,7 +59,8 @@ std::vector<std::uint8_t> encode_image(const std::string& path, const LinearImag
   // The sums of filters round. Alpha of 0 everywhere is that of values without it, such as derivatives.
   constexpr float rounding = 0.5f / 255;
   const auto has = [&](const auto& alpha) { return std::ranges::any_of(image.values(), alpha, &Linear::a); };
-  if (has([](float a) { return a < 1 - rounding; }) && has([](float a) { return a > rounding; })) check_alpha(path);
+  if (has([](float a) { return a < 1 - rounding; }) && has([](float a) { return a > rounding; }))
+    check_alpha(extension, path);
   if (extension == ".pfm") return encode_pfm(image);
   if (extension != ".exr") throw Error(ErrorKind::Usage, path + ": scene-linear images are saved as .exr or .pfm");
   ExrAttributes attributes;

@@ -82,7 +82,8 @@ void FrameSink::add(const DisplayImage& image, FrameTime time) {
 }
 
 void FrameSink::add_to_film(Rgba8Image image, FrameTime time) {
-  if (std::ranges::any_of(image.values(), [](Rgba8 c) { return c.a != 255; })) check_alpha(item_.output);
+  if (std::ranges::any_of(image.values(), [](Rgba8 c) { return c.a != 255; }))
+    check_alpha(extension_of(item_.output), item_.output);
   if (has_even_sides(item_.output)) image = with_even_sides(std::move(image));
   begin_ += static_cast<double>(time.seconds) / time.per;
   if (extension_of(item_.output) == ".gif" && time.seconds > 0) {

@@ -155,7 +155,8 @@ void check_args(RenderArgs& args) {
     throw Error(ErrorKind::Usage, "--ground shadow requires --shadows or --ambient-occlusion");
   if (args.bit_depth == 16 && ending != ".png" && ending != ".rgba")
     throw Error(ErrorKind::Usage, "--bit-depth: only .png and .rgba have 16 bits");
-  if (args.display.is_transparent || (args.background && args.background->w < 1)) check_alpha(args.named_output());
+  if (args.display.is_transparent || (args.background && args.background->w < 1))
+    check_alpha(ending, args.named_output());
   if (args.dithers && (args.bit_depth == 16 || ending == ".pfm" || ending == ".exr"))
     throw Error(ErrorKind::Usage, "--dither is for 8 bits a channel");
   if (args.sequence.jump != 1 && !args.sequence.is_sequence())
