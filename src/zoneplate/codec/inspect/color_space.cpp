@@ -148,17 +148,35 @@ FileColor of_tags(const ColorTags& tags) {
   return out;
 }
 
+/// Calls `take(marker, data)` for each segment of a JPEG before its first scan. Other bytes between segments, and those
+/// of 0xff that fill up to a marker, are skipped, as libjpeg does.
+///
+/// Source    ITU-T T.81, B.1.1.2 and table B.1.
+template <class Take>
+void for_jpeg_segments(ByteSpan file, const Take& take) {
+  constexpr std::uint8_t mark = 0xff, stuffed = 0, temporary = 1, first_restart = 0xd0, start_of_image = 0xd8;
+  constexpr std::uint8_t end_of_image = 0xd9, start_of_scan = 0xda;
+  for (std::size_t at = 0; at < file.size();) {
+    if (file[at++] != mark) continue;
+    while (at < file.size() && file[at] == mark) ++at;
+    if (at == file.size()) return;
+    const std::uint8_t marker = file[at++];
+    if (marker == stuffed || marker == temporary || (marker >= first_restart && marker <= start_of_image)) continue;
+    if (marker == end_of_image || marker == start_of_scan || file.size() - at < 2) return;
+    const std::size_t size = std::size_t{file[at]} << 8 | file[at + 1];
+    if (size < 2 || file.size() - at < size) return;
+    take(marker, file.subspan(at + 2, size - 2));
+    at += size;
+  }
+}
+
 /// The profile lies in parts in several APP2 segments, numbered from 1.
 FileColor of_jpeg(ByteSpan file) {
   FileColor out;
   std::map<int, ByteSpan> parts;
   constexpr std::string_view icc("ICC_PROFILE\0", 12), exif("Exif\0\0", 6);
-  constexpr std::uint8_t app1 = 0xe1, app2 = 0xe2, start_of_scan = 0xda, first_frame = 0xc0, last_frame = 0xcf;
-  for (std::size_t at = 2; file.size() >= at + 4 && file[at] == 0xff && file[at + 1] != start_of_scan;) {
-    const std::size_t size = std::size_t{file[at + 2]} << 8 | file[at + 3];
-    if (size < 2 || file.size() - at - 2 < size) break;
-    const ByteSpan data = file.subspan(at + 4, size - 2);
-    const std::uint8_t marker = file[at + 1];
+  constexpr std::uint8_t app1 = 0xe1, app2 = 0xe2, first_frame = 0xc0, last_frame = 0xcf;
+  for_jpeg_segments(file, [&](std::uint8_t marker, ByteSpan data) {
     if (marker == app2 && text_in(data).starts_with(icc) && data.size() > icc.size() + 2)
       parts.emplace(data[icc.size()], data.subspan(icc.size() + 2));
     if (marker == app1 && text_in(data).starts_with(exif)) out.orientation = orientation_in(data.subspan(exif.size()));
@@ -166,8 +184,7 @@ FileColor of_jpeg(ByteSpan file) {
     const bool is_frame =
         marker >= first_frame && marker <= last_frame && marker != 0xc4 && marker != 0xc8 && marker != 0xcc;
     if (is_frame && data.size() > 5) out.is_grey = data[5] == 1;
-    at += 2 + size;
-  }
+  });
   for (const auto& [number, part] : parts) out.profile.icc.insert(out.profile.icc.end(), part.begin(), part.end());
   return out;
 }

@@ -92,6 +92,25 @@ TEST(ColorSpace, OrientationsAreReadFromExif) {
     read_file_color(png_with(png, "eXIf", Bytes(turned.begin(), turned.begin() + static_cast<std::ptrdiff_t>(size))));
 }
 
+// Bytes of 0xff before a marker fill up, and a marker may stand without a segment.
+TEST(ColorSpace, FillBytesOfJpegAreSkipped) {
+  const Bytes icc = icc_display_p3();
+  const Bytes plain = turned_jpeg(encode_jpeg(Rgba8Image(2, 2), 90, icc), 6);
+  for (const Bytes& fill : {Bytes{0xff}, Bytes(300, 0xff), Bytes{0xff, 0x01}, Bytes{0x00, 0x17, 0xff}}) {
+    Bytes jpeg = {plain[0], plain[1]};
+    for (std::size_t at = 2; at + 4 < plain.size() && plain[at + 1] != 0xda;) {
+      const std::size_t size = 2 + (std::size_t{plain[at + 2]} << 8 | plain[at + 3]);
+      if (at > 2 || fill[0] == 0xff) jpeg.insert(jpeg.end(), fill.begin(), fill.end());
+      jpeg.insert(jpeg.end(), &plain[at], &plain[at] + size);
+      at += size;
+    }
+    EXPECT_EQ(read_file_color(jpeg).profile.icc, icc) << fill.size();
+    EXPECT_EQ(read_file_color(jpeg).orientation, 6);
+    for (std::size_t size = 0; size < jpeg.size(); size += 7)
+      read_file_color(std::span(jpeg).first(size));  // reads no byte behind
+  }
+}
+
 TEST(ColorSpace, WrittenProfilesAreRead) {
   const Rgba8Image image(2, 2);
   const Bytes icc = icc_display_p3();
