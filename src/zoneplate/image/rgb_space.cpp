@@ -50,6 +50,11 @@ Matrix3 adaptation(const Column& from, const Column& to) {
   return *inverse(cones) * scaled;
 }
 
+Matrix3 invertible(const Matrix3& m) {
+  if (!inverse(m)) fail("has primaries that span no triangle");
+  return m;
+}
+
 // Curves of ITU-T H.273, table 3, by their code points: light of 1 for the reference white.
 
 float linear_below(float value, float slope, float limit, float offset, float exponent) {
@@ -257,12 +262,11 @@ std::optional<Matrix3> inverse(const Matrix3& m) {
 
 Matrix3 rec709_from(const std::array<double, 8>& c) {
   const Matrix3 xyz = xyz_from(c);
-  return *inverse(xyz_from(rec709)) * adaptation(xyz_of(c[6], c[7]), xyz_of(rec709[6], rec709[7])) * xyz;
+  return invertible(*inverse(xyz_from(rec709)) * adaptation(xyz_of(c[6], c[7]), xyz_of(rec709[6], rec709[7])) * xyz);
 }
 
 Matrix3 rec709_from_d50(const std::array<double, 9>& xyz_of_rgb) {
-  if (!inverse(xyz_of_rgb)) fail("has primaries that span no triangle");
-  return *inverse(xyz_from(rec709)) * adaptation(d50, xyz_of(rec709[6], rec709[7])) * xyz_of_rgb;
+  return invertible(*inverse(xyz_from(rec709)) * adaptation(d50, xyz_of(rec709[6], rec709[7])) * xyz_of_rgb);
 }
 
 RgbSpacePtr make_rgb_space(const ColorProfile& profile) {
@@ -346,6 +350,12 @@ void convert_to_rec709(LinearImage& light, const RgbSpace& space) {
     const Rgb out = product(space.rec709_from_rgb, {c.r, c.g, c.b});
     return Linear{out[0], out[1], out[2], c.a};
   });
+}
+
+Linear from_rec709(Linear light, const RgbSpace& space) {
+  if (!space.grid.empty() || space.rec709_from_rgb == identity3) return light;
+  const Rgb out = product(*inverse(space.rec709_from_rgb), {light.r, light.g, light.b});
+  return {out[0], out[1], out[2], light.a};
 }
 
 }  // namespace zoneplate

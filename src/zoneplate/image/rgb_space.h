@@ -27,7 +27,8 @@ struct RgbSpace {
   /// Light at equal steps of a value from 0 to 1, linear between them: one curve for red, green and blue, or three.
   /// None: the values are light, and have no limits.
   std::vector<std::vector<float>> curves;
-  Matrix3 rec709_from_rgb = identity3;  ///< light of these primaries as light of Rec.709 primaries and D65
+  /// Light of these primaries as light of Rec.709 primaries and D65: has an inverse.
+  Matrix3 rec709_from_rgb = identity3;
   /// In place of curves and matrix, as many profiles of printers and scanners have it: sRGB values, beyond [0, 1] too,
   /// at grid_side³ nodes, of which those of blue follow one another.
   std::vector<float> grid;
@@ -88,5 +89,8 @@ DisplayImage codes_of(const LinearImage& light, const RgbSpace& space);
 
 /// Converts light from the space's own primaries to those of Rec.709.
 void convert_to_rec709(LinearImage& light, const RgbSpace& space);
+
+/// The inverse of convert_to_rec709.
+Linear from_rec709(Linear light, const RgbSpace& space);
 
 }  // namespace zoneplate

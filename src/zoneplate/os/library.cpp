@@ -38,11 +38,11 @@ SharedLibrary::SharedLibrary(Library library, const std::string& place) : librar
   if (!open_library(library)) throw Error(ErrorKind::Input, message);
 }
 
-SharedLibrary::AnyFunction SharedLibrary::address_of(const char* symbol) const {
+SharedLibrary::Found SharedLibrary::find(const char* symbol) const {
   const char* const file = package_of(library_).file;
   // The library is open already: RTLD_NOLOAD returns its handle.
   if (void* const address = ::dlsym(::dlopen(file, RTLD_NOW | RTLD_LOCAL | RTLD_NOLOAD), symbol))
-    return reinterpret_cast<AnyFunction>(address);
+    return Found(reinterpret_cast<void (*)()>(address));
   throw Error(ErrorKind::Input, place_ + ": the library " + file + " has no function " + symbol);
 }
 

@@ -35,16 +35,23 @@ class SharedLibrary {
   /// Errors    ErrorKind::Input naming the library and its package if it is not installed; LibraryNeeded.
   SharedLibrary(Library library, const std::string& place);
 
+  /// A function, which converts to a pointer of its type: decltype(&f) f = library.find("f").
+  class Found {
+   public:
+    explicit Found(void (*address)()) : address_(address) {}
+    template <class Function>
+    operator Function*() const {  // implicit: the type stands beside it
+      return reinterpret_cast<Function*>(address_);
+    }
+
+   private:
+    void (*address_)();
+  };
+
   /// Errors    ErrorKind::Input if the library has no such function.
-  template <class Function>
-  void find(Function*& function, const char* symbol) const {
-    function = reinterpret_cast<Function*>(address_of(symbol));
-  }
+  Found find(const char* symbol) const;
 
  private:
-  using AnyFunction = void (*)();
-  AnyFunction address_of(const char* symbol) const;
-
   Library library_;
   std::string place_;
 };

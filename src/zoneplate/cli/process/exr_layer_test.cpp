@@ -42,7 +42,7 @@ class ExrLayers : public ProgramTest {
     for (std::size_t i = 0; i < values.size(); ++i)
       part.channels.push_back({.name = values[i].first, .type = type, .value = planes[i].data()});
     const ExrPartBytes only = encode_exr_part(std::move(part));
-    save(name, join_exr_parts({&only, 1}));
+    save(name, join_exr_parts({only}));
   }
   /// As Blender writes it: every layer has the name of its view layer.
   void save_layers(const std::string& name, float red = 0.5f) const {

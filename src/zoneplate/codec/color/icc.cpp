@@ -26,40 +26,24 @@ using ByteSpan = std::span<const std::uint8_t>;
 [[noreturn]] void fail(const std::string& cause) { throw Error(ErrorKind::Input, cause); }
 
 struct IccLibrary {
-  decltype(&cmsCreateContext) create_context = nullptr;
-  decltype(&cmsDeleteContext) delete_context = nullptr;
-  decltype(&cmsSetLogErrorHandlerTHR) set_error_handler = nullptr;
-  decltype(&cmsOpenProfileFromMemTHR) open_profile = nullptr;
-  decltype(&cmsCloseProfile) close_profile = nullptr;
-  decltype(&cmsGetProfileInfoASCII) text = nullptr;
-  decltype(&cmsIsCLUT) has_table = nullptr;
-  decltype(&cmsReadTag) read_tag = nullptr;
-  decltype(&cmsEvalToneCurveFloat) value_on = nullptr;
-  decltype(&cmsBuildGamma) build_gamma = nullptr;
-  decltype(&cmsFreeToneCurve) free_curve = nullptr;
-  decltype(&cmsCreateRGBProfileTHR) create_profile = nullptr;
-  decltype(&cmsCreateTransformTHR) create_transform = nullptr;
-  decltype(&cmsDeleteTransform) delete_transform = nullptr;
-  decltype(&cmsDoTransform) transform = nullptr;
+  SharedLibrary library;
+  decltype(&cmsCreateContext) create_context = library.find("cmsCreateContext");
+  decltype(&cmsDeleteContext) delete_context = library.find("cmsDeleteContext");
+  decltype(&cmsSetLogErrorHandlerTHR) set_error_handler = library.find("cmsSetLogErrorHandlerTHR");
+  decltype(&cmsOpenProfileFromMemTHR) open_profile = library.find("cmsOpenProfileFromMemTHR");
+  decltype(&cmsCloseProfile) close_profile = library.find("cmsCloseProfile");
+  decltype(&cmsGetProfileInfoASCII) text = library.find("cmsGetProfileInfoASCII");
+  decltype(&cmsIsCLUT) has_table = library.find("cmsIsCLUT");
+  decltype(&cmsReadTag) read_tag = library.find("cmsReadTag");
+  decltype(&cmsEvalToneCurveFloat) value_on = library.find("cmsEvalToneCurveFloat");
+  decltype(&cmsBuildGamma) build_gamma = library.find("cmsBuildGamma");
+  decltype(&cmsFreeToneCurve) free_curve = library.find("cmsFreeToneCurve");
+  decltype(&cmsCreateRGBProfileTHR) create_profile = library.find("cmsCreateRGBProfileTHR");
+  decltype(&cmsCreateTransformTHR) create_transform = library.find("cmsCreateTransformTHR");
+  decltype(&cmsDeleteTransform) delete_transform = library.find("cmsDeleteTransform");
+  decltype(&cmsDoTransform) transform = library.find("cmsDoTransform");
 
-  explicit IccLibrary(const std::string& name) {
-    const SharedLibrary library(Library::Lcms, name + ": an ICC profile");
-    library.find(create_context, "cmsCreateContext");
-    library.find(delete_context, "cmsDeleteContext");
-    library.find(set_error_handler, "cmsSetLogErrorHandlerTHR");
-    library.find(open_profile, "cmsOpenProfileFromMemTHR");
-    library.find(close_profile, "cmsCloseProfile");
-    library.find(text, "cmsGetProfileInfoASCII");
-    library.find(has_table, "cmsIsCLUT");
-    library.find(read_tag, "cmsReadTag");
-    library.find(value_on, "cmsEvalToneCurveFloat");
-    library.find(build_gamma, "cmsBuildGamma");
-    library.find(free_curve, "cmsFreeToneCurve");
-    library.find(create_profile, "cmsCreateRGBProfileTHR");
-    library.find(create_transform, "cmsCreateTransformTHR");
-    library.find(delete_transform, "cmsDeleteTransform");
-    library.find(transform, "cmsDoTransform");
-  }
+  explicit IccLibrary(const std::string& name) : library(Library::Lcms, name + ": an ICC profile") {}
 };
 
 /// What the library finds, in memory of a fixed layout.
@@ -233,6 +217,7 @@ RgbSpace read_icc_space(ByteSpan profile, bool is_grey) {
   Findings found;
   child.read(&found, sizeof found);
   found.name.back() = '\0';
+  if (!inverse(found.rec709_from_rgb)) fail("has primaries that span no triangle");
   RgbSpace space{.profile = {},
                  .name = printable(found.name.data()),
                  .curves = {std::min<std::size_t>(found.curves, 3), std::vector<float>(curve_size)},

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "zoneplate/codec/exr/exr_encode.h"
+#include "zoneplate/codec/exr/exr_header.h"
 #include "zoneplate/image/plane.h"
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/math/vec.h"
@@ -29,12 +30,12 @@ enum class ExrArea {
 
 /// The image of an OpenEXR file that is decoded.
 struct ExrChoice {
-  std::string layer = {};  ///< choose_exr_layer (codec/exr_layer.h)
+  std::string layer = {};  ///< choose_exr_layer (codec/exr/exr_layer.h)
   ExrArea area = ExrArea::Display;
 };
 
-/// Decodes a layer of an OpenEXR image (codec/exr_layer.h), by default its colours: the channels R, G, B and A, or Y as
-/// grey, or Y, RY and BY as luminance and chroma (codec/exr_chroma.h); scanlines or the finest tiles, of any
+/// Decodes a layer of an OpenEXR image (codec/exr/exr_layer.h), by default its colours: the channels R, G, B and A, or
+/// Y as grey, or Y, RY and BY as luminance and chroma (codec/exr/exr_chroma.h); scanlines or the finest tiles, of any
 /// compression. Channels beside these may have any sampling.
 ///
 /// The library is loaded by the first call, and runs in a child process with limits; inside a LimitedChild, which has
@@ -67,16 +68,24 @@ std::vector<Plane<float>> decode_exr_channels(std::span<const std::uint8_t> byte
                                               std::span<const std::string> channels,
                                               std::uint64_t max_pixels = std::uint64_t{1} << 28);
 
-/// The same channels of any part (codec/exr_header.h) as bits: of floats, to which halves are converted, or of whole
-/// numbers. Of channels with fewer samples than pixels, the pixels between these are 0.
+/// The same channels of any part (codec/exr/exr_header.h) and any window, by default the display window, as bits: of
+/// floats, to which halves are converted, or of whole numbers. Of channels with fewer samples than pixels, the pixels
+/// between these are 0.
 std::vector<Plane<std::uint32_t>> decode_exr_bits(std::span<const std::uint8_t> bytes, const std::string& name,
                                                   int part, std::span<const std::string> channels,
-                                                  std::uint64_t max_pixels = std::uint64_t{1} << 28);
+                                                  const std::optional<ExrWindow>& window = std::nullopt);
 
-/// The same in any window, with halves as their 16 bits.
+/// The same with halves as their 16 bits.
 std::vector<Plane<std::uint32_t>> decode_exr_stored(std::span<const std::uint8_t> bytes, const std::string& name,
                                                     int part, std::span<const std::string> channels,
                                                     const ExrWindow& window);
+
+/// The number of rows to decode together, so that planes of `channels` channels take at most 64 MB, but at least the
+/// rows of a chunk. A part in such bands takes little longer than at once.
+///
+/// Shape     a multiple of 16, as chunks of ZIP are written, and of the rows of a chunk if these are one.
+/// Requires  the data window is sound.
+std::int64_t exr_band_rows(const ExrPart& part, std::size_t channels);
 
 /// The memory in bytes that decoding takes in addition to the rows.
 std::uint64_t exr_working_memory(std::span<const std::uint8_t> bytes);

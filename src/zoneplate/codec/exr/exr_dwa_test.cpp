@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <zlib.h>
+
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <string>
@@ -11,6 +14,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/codec/exr/exr.h"
+#include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/math/random.h"
 
 namespace zoneplate {
@@ -86,10 +90,9 @@ const Bytes dwaa = {
     181, 225, 54,  33,  22,  3,   0,   158, 44,  6,   69,
 };
 
-/// The file with another value of its attribute `compression`: DWAB differs in the number of rows to a chunk alone, and
-/// this image has one chunk in both.
-Bytes packed_as(int compression) {
-  Bytes out = dwaa;
+/// A file with another value of its attribute `compression`: of `dwaa`, DWAB differs in the number of rows to a chunk
+/// alone, and that image has one chunk in both.
+Bytes with_compression(Bytes out, int compression) {
   const std::string name = "compression";
   const auto at = std::search(out.begin(), out.end(), name.begin(), name.end());
   *(at + 2 * 12 + 4) = static_cast<std::uint8_t>(compression);
@@ -114,7 +117,7 @@ TEST(ExrDwa, DecodesWhatOpenExrDoes) {
       {3, 9, {0.253662109f, 0.501953125f, -0.094543457f, 1}, 0, 900, 900000},
   };
   for (const int compression : {8, 9}) {
-    const Bytes file = packed_as(compression);
+    const Bytes file = with_compression(dwaa, compression);
     const LinearImage image = decode_exr(file, "a.exr");
     const std::string names[] = {"v.Y", "Z", "id"};
     const auto planes = decode_exr_bits(file, "a.exr", 0, names);
@@ -130,6 +133,45 @@ TEST(ExrDwa, DecodesWhatOpenExrDoes) {
       EXPECT_EQ(std::bit_cast<float>(planes[1](p.x, p.y)), p.depth);
       EXPECT_EQ(planes[2](p.x, p.y), p.id);
     }
+  }
+}
+
+// DWAB packs 256 rows of all channels together, which takes more memory than the channel that is decoded.
+TEST(ExrDwa, WideChunksHaveTheMemoryThatTheyNeed) {
+  constexpr int width = 16384, rows = 256, layers = 8;
+  const auto file_of = [](int columns, int channels) {
+    ExrPartImage part{.data = {0, 0, columns - 1, rows - 1}, .display = {0, 0, columns - 1, rows - 1}, .channels = {}};
+    for (int i = 0; i < channels; ++i)
+      part.channels.push_back({.name = "id" + std::to_string(i), .type = ExrType::Number});
+    const Bytes zeros(std::size_t{4} * static_cast<std::size_t>(columns) * rows * layers);
+    uLongf size = compressBound(static_cast<uLong>(zeros.size()));
+    Bytes deflated(size);
+    compress2(deflated.data(), &size, zeros.data(), static_cast<uLong>(zeros.size()), 1);
+    deflated.resize(size);
+    // Eleven sizes, of which those of the version and of the deflated channels are not 0, and no rules.
+    std::array<std::uint64_t, 11> head{};
+    head[0] = 2, head[1] = zeros.size(), head[2] = deflated.size();
+    const std::uint16_t rules = sizeof rules;
+    const std::int32_t place[] = {0, static_cast<std::int32_t>(sizeof head + sizeof rules + deflated.size())};
+    Bytes chunk;
+    const auto put = [&](const void* from, std::size_t count) {
+      const auto* const bytes = static_cast<const std::uint8_t*>(from);
+      chunk.insert(chunk.end(), bytes, bytes + count);
+    };
+    put(place, sizeof place), put(&head, sizeof head), put(&rules, sizeof rules), put(deflated.data(), size);
+    ExrPartHeader header = exr_part_header(part);
+    header.chunks = 1;
+    ExrFileWriter file({header}, chunk.size());
+    file.add(chunk);
+    return with_compression(file.finish(), 9);
+  };
+  const std::string names[] = {"id3"};
+  EXPECT_EQ(decode_exr_bits(file_of(width, layers), "a.exr", 0, names)[0], Plane<std::uint32_t>(width, rows, 0u));
+  try {
+    decode_exr_bits(file_of(width, 200), "a.exr", 0, names);
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_STREQ(error.what(), "a.exr: EXR: packs 3200 MB together, at most 2047 are read");
   }
 }
 

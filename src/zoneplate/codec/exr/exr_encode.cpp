@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/codec/png/deflate.h"
@@ -69,9 +70,15 @@ void put_attribute(Bytes& out, std::string_view name, const ExrStoredValue& valu
 
 std::size_t size_of(ExrType type) { return type == ExrType::Half ? 2 : 4; }
 
-Bytes list_of(std::span<const ExrChannel> channels) {
+/// In the order in which the format stores them.
+std::vector<ExrChannel> sorted(std::vector<ExrChannel> channels) {
+  std::ranges::sort(channels, {}, &ExrChannel::name);
+  return channels;
+}
+
+Bytes list_of(const std::vector<ExrChannel>& channels) {
   Bytes out;
-  for (const ExrChannel& channel : channels) {
+  for (const ExrChannel& channel : sorted(channels)) {
     put_text(out, channel.name);
     put(out, static_cast<std::int32_t>(channel.type));
     put(out, std::uint32_t{0});  // pLinear: 0, the channel is not perceptually linear
@@ -107,13 +114,14 @@ Bytes header_of(const ExrPartImage& part, const std::string& name, std::size_t c
   return out;
 }
 
-/// The uncompressed bytes of rows [first, end): in each row, one channel after the other.
-Bytes rows_of(const ExrPartImage& part, std::size_t first, std::size_t end) {
+/// The uncompressed bytes of rows [first, end) of a window, whose first row is `top`: in each row, one channel after
+/// the other.
+Bytes rows_of(std::span<const ExrChannel> channels, std::size_t width, std::int64_t top, std::size_t first,
+              std::size_t end) {
   Bytes out;
-  const auto width = static_cast<std::size_t>(part.data.width());
   for (std::size_t y = first; y < end; ++y)
-    for (const ExrChannel& channel : part.channels) {
-      if ((part.data.top + static_cast<std::int64_t>(y)) % channel.sampling.y != 0) continue;
+    for (const ExrChannel& channel : channels) {
+      if ((top + static_cast<std::int64_t>(y)) % channel.sampling.y != 0) continue;
       const auto column = static_cast<std::size_t>(channel.sampling.x);
       const std::size_t start = y * width * channel.step, size = size_of(channel.type);
       std::size_t at = out.size();
@@ -132,6 +140,8 @@ Bytes rows_of(const ExrPartImage& part, std::size_t first, std::size_t end) {
     }
   return out;
 }
+
+std::size_t lines_of_block(const ExrPartImage& part) { return part.compression == ExrCompression::Zip ? 16 : 1; }
 
 /// The predictor of ZIP compression: the bytes at even positions before those at odd positions, each replaced by its
 /// difference from the previous byte plus 128.
@@ -159,23 +169,31 @@ Bytes packed(Bytes raw) {
 
 }  // namespace
 
-ExrPartBytes encode_exr_part(ExrPartImage part, const std::string& name) {
-  assert(part.data.is_sound() && !part.channels.empty());
-  std::ranges::sort(part.channels, {}, &ExrChannel::name);
-  const auto lines = static_cast<std::size_t>(part.data.height());
-  const std::size_t block_lines = part.compression == ExrCompression::Zip ? 16 : 1;
-  ExrPartBytes out;
-  out.chunks.resize((lines + block_lines - 1) / block_lines);
-  parallel_for(out.chunks.size(), [&](std::size_t i) {
-    const std::size_t first = i * block_lines, end = std::min(lines, first + block_lines);
-    Bytes rows = rows_of(part, first, end);
+std::vector<Bytes> encode_exr_rows(const ExrPartImage& part, std::int64_t first, std::int64_t end) {
+  assert(part.data.is_sound() && !part.channels.empty() && first >= 0 && end <= part.data.height());
+  const std::vector<ExrChannel> channels = sorted(part.channels);
+  const auto width = static_cast<std::size_t>(part.data.width()), lines = static_cast<std::size_t>(end - first);
+  const std::size_t block_lines = lines_of_block(part);
+  assert(static_cast<std::size_t>(first) % block_lines == 0);
+  assert(end == part.data.height() || lines % block_lines == 0);
+  std::vector<Bytes> chunks((lines + block_lines - 1) / block_lines);
+  parallel_for(chunks.size(), [&](std::size_t i) {
+    const std::size_t block = i * block_lines;
+    Bytes rows = rows_of(channels, width, part.data.top + first, block, std::min(lines, block + block_lines));
     if (part.compression != ExrCompression::None) rows = packed(std::move(rows));
-    Bytes& chunk = out.chunks[i];
-    put(chunk, static_cast<std::int32_t>(part.data.top + static_cast<std::int64_t>(first)));
+    Bytes& chunk = chunks[i];
+    put(chunk, static_cast<std::int32_t>(part.data.top + first + static_cast<std::int64_t>(block)));
     put(chunk, static_cast<std::uint32_t>(rows.size()));
     chunk.insert(chunk.end(), rows.begin(), rows.end());
   });
-  out.header = header_of(part, name, out.chunks.size());
+  return chunks;
+}
+
+ExrPartHeader exr_part_header(const ExrPartImage& part, const std::string& name) {
+  ExrPartHeader out;
+  const auto lines = static_cast<std::size_t>(part.data.height()), block_lines = lines_of_block(part);
+  out.chunks = (lines + block_lines - 1) / block_lines;
+  out.bytes = header_of(part, name, out.chunks);
   out.has_long_names =
       std::ranges::any_of(part.channels, [](const ExrChannel& c) { return c.name.size() > most_short_exr_name; }) ||
       std::ranges::any_of(part.attributes, [](const auto& a) {
@@ -185,47 +203,66 @@ ExrPartBytes encode_exr_part(ExrPartImage part, const std::string& name) {
   return out;
 }
 
-Bytes join_exr_parts(std::span<const ExrPartBytes> parts) {
-  const bool are_several = parts.size() > 1;
+ExrPartBytes encode_exr_part(const ExrPartImage& part, const std::string& name) {
+  return {exr_part_header(part, name), encode_exr_rows(part, 0, part.data.height())};
+}
+
+ExrFileWriter::ExrFileWriter(std::vector<ExrPartHeader> parts, std::uint64_t bytes) : parts_(std::move(parts)) {
+  const bool are_several = parts_.size() > 1;
   // The bits of the version are those of OpenEXR's ImfVersion.h.
   constexpr std::uint32_t version = 2, long_names = 0x400, deep = 0x800, several = 0x1000;
   std::uint32_t flags = version | (are_several ? several : 0);
-  for (const ExrPartBytes& part : parts) flags |= (part.has_long_names ? long_names : 0) | (part.is_deep ? deep : 0);
-  Bytes out = {0x76, 0x2f, 0x31, 0x01};
-  put(out, flags);
-  std::uint64_t count = 0;
-  for (const ExrPartBytes& part : parts) {
-    out.insert(out.end(), part.header.begin(), part.header.end());
-    out.push_back(0);
-    count += part.chunks.size();
+  for (const ExrPartHeader& part : parts_) flags |= (part.has_long_names ? long_names : 0) | (part.is_deep ? deep : 0);
+  out_ = {0x76, 0x2f, 0x31, 0x01};
+  put(out_, flags);
+  std::size_t count = 0;
+  for (const ExrPartHeader& part : parts_) {
+    out_.insert(out_.end(), part.bytes.begin(), part.bytes.end());
+    out_.push_back(0);
+    count += part.chunks;
   }
-  if (are_several) out.push_back(0);
+  if (are_several) out_.push_back(0);
   // The tables of chunk offsets, then the chunks.
-  std::uint64_t at = out.size() + 8 * count;
-  const std::size_t number = are_several ? sizeof(std::int32_t) : 0;
-  for (const ExrPartBytes& part : parts)
-    for (const Bytes& chunk : part.chunks) {
-      put(out, at);
-      at += number + chunk.size();
-    }
-  out.reserve(static_cast<std::size_t>(at));
-  for (std::size_t i = 0; i < parts.size(); ++i)
-    for (const Bytes& chunk : parts[i].chunks) {
-      if (are_several) put(out, static_cast<std::int32_t>(i));
-      out.insert(out.end(), chunk.begin(), chunk.end());
-    }
-  return out;
+  table_ = out_.size();
+  out_.reserve(table_ + count * (sizeof(std::uint64_t) + sizeof(std::int32_t)) + static_cast<std::size_t>(bytes));
+  out_.resize(table_ + count * sizeof(std::uint64_t));
+}
+
+void ExrFileWriter::add(std::span<const std::uint8_t> chunk) {
+  while (done_ == parts_[part_].chunks) done_ = 0, ++part_;
+  ++done_;
+  const std::uint64_t at = out_.size();
+  std::memcpy(&out_[table_], &at, sizeof at);
+  table_ += sizeof at;
+  if (parts_.size() > 1) put(out_, static_cast<std::int32_t>(part_));
+  out_.insert(out_.end(), chunk.begin(), chunk.end());
+}
+
+Bytes ExrFileWriter::finish() { return std::move(out_); }
+
+Bytes join_exr_parts(std::vector<ExrPartBytes> parts) {
+  std::vector<ExrPartHeader> headers;
+  std::uint64_t bytes = 0;
+  for (ExrPartBytes& part : parts) {
+    headers.push_back(std::move(part.header));
+    for (const Bytes& chunk : part.chunks) bytes += chunk.size();
+  }
+  ExrFileWriter file(std::move(headers), bytes);
+  for (ExrPartBytes& part : parts)
+    for (Bytes& chunk : part.chunks) file.add(std::exchange(chunk, {}));
+  return file.finish();
 }
 
 Bytes encode_exr(int width, int height, std::vector<ExrChannel> channels, const ExrAttributes& attributes,
                  ExrCompression compression) {
   const ExrWindow window{0, 0, width - 1, height - 1};
-  const ExrPartBytes part = encode_exr_part({.data = window,
-                                             .display = window,
-                                             .channels = std::move(channels),
-                                             .attributes = attributes,
-                                             .compression = compression});
-  return join_exr_parts({&part, 1});
+  std::vector<ExrPartBytes> parts;
+  parts.push_back(encode_exr_part({.data = window,
+                                   .display = window,
+                                   .channels = std::move(channels),
+                                   .attributes = attributes,
+                                   .compression = compression}));
+  return join_exr_parts(std::move(parts));
 }
 
 std::vector<ExrChannel> rgba_channels(const LinearImage& image) {

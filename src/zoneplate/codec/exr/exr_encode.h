@@ -91,24 +91,59 @@ struct ExrPartImage {
 /// Longer names need a bit of the version.
 inline constexpr std::size_t most_short_exr_name = 31;
 
-/// An encoded part.
-struct ExrPartBytes {
-  std::vector<std::uint8_t> header;               ///< its attributes, without the zero that ends them
-  std::vector<std::vector<std::uint8_t>> chunks;  ///< without the number of the part
+/// The header of a part, and what a file states about it.
+struct ExrPartHeader {
+  std::vector<std::uint8_t> bytes;  ///< its attributes, without the zero that ends them
+  std::size_t chunks = 0;
   bool is_deep = false, has_long_names = false;
 };
 
-/// Encodes the only part of a file or, with a name, one of several.
+/// An encoded part.
+struct ExrPartBytes {
+  ExrPartHeader header;
+  std::vector<std::vector<std::uint8_t>> chunks;  ///< without the number of the part
+};
+
+/// The header of the only part of a file or, with a name, of one of several. The values of the channels are not read.
+ExrPartHeader exr_part_header(const ExrPartImage& part, const std::string& name = {});
+
+/// Puts a file together from chunks that need not be in memory at the same time.
+class ExrFileWriter {
+ public:
+  /// `bytes` is an estimate of what all chunks have: beyond it the file is copied while it grows.
+  ExrFileWriter(std::vector<ExrPartHeader> parts, std::uint64_t bytes);
+  /// Adds the next chunk of the first part that is not complete.
+  ///
+  /// Requires  a part is not complete.
+  void add(std::span<const std::uint8_t> chunk);
+  /// Requires  all parts are complete.
+  std::vector<std::uint8_t> finish();
+
+ private:
+  std::vector<ExrPartHeader> parts_;
+  std::vector<std::uint8_t> out_;
+  std::size_t table_ = 0, part_ = 0, done_ = 0;  ///< the next entry of the offsets, and the next chunk
+};
+
+/// Encodes rows [first, end) of a part to chunks. The values of the channels are those of these rows alone, so that a
+/// part can be encoded band by band.
+///
+/// Units     Half values are rounded to nearest and clamped to the finite range; those that are given as bits are kept.
+/// Exact     the same bytes for any number of threads and any version of any library.
+/// Requires  `first`, and an `end` before the last row, are multiples of 16; of the names and the window as below.
+std::vector<std::vector<std::uint8_t>> encode_exr_rows(const ExrPartImage& part, std::int64_t first, std::int64_t end);
+
+/// Encodes a part at once.
 ///
 /// Units     Half values are rounded to nearest and clamped to the finite range; those that are given as bits are kept.
 /// Exact     the same bytes for any number of threads and any version of any library; no time stamp.
 /// Requires  the names of the channels are distinct, and those of the attributes too; the data window divides by the
 ///           sampling of each channel.
 /// Source    OpenEXR File Layout, openexr.com.
-ExrPartBytes encode_exr_part(ExrPartImage part, const std::string& name = {});
+ExrPartBytes encode_exr_part(const ExrPartImage& part, const std::string& name = {});
 
-/// The file of these parts.
-std::vector<std::uint8_t> join_exr_parts(std::span<const ExrPartBytes> parts);
+/// The file of these parts, whose chunks are released while it is put together.
+std::vector<std::uint8_t> join_exr_parts(std::vector<ExrPartBytes> parts);
 
 /// The file of one part whose windows are the whole image.
 std::vector<std::uint8_t> encode_exr(int width, int height, std::vector<ExrChannel> channels,

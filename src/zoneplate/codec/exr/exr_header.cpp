@@ -65,10 +65,9 @@ void take_attribute(std::string_view name, std::string_view type, ExrBytes value
   if (name == "name" && type == "string") part.name = text;
   if (name == "type" && type == "string") part.is_deep = text.starts_with("deep");
   part.attributes.push_back({name, type, value});
-  constexpr std::array<std::string_view, 3> of_color = {"chromaticities", "whiteLuminance", "adoptedNeutral"};
-  std::string color;
-  if (std::ranges::find(of_color, name) != of_color.end()) color = floats_in(name, value);
-  if (name == "colorInteropID" || name == "colorSpace") color = fmt::format("{} {}", name, text);
+  if (!is_exr_color_attribute(name)) return;
+  const bool are_floats = type == "chromaticities" || type == "float" || type == "v2f";
+  const std::string color = are_floats ? floats_in(name, value) : fmt::format("{} {}", name, text);
   if (!color.empty()) part.color_space += (part.color_space.empty() ? "" : ", ") + color;
 }
 
@@ -93,7 +92,44 @@ std::optional<ExrPart> take_header(ExrBytes& bytes) {
   }
 }
 
+/// Width and height of the tiles of a part.
+std::optional<std::array<std::uint32_t, 2>> tile_of(const ExrPart& part) {
+  const ExrAttributeView* const tiles = part.find("tiles");
+  std::array<std::uint32_t, 2> sides{};
+  if (!tiles || tiles->value.size() < sizeof sides) return std::nullopt;
+  std::memcpy(sides.data(), tiles->value.data(), sizeof sides);
+  return sides;
+}
+
 }  // namespace
+
+const ExrAttributeView* ExrPart::find(std::string_view attribute) const {
+  const auto found = std::ranges::find(attributes, attribute, &ExrAttributeView::name);
+  return found == attributes.end() ? nullptr : &*found;
+}
+
+bool is_exr_color_attribute(std::string_view name) {
+  constexpr std::array<std::string_view, 5> all = {"chromaticities", "whiteLuminance", "adoptedNeutral",
+                                                   "colorInteropID", "colorSpace"};
+  return std::ranges::find(all, name) != all.end();
+}
+
+std::int64_t exr_chunk_rows(const ExrPart& part) {
+  if (const auto tile = tile_of(part)) return std::clamp<std::int64_t>((*tile)[1], 1, part.data.height());
+  // None, RLE, ZIPS, ZIP, PIZ, PXR24, B44, B44A, DWAA and DWAB; of other kinds as many as of any.
+  constexpr std::array<std::int64_t, 10> rows = {1, 1, 1, 16, 32, 16, 32, 32, 32, 256};
+  const ExrAttributeView* const found = part.find("compression");
+  const std::size_t compression = found && !found->value.empty() ? found->value[0] : rows.size();
+  return std::min(part.data.height(), compression < rows.size() ? rows[compression] : 256);
+}
+
+std::uint64_t exr_chunk_bytes(const ExrPart& part) {
+  std::int64_t width = part.data.width();
+  if (const auto tile = tile_of(part)) width = std::min<std::int64_t>(width, (*tile)[0]);
+  std::uint64_t sample_bytes = 0;
+  for (const ExrPartChannel& channel : part.channels) sample_bytes += channel.type == ExrType::Half ? 2 : 4;
+  return static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(exr_chunk_rows(part)) * sample_bytes;
+}
 
 std::optional<ExrPart> read_exr_part(std::span<const std::uint8_t> bytes) {
   if (!is_exr(bytes)) return std::nullopt;

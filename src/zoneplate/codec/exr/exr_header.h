@@ -37,13 +37,25 @@ struct ExrPart {
   bool is_deep = false;
   std::vector<ExrAttributeView> attributes;  ///< all of them
   std::span<const std::uint8_t> header;      ///< their bytes, without the zero that ends them
+
+  /// The first attribute of a name; null if there is none.
+  const ExrAttributeView* find(std::string_view attribute) const;
 };
+
+/// True for the attributes that define the colours of a part: they are its color_space.
+bool is_exr_color_attribute(std::string_view name);
 
 /// The parts of an OpenEXR file in its order, which refer to its bytes; only whole headers, thus none of other bytes.
 std::vector<ExrPart> read_exr_parts(std::span<const std::uint8_t> bytes);
 
 /// The first of them.
 std::optional<ExrPart> read_exr_part(std::span<const std::uint8_t> bytes);
+
+/// The rows of a chunk, which the format packs together.
+std::int64_t exr_chunk_rows(const ExrPart& part);
+
+/// The unpacked bytes of a chunk: rows or a tile, of all channels.
+std::uint64_t exr_chunk_bytes(const ExrPart& part);
 
 /// The smallest window that contains the display and the data window.
 ExrWindow exr_whole_window(const ExrPart& part);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <set>
 #include <string_view>
 
 #include "zoneplate/base/error.h"
@@ -15,6 +16,7 @@
 namespace zoneplate {
 namespace {
 
+using Bytes = std::vector<std::uint8_t>;
 using ExrBytes = std::span<const std::uint8_t>;
 
 constexpr std::array<float Linear::*, 4> slots = {&Linear::r, &Linear::g, &Linear::b, &Linear::a};
@@ -26,11 +28,6 @@ T value_at(ExrBytes bytes, std::size_t at) {
   return out;
 }
 
-const ExrAttributeView* find_attribute(const ExrPart& part, std::string_view name) {
-  const auto found = std::ranges::find(part.attributes, name, &ExrAttributeView::name);
-  return found == part.attributes.end() ? nullptr : &*found;
-}
-
 /// The attributes but those that state how the part is packed, which encode_exr_part writes, and a preview, which would
 /// show another image; of a part among others it also writes the name. (`version`, of deep parts, some readers expect
 /// of the others too.)
@@ -39,18 +36,19 @@ ExrAttributes carried_attributes(const ExrPart& part, bool has_name, const ExrSt
       "channels", "compression", "dataWindow", "displayWindow", "lineOrder",
       "tiles",    "type",        "chunkCount", "preview",       "dwaCompressionLevel"};
   ExrAttributes out;
+  std::set<std::string_view> taken;
   for (const ExrAttributeView& a : part.attributes) {
     if (std::ranges::find(own, a.name) != own.end() || (has_name && a.name == "name")) continue;
-    if (storage.is_converted && a.name == "chromaticities") continue;
+    if (storage.is_converted && is_exr_color_attribute(a.name)) continue;
     // Of several attributes of a name, readers take the first or none.
-    if (std::ranges::any_of(out, [&](const auto& o) { return o.first == a.name; })) continue;
+    if (!taken.insert(a.name).second) continue;
     out.emplace_back(std::string(a.name), ExrStoredValue{std::string(a.type), {a.value.begin(), a.value.end()}});
   }
   return out;
 }
 
 ExrCompression compression_of(const ExrPart& part) {
-  const ExrAttributeView* const found = find_attribute(part, "compression");
+  const ExrAttributeView* const found = part.find("compression");
   if (!found || found->value.empty()) return ExrCompression::Zip;
   const auto compression = static_cast<ExrCompression>(found->value[0]);
   const bool is_written = compression == ExrCompression::None || compression == ExrCompression::Zips;
@@ -139,27 +137,32 @@ class PackedPart {
   PackedPart(ExrBytes file, const std::string& name, const ExrPart& part) : file_(file), name_(name), part_(part) {}
 
   std::optional<std::size_t> chunk_count() const {
-    const ExrAttributeView* const found = find_attribute(part_, "chunkCount");
+    const ExrAttributeView* const found = part_.find("chunkCount");
     if (!found || found->value.size() != sizeof(std::int32_t)) return std::nullopt;
     const auto count = value_at<std::int32_t>(found->value, 0);
     if (count < 0 || static_cast<std::size_t>(count) > file_.size() / sizeof(std::uint64_t)) return std::nullopt;
     return static_cast<std::size_t>(count);
   }
 
-  /// Copies the chunks whose offsets are in a table.
-  ExrPartBytes copy(int number, std::size_t table) const {
-    ExrPartBytes out{.header = {part_.header.begin(), part_.header.end()}, .chunks = {}, .is_deep = part_.is_deep};
+  ExrPartHeader header() const {
+    ExrPartHeader out{.bytes = {part_.header.begin(), part_.header.end()},
+                      .chunks = chunk_count().value_or(0),
+                      .is_deep = part_.is_deep};
     const auto is_long = [](std::string_view name) { return name.size() > most_short_exr_name; };
     out.has_long_names =
         std::ranges::any_of(part_.attributes, [&](const auto& a) { return is_long(a.name) || is_long(a.type); }) ||
         std::ranges::any_of(part_.channels, [&](const ExrPartChannel& c) { return is_long(c.name); });
+    return out;
+  }
+
+  /// Copies the chunks whose offsets are in a table.
+  void copy_chunks(int number, std::size_t table, ExrFileWriter& file) const {
     std::size_t total = 0;
     for (std::size_t i = 0; i < chunk_count().value_or(0); ++i) {
       const ExrBytes chunk = chunk_at(number, word(table + i * sizeof(std::uint64_t)));
       if ((total += chunk.size()) > file_.size()) throw incomplete();  // chunks share no bytes
-      out.chunks.emplace_back(chunk.begin(), chunk.end());
+      file.add(chunk);
     }
-    return out;
   }
 
  private:
@@ -173,7 +176,7 @@ class PackedPart {
 
   /// A chunk without the number of its part: coordinates, sizes and bytes.
   ExrBytes chunk_at(int number, std::uint64_t at) const {
-    const ExrAttributeView* const type = find_attribute(part_, "type");
+    const ExrAttributeView* const type = part_.find("type");
     const std::string_view text =
         type ? std::string_view(reinterpret_cast<const char*>(type->value.data()), type->value.size()) : "";
     const std::size_t coordinates = text == "tiledimage" || text == "deeptile" ? 16 : 4;
@@ -209,6 +212,8 @@ class Replacement {
   }
 
   ExrReplacement make(const LinearImage& image, const ExrStorage& storage) {
+    if (!part().data.is_sound() || !part().display.is_sound())
+      throw Error(ErrorKind::Input, name_ + ": EXR: the header is wrong");
     const ExrWindow whole = choice_.area == ExrArea::Whole ? exr_whole_window(part()) : part().display;
     if (image.width() != whole.width() || image.height() != whole.height()) return alone(image, storage);
     ExrWindow window = whole;
@@ -227,11 +232,10 @@ class Replacement {
                         .compression = compression_of(part())};
     if (storage.is_converted) {
       leave_out_others();
-      set_only(encode_exr_part(std::move(own)));
+      set_only(encode_exr_part(own));
       return std::move(out_);
     }
-    const std::vector<Plane<std::uint32_t>> planes = add_others(own);
-    join(encode_exr_part(std::move(own), is_joined ? part().name : ""));
+    write_with_others(std::move(own), is_joined ? part().name : "");
     return std::move(out_);
   }
 
@@ -248,7 +252,11 @@ class Replacement {
     for (const ExrPart& other : parts_)
       if (&other != &part()) out_.left_out.push_back("part " + other.name);
   }
-  void set_only(const ExrPartBytes& own) { out_.bytes = join_exr_parts({&own, 1}); }
+  void set_only(ExrPartBytes own) {
+    std::vector<ExrPartBytes> parts;
+    parts.push_back(std::move(own));
+    out_.bytes = join_exr_parts(std::move(parts));
+  }
 
   /// A file of the layer alone, of another size than its own.
   ExrReplacement alone(const LinearImage& image, const ExrStorage& storage) {
@@ -263,53 +271,78 @@ class Replacement {
     return std::move(out_);
   }
 
-  /// The part's other channels, which refer to the planes.
-  std::vector<Plane<std::uint32_t>> add_others(ExrPartImage& own) {
-    std::vector<const ExrPartChannel*> kept;
+  /// Writes the part with its other channels, and the other parts.
+  void write_with_others(ExrPartImage own, const std::string& name) {
+    const std::vector<ExrChannel> replaced = own.channels;
+    const std::vector<std::string> names = add_others(own);
+    // The tables of offsets follow the headers, the last of which ends before one or two zeros.
+    const ExrPart& last = parts_.back();
+    std::size_t table = static_cast<std::size_t>(last.header.data() + last.header.size() - file_.data()) + 2;
+    std::vector<ExrPartHeader> headers;
+    std::vector<std::size_t> tables;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      const PackedPart packed(file_, name_, parts_[i]);
+      const std::optional<std::size_t> chunks = parts_.size() > 1 ? packed.chunk_count() : std::size_t{0};
+      if (!chunks) throw Error(ErrorKind::Input, name_ + ": EXR: part " + parts_[i].name + " states no chunks");
+      headers.push_back(static_cast<int>(i) == layer_.part ? exr_part_header(own, name) : packed.header());
+      tables.push_back(table);
+      table += *chunks * sizeof(std::uint64_t);
+    }
+    // Packed pixels never take more than unpacked ones behind their place and size. Room for 2 GB costs nothing.
+    constexpr std::uint64_t head = 8, room = std::uint64_t{1} << 31;
+    std::uint64_t row_bytes = head;
+    for (const ExrChannel& c : own.channels)
+      row_bytes += static_cast<std::uint64_t>((c.type == ExrType::Half ? 2 : 4) * own.data.width());
+    const std::uint64_t most = file_.size() + row_bytes * static_cast<std::uint64_t>(own.data.height());
+    ExrFileWriter file(std::move(headers), std::min(most, std::max<std::uint64_t>(room, 2 * file_.size())));
+    for (std::size_t i = 0; i < parts_.size(); ++i)
+      if (static_cast<int>(i) == layer_.part)
+        write_bands(own, replaced, names, file);
+      else
+        PackedPart(file_, name_, parts_[i]).copy_chunks(static_cast<int>(i), tables[i], file);
+    out_.bytes = file.finish();
+  }
+
+  /// Encodes the part band by band, so that few rows of its other channels are in memory.
+  void write_bands(ExrPartImage& own, std::span<const ExrChannel> replaced, const std::vector<std::string>& names,
+                   ExrFileWriter& file) const {
+    const auto width = static_cast<std::size_t>(own.data.width());
+    const std::int64_t height = own.data.height(), step = exr_band_rows(part(), std::max<std::size_t>(names.size(), 1));
+    for (std::int64_t first = 0; first < height; first += step) {
+      const std::int64_t end = std::min(height, first + step);
+      ExrWindow rows = own.data;
+      rows.top = static_cast<std::int32_t>(own.data.top + first);
+      rows.bottom = static_cast<std::int32_t>(own.data.top + end - 1);
+      std::vector<Plane<std::uint32_t>> planes;
+      if (!names.empty()) planes = decode_exr_stored(file_, name_, layer_.part, names, rows);
+      for (std::size_t i = 0; i < replaced.size(); ++i)
+        own.channels[i].value = replaced[i].value + static_cast<std::size_t>(first) * width * replaced[i].step;
+      for (std::size_t i = 0; i < names.size(); ++i)
+        own.channels[replaced.size() + i].number = planes[i].values().data();
+      for (const Bytes& chunk : encode_exr_rows(own, first, end)) file.add(chunk);
+    }
+  }
+
+  /// Adds them without their values, and returns their names.
+  std::vector<std::string> add_others(ExrPartImage& own) {
+    std::set<std::string> taken;
+    for (const ExrChannel& channel : own.channels) taken.insert(channel.name);
     std::vector<std::string> names;
     for (const ExrPartChannel& channel : part().channels) {
       if (is_replaced(channel)) continue;
-      const bool is_taken = std::ranges::find(own.channels, channel.name, &ExrChannel::name) != own.channels.end() ||
-                            std::ranges::find(names, channel.name) != names.end();
-      if (is_taken || !is_aligned(channel, own.data)) {
+      if (!is_aligned(channel, own.data) || !taken.insert(channel.name).second) {
         out_.left_out.push_back(channel.name);
         continue;
       }
-      kept.push_back(&channel);
       names.push_back(channel.name);
+      own.channels.push_back({.name = channel.name, .type = channel.type, .sampling = channel.sampling});
     }
-    if (names.empty()) return {};
-    std::vector<Plane<std::uint32_t>> planes = decode_exr_stored(file_, name_, layer_.part, names, own.data);
-    for (std::size_t i = 0; i < kept.size(); ++i)
-      own.channels.push_back({.name = kept[i]->name,
-                              .type = kept[i]->type,
-                              .number = planes[i].values().data(),
-                              .sampling = kept[i]->sampling});
-    return planes;
+    return names;
   }
 
   static bool is_aligned(const ExrPartChannel& channel, const ExrWindow& window) {
     const int2 s = channel.sampling;
     return window.left % s.x == 0 && window.width() % s.x == 0 && window.top % s.y == 0 && window.height() % s.y == 0;
-  }
-
-  /// Joins the part with the others.
-  void join(ExrPartBytes own) {
-    std::vector<ExrPartBytes> joined;
-    // The tables of offsets follow the headers, the last of which ends before one or two zeros.
-    const ExrPart& last = parts_.back();
-    std::size_t table = static_cast<std::size_t>(last.header.data() + last.header.size() - file_.data()) + 2;
-    for (std::size_t i = 0; i < parts_.size(); ++i) {
-      const PackedPart packed(file_, name_, parts_[i]);
-      const std::optional<std::size_t> chunks = parts_.size() > 1 ? packed.chunk_count() : std::size_t{0};
-      if (!chunks) throw Error(ErrorKind::Input, name_ + ": EXR: part " + parts_[i].name + " states no chunks");
-      if (static_cast<int>(i) == layer_.part)
-        joined.push_back(std::move(own));
-      else
-        joined.push_back(packed.copy(static_cast<int>(i), table));
-      table += *chunks * sizeof(std::uint64_t);
-    }
-    out_.bytes = join_exr_parts(joined);
   }
 
   ExrBytes file_;

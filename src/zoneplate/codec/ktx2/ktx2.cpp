@@ -108,10 +108,9 @@ void decode_basis_lz(const Fields& f, const Header& h, Rgba8Image& image) {
 }
 
 std::vector<std::uint8_t> unpacked(std::span<const std::uint8_t> packed, std::uint64_t size, const ktx2::Place& place) {
-  decltype(&ZSTD_decompress) decompress = nullptr;
-  decltype(&ZSTD_isError) is_error = nullptr;
   const SharedLibrary library(Library::Zstd, place.name);
-  library.find(decompress, "ZSTD_decompress"), library.find(is_error, "ZSTD_isError");
+  decltype(&ZSTD_decompress) decompress = library.find("ZSTD_decompress");
+  decltype(&ZSTD_isError) is_error = library.find("ZSTD_isError");
   std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
   const std::size_t count = decompress(bytes.data(), bytes.size(), packed.data(), packed.size());
   if (is_error(count) != 0 || count != bytes.size()) place.fail("its Zstandard data are damaged");

@@ -18,40 +18,24 @@ using View = std::span<const std::uint8_t>;
 
 /// The functions of libavif.
 struct AvifLibrary {
-  decltype(&avifResultToString) result_text = nullptr;
-  decltype(&avifDecoderCreate) make_decoder = nullptr;
-  decltype(&avifDecoderDestroy) free_decoder = nullptr;
-  decltype(&avifDecoderSetIOMemory) set_input = nullptr;
-  decltype(&avifDecoderParse) parse = nullptr;
-  decltype(&avifDecoderNextImage) next_image = nullptr;
-  decltype(&avifRGBImageSetDefaults) set_defaults = nullptr;
-  decltype(&avifImageYUVToRGB) to_rgb = nullptr;
-  decltype(&avifImageCreate) make_image = nullptr;
-  decltype(&avifImageDestroy) free_image = nullptr;
-  decltype(&avifImageRGBToYUV) from_rgb = nullptr;
-  decltype(&avifEncoderCreate) make_encoder = nullptr;
-  decltype(&avifEncoderDestroy) free_encoder = nullptr;
-  decltype(&avifEncoderWrite) write = nullptr;
-  decltype(&avifRWDataFree) free_data = nullptr;
+  SharedLibrary library;
+  decltype(&avifResultToString) result_text = library.find("avifResultToString");
+  decltype(&avifDecoderCreate) make_decoder = library.find("avifDecoderCreate");
+  decltype(&avifDecoderDestroy) free_decoder = library.find("avifDecoderDestroy");
+  decltype(&avifDecoderSetIOMemory) set_input = library.find("avifDecoderSetIOMemory");
+  decltype(&avifDecoderParse) parse = library.find("avifDecoderParse");
+  decltype(&avifDecoderNextImage) next_image = library.find("avifDecoderNextImage");
+  decltype(&avifRGBImageSetDefaults) set_defaults = library.find("avifRGBImageSetDefaults");
+  decltype(&avifImageYUVToRGB) to_rgb = library.find("avifImageYUVToRGB");
+  decltype(&avifImageCreate) make_image = library.find("avifImageCreate");
+  decltype(&avifImageDestroy) free_image = library.find("avifImageDestroy");
+  decltype(&avifImageRGBToYUV) from_rgb = library.find("avifImageRGBToYUV");
+  decltype(&avifEncoderCreate) make_encoder = library.find("avifEncoderCreate");
+  decltype(&avifEncoderDestroy) free_encoder = library.find("avifEncoderDestroy");
+  decltype(&avifEncoderWrite) write = library.find("avifEncoderWrite");
+  decltype(&avifRWDataFree) free_data = library.find("avifRWDataFree");
 
-  explicit AvifLibrary(const std::string& place) {
-    const SharedLibrary library(Library::Avif, place);
-    library.find(result_text, "avifResultToString");
-    library.find(make_decoder, "avifDecoderCreate");
-    library.find(free_decoder, "avifDecoderDestroy");
-    library.find(set_input, "avifDecoderSetIOMemory");
-    library.find(parse, "avifDecoderParse");
-    library.find(next_image, "avifDecoderNextImage");
-    library.find(set_defaults, "avifRGBImageSetDefaults");
-    library.find(to_rgb, "avifImageYUVToRGB");
-    library.find(make_image, "avifImageCreate");
-    library.find(free_image, "avifImageDestroy");
-    library.find(from_rgb, "avifImageRGBToYUV");
-    library.find(make_encoder, "avifEncoderCreate");
-    library.find(free_encoder, "avifEncoderDestroy");
-    library.find(write, "avifEncoderWrite");
-    library.find(free_data, "avifRWDataFree");
-  }
+  explicit AvifLibrary(const std::string& place) : library(Library::Avif, place) {}
 };
 
 template <class T, class Free>

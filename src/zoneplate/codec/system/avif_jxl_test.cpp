@@ -93,17 +93,13 @@ INSTANTIATE_TEST_SUITE_P(All, SystemFormats,
 TEST(Avif, RotationsAreOrientationsAndTenBitsStay) {
   if (!open_library(Library::Avif)) GTEST_SKIP() << "libavif is not installed";
   const SharedLibrary library(Library::Avif, "test");
-  decltype(&avifImageCreate) make_image = nullptr;
-  decltype(&avifImageDestroy) free_image = nullptr;
-  decltype(&avifImageAllocatePlanes) allocate = nullptr;
-  decltype(&avifEncoderCreate) make_encoder = nullptr;
-  decltype(&avifEncoderDestroy) free_encoder = nullptr;
-  decltype(&avifEncoderWrite) write = nullptr;
-  decltype(&avifRWDataFree) free_data = nullptr;
-  library.find(make_image, "avifImageCreate"), library.find(free_image, "avifImageDestroy");
-  library.find(allocate, "avifImageAllocatePlanes"), library.find(make_encoder, "avifEncoderCreate");
-  library.find(free_encoder, "avifEncoderDestroy"), library.find(write, "avifEncoderWrite");
-  library.find(free_data, "avifRWDataFree");
+  decltype(&avifImageCreate) make_image = library.find("avifImageCreate");
+  decltype(&avifImageDestroy) free_image = library.find("avifImageDestroy");
+  decltype(&avifImageAllocatePlanes) allocate = library.find("avifImageAllocatePlanes");
+  decltype(&avifEncoderCreate) make_encoder = library.find("avifEncoderCreate");
+  decltype(&avifEncoderDestroy) free_encoder = library.find("avifEncoderDestroy");
+  decltype(&avifEncoderWrite) write = library.find("avifEncoderWrite");
+  decltype(&avifRWDataFree) free_data = library.find("avifRWDataFree");
   const auto orientation_of = [&](int angle, int mirror) {
     avifImage* const image = make_image(8, 4, 10, AVIF_PIXEL_FORMAT_YUV444);
     image->yuvRange = AVIF_RANGE_FULL, image->matrixCoefficients = AVIF_MATRIX_COEFFICIENTS_IDENTITY;

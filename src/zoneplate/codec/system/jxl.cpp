@@ -21,60 +21,34 @@ using View = std::span<const std::uint8_t>;
 
 /// The functions of libjxl.
 struct JxlLibrary {
-  decltype(&JxlDecoderCreate) make_decoder = nullptr;
-  decltype(&JxlDecoderDestroy) free_decoder = nullptr;
-  decltype(&JxlDecoderSubscribeEvents) subscribe = nullptr;
-  decltype(&JxlDecoderSetKeepOrientation) keep_orientation = nullptr;
-  decltype(&JxlDecoderSetUnpremultiplyAlpha) unpremultiply = nullptr;
-  decltype(&JxlDecoderSetInput) set_input = nullptr;
-  decltype(&JxlDecoderCloseInput) close_input = nullptr;
-  decltype(&JxlDecoderProcessInput) process = nullptr;
-  decltype(&JxlDecoderGetBasicInfo) basic_info = nullptr;
-  decltype(&JxlDecoderSetPreferredColorProfile) prefer_profile = nullptr;
-  decltype(&JxlDecoderGetColorAsEncodedProfile) profile = nullptr;
-  decltype(&JxlDecoderSetImageOutBuffer) set_output = nullptr;
-  decltype(&JxlColorEncodingSetToSRGB) set_srgb = nullptr;
-  decltype(&JxlColorEncodingSetToLinearSRGB) set_linear = nullptr;
-  decltype(&JxlEncoderCreate) make_encoder = nullptr;
-  decltype(&JxlEncoderDestroy) free_encoder = nullptr;
-  decltype(&JxlEncoderInitBasicInfo) init_info = nullptr;
-  decltype(&JxlEncoderSetBasicInfo) set_info = nullptr;
-  decltype(&JxlEncoderSetColorEncoding) set_color = nullptr;
-  decltype(&JxlEncoderFrameSettingsCreate) make_settings = nullptr;
-  decltype(&JxlEncoderSetFrameLossless) set_lossless = nullptr;
-  decltype(&JxlEncoderFrameSettingsSetOption) set_option = nullptr;
-  decltype(&JxlEncoderAddImageFrame) add_frame = nullptr;
-  decltype(&JxlEncoderCloseInput) close_frames = nullptr;
-  decltype(&JxlEncoderProcessOutput) process_output = nullptr;
+  SharedLibrary library;
+  decltype(&JxlDecoderCreate) make_decoder = library.find("JxlDecoderCreate");
+  decltype(&JxlDecoderDestroy) free_decoder = library.find("JxlDecoderDestroy");
+  decltype(&JxlDecoderSubscribeEvents) subscribe = library.find("JxlDecoderSubscribeEvents");
+  decltype(&JxlDecoderSetKeepOrientation) keep_orientation = library.find("JxlDecoderSetKeepOrientation");
+  decltype(&JxlDecoderSetUnpremultiplyAlpha) unpremultiply = library.find("JxlDecoderSetUnpremultiplyAlpha");
+  decltype(&JxlDecoderSetInput) set_input = library.find("JxlDecoderSetInput");
+  decltype(&JxlDecoderCloseInput) close_input = library.find("JxlDecoderCloseInput");
+  decltype(&JxlDecoderProcessInput) process = library.find("JxlDecoderProcessInput");
+  decltype(&JxlDecoderGetBasicInfo) basic_info = library.find("JxlDecoderGetBasicInfo");
+  decltype(&JxlDecoderSetPreferredColorProfile) prefer_profile = library.find("JxlDecoderSetPreferredColorProfile");
+  decltype(&JxlDecoderGetColorAsEncodedProfile) profile = library.find("JxlDecoderGetColorAsEncodedProfile");
+  decltype(&JxlDecoderSetImageOutBuffer) set_output = library.find("JxlDecoderSetImageOutBuffer");
+  decltype(&JxlColorEncodingSetToSRGB) set_srgb = library.find("JxlColorEncodingSetToSRGB");
+  decltype(&JxlColorEncodingSetToLinearSRGB) set_linear = library.find("JxlColorEncodingSetToLinearSRGB");
+  decltype(&JxlEncoderCreate) make_encoder = library.find("JxlEncoderCreate");
+  decltype(&JxlEncoderDestroy) free_encoder = library.find("JxlEncoderDestroy");
+  decltype(&JxlEncoderInitBasicInfo) init_info = library.find("JxlEncoderInitBasicInfo");
+  decltype(&JxlEncoderSetBasicInfo) set_info = library.find("JxlEncoderSetBasicInfo");
+  decltype(&JxlEncoderSetColorEncoding) set_color = library.find("JxlEncoderSetColorEncoding");
+  decltype(&JxlEncoderFrameSettingsCreate) make_settings = library.find("JxlEncoderFrameSettingsCreate");
+  decltype(&JxlEncoderSetFrameLossless) set_lossless = library.find("JxlEncoderSetFrameLossless");
+  decltype(&JxlEncoderFrameSettingsSetOption) set_option = library.find("JxlEncoderFrameSettingsSetOption");
+  decltype(&JxlEncoderAddImageFrame) add_frame = library.find("JxlEncoderAddImageFrame");
+  decltype(&JxlEncoderCloseInput) close_frames = library.find("JxlEncoderCloseInput");
+  decltype(&JxlEncoderProcessOutput) process_output = library.find("JxlEncoderProcessOutput");
 
-  explicit JxlLibrary(const std::string& place) {
-    const SharedLibrary library(Library::Jxl, place);
-    library.find(make_decoder, "JxlDecoderCreate");
-    library.find(free_decoder, "JxlDecoderDestroy");
-    library.find(subscribe, "JxlDecoderSubscribeEvents");
-    library.find(keep_orientation, "JxlDecoderSetKeepOrientation");
-    library.find(unpremultiply, "JxlDecoderSetUnpremultiplyAlpha");
-    library.find(set_input, "JxlDecoderSetInput");
-    library.find(close_input, "JxlDecoderCloseInput");
-    library.find(process, "JxlDecoderProcessInput");
-    library.find(basic_info, "JxlDecoderGetBasicInfo");
-    library.find(prefer_profile, "JxlDecoderSetPreferredColorProfile");
-    library.find(profile, "JxlDecoderGetColorAsEncodedProfile");
-    library.find(set_output, "JxlDecoderSetImageOutBuffer");
-    library.find(set_srgb, "JxlColorEncodingSetToSRGB");
-    library.find(set_linear, "JxlColorEncodingSetToLinearSRGB");
-    library.find(make_encoder, "JxlEncoderCreate");
-    library.find(free_encoder, "JxlEncoderDestroy");
-    library.find(init_info, "JxlEncoderInitBasicInfo");
-    library.find(set_info, "JxlEncoderSetBasicInfo");
-    library.find(set_color, "JxlEncoderSetColorEncoding");
-    library.find(make_settings, "JxlEncoderFrameSettingsCreate");
-    library.find(set_lossless, "JxlEncoderSetFrameLossless");
-    library.find(set_option, "JxlEncoderFrameSettingsSetOption");
-    library.find(add_frame, "JxlEncoderAddImageFrame");
-    library.find(close_frames, "JxlEncoderCloseInput");
-    library.find(process_output, "JxlEncoderProcessOutput");
-  }
+  explicit JxlLibrary(const std::string& place) : library(Library::Jxl, place) {}
 };
 
 template <class T, class Free>

@@ -25,48 +25,28 @@ using View = std::span<const std::uint8_t>;
 
 /// The functions of libtiff.
 struct TiffLibrary {
-  decltype(&TIFFOpenOptionsAlloc) make_options = nullptr;
-  decltype(&TIFFOpenOptionsFree) free_options = nullptr;
-  decltype(&TIFFOpenOptionsSetMaxSingleMemAlloc) limit_memory = nullptr;
-  decltype(&TIFFOpenOptionsSetErrorHandlerExtR) on_error = nullptr;
-  decltype(&TIFFOpenOptionsSetWarningHandlerExtR) on_warning = nullptr;
-  decltype(&TIFFClientOpenExt) open = nullptr;
-  decltype(&TIFFClose) close = nullptr;
-  decltype(&TIFFGetField) field = nullptr;
-  decltype(&TIFFGetFieldDefaulted) field_or_default = nullptr;
-  decltype(&TIFFSetField) set_field = nullptr;
-  decltype(&TIFFIsTiled) is_tiled = nullptr;
-  decltype(&TIFFTileSize64) tile_size = nullptr;
-  decltype(&TIFFStripSize64) strip_size = nullptr;
-  decltype(&TIFFTileRowSize64) tile_row_size = nullptr;
-  decltype(&TIFFScanlineSize64) row_size = nullptr;
-  decltype(&TIFFComputeTile) tile_number = nullptr;
-  decltype(&TIFFComputeStrip) strip_number = nullptr;
-  decltype(&TIFFReadEncodedTile) read_tile = nullptr;
-  decltype(&TIFFReadEncodedStrip) read_strip = nullptr;
+  SharedLibrary library;
+  decltype(&TIFFOpenOptionsAlloc) make_options = library.find("TIFFOpenOptionsAlloc");
+  decltype(&TIFFOpenOptionsFree) free_options = library.find("TIFFOpenOptionsFree");
+  decltype(&TIFFOpenOptionsSetMaxSingleMemAlloc) limit_memory = library.find("TIFFOpenOptionsSetMaxSingleMemAlloc");
+  decltype(&TIFFOpenOptionsSetErrorHandlerExtR) on_error = library.find("TIFFOpenOptionsSetErrorHandlerExtR");
+  decltype(&TIFFOpenOptionsSetWarningHandlerExtR) on_warning = library.find("TIFFOpenOptionsSetWarningHandlerExtR");
+  decltype(&TIFFClientOpenExt) open = library.find("TIFFClientOpenExt");
+  decltype(&TIFFClose) close = library.find("TIFFClose");
+  decltype(&TIFFGetField) field = library.find("TIFFGetField");
+  decltype(&TIFFGetFieldDefaulted) field_or_default = library.find("TIFFGetFieldDefaulted");
+  decltype(&TIFFSetField) set_field = library.find("TIFFSetField");
+  decltype(&TIFFIsTiled) is_tiled = library.find("TIFFIsTiled");
+  decltype(&TIFFTileSize64) tile_size = library.find("TIFFTileSize64");
+  decltype(&TIFFStripSize64) strip_size = library.find("TIFFStripSize64");
+  decltype(&TIFFTileRowSize64) tile_row_size = library.find("TIFFTileRowSize64");
+  decltype(&TIFFScanlineSize64) row_size = library.find("TIFFScanlineSize64");
+  decltype(&TIFFComputeTile) tile_number = library.find("TIFFComputeTile");
+  decltype(&TIFFComputeStrip) strip_number = library.find("TIFFComputeStrip");
+  decltype(&TIFFReadEncodedTile) read_tile = library.find("TIFFReadEncodedTile");
+  decltype(&TIFFReadEncodedStrip) read_strip = library.find("TIFFReadEncodedStrip");
 
-  explicit TiffLibrary(const std::string& name) {
-    const SharedLibrary library(Library::Tiff, name + ": a TIFF image");
-    library.find(make_options, "TIFFOpenOptionsAlloc");
-    library.find(free_options, "TIFFOpenOptionsFree");
-    library.find(limit_memory, "TIFFOpenOptionsSetMaxSingleMemAlloc");
-    library.find(on_error, "TIFFOpenOptionsSetErrorHandlerExtR");
-    library.find(on_warning, "TIFFOpenOptionsSetWarningHandlerExtR");
-    library.find(open, "TIFFClientOpenExt");
-    library.find(close, "TIFFClose");
-    library.find(field, "TIFFGetField");
-    library.find(field_or_default, "TIFFGetFieldDefaulted");
-    library.find(set_field, "TIFFSetField");
-    library.find(is_tiled, "TIFFIsTiled");
-    library.find(tile_size, "TIFFTileSize64");
-    library.find(strip_size, "TIFFStripSize64");
-    library.find(tile_row_size, "TIFFTileRowSize64");
-    library.find(row_size, "TIFFScanlineSize64");
-    library.find(tile_number, "TIFFComputeTile");
-    library.find(strip_number, "TIFFComputeStrip");
-    library.find(read_tile, "TIFFReadEncodedTile");
-    library.find(read_strip, "TIFFReadEncodedStrip");
-  }
+  explicit TiffLibrary(const std::string& name) : library(Library::Tiff, name + ": a TIFF image") {}
 };
 
 /// A file in memory, as libtiff reads it, and the first error that it reports.

@@ -41,16 +41,12 @@ constexpr SceneFormat formats[] = {{".fbx", "Autodesk FBX"},       {".dae", "COL
 
 /// The functions of the library that this file calls.
 struct AssimpLibrary {
-  decltype(&aiImportFileEx) import = nullptr;
-  decltype(&aiReleaseImport) release = nullptr;
-  decltype(&aiGetErrorString) error = nullptr;
+  SharedLibrary library;
+  decltype(&aiImportFileEx) import = library.find("aiImportFileEx");
+  decltype(&aiReleaseImport) release = library.find("aiReleaseImport");
+  decltype(&aiGetErrorString) error = library.find("aiGetErrorString");
 
-  explicit AssimpLibrary(const std::string& file) {
-    const SharedLibrary library(Library::Assimp, file);
-    library.find(import, "aiImportFileEx");
-    library.find(release, "aiReleaseImport");
-    library.find(error, "aiGetErrorString");
-  }
+  explicit AssimpLibrary(const std::string& file) : library(Library::Assimp, file) {}
 };
 
 /// Joins the lines of the library's error message, and limits its length.

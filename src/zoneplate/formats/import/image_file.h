@@ -46,7 +46,7 @@ struct DecodedImage {
 /// floats of HDR, EXR and of a TIFF or JPEG XL of floats. Colours of an EXR are divided by alpha where alpha is above
 /// 0. An EXR may have a quarter of `max_pixels`, because decoding takes four times the memory per pixel.
 ///
-/// Of a damaged JPEG what can be decoded is kept. `layer` is of an EXR (codec/exr_layer.h).
+/// Of a damaged JPEG what can be decoded is kept. `layer` is of an EXR (codec/exr/exr_layer.h).
 ///
 /// Errors    ErrorKind::Input with `name` in front: another format (named, if known), corrupt, more than `max_pixels`.
 DecodedImage decode_image(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,

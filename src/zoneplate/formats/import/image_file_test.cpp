@@ -97,10 +97,10 @@ TEST(ImageFile, WhatDecodingTakesBesideThePicture) {
   const Bytes halves{0xff, 0xd8, 0xff, 0xc2, 0,    17, 8,  0, 32, 0, 48, 3, 1, 0x22, 0, 2, 0x11, 0,
                      3,    0x11, 0,    0xff, 0xda, 0,  12, 3, 1,  0, 2,  0, 3, 0,    0, 0, 0};
   EXPECT_EQ(image_working_memory(halves), 48u * 32 * 3);
-  // The pixels of an EXR are those of its data window, not of its display window.
+  // The pixels of an EXR, and six times what the file packs together: here all of its single channel.
   const std::vector<float> values(64);
   const Bytes exr = encode_exr(8, 8, {{"Y", ExrType::Float, values.data(), nullptr, 1}});
-  EXPECT_EQ(image_working_memory(exr), 64u * sizeof(Linear));
+  EXPECT_EQ(image_working_memory(exr), 64 * sizeof(Linear) + 6 * 64 * sizeof(float));
   EXPECT_EQ(image_working_memory(Bytes{1, 2, 3}), 0u);
 }
 

@@ -14,20 +14,15 @@ namespace {
 /// The library's functions. The library is loaded by the first file that needs it, because loading it takes as long as
 /// rendering a small image.
 struct MeshoptLibrary {
-  decltype(&meshopt_decodeVertexBuffer) attributes = nullptr, triangles = nullptr, indices = nullptr;
-  decltype(&meshopt_decodeFilterOct) octahedral = nullptr;
-  decltype(&meshopt_decodeFilterQuat) quaternion = nullptr;
-  decltype(&meshopt_decodeFilterExp) exponential = nullptr;
+  SharedLibrary library;
+  decltype(&meshopt_decodeVertexBuffer) attributes = library.find("meshopt_decodeVertexBuffer");
+  decltype(attributes) triangles = library.find("meshopt_decodeIndexBuffer");
+  decltype(attributes) indices = library.find("meshopt_decodeIndexSequence");
+  decltype(&meshopt_decodeFilterOct) octahedral = library.find("meshopt_decodeFilterOct");
+  decltype(&meshopt_decodeFilterQuat) quaternion = library.find("meshopt_decodeFilterQuat");
+  decltype(&meshopt_decodeFilterExp) exponential = library.find("meshopt_decodeFilterExp");
 
-  explicit MeshoptLibrary(const std::string& place) {
-    const SharedLibrary library(Library::Meshoptimizer, place);
-    library.find(attributes, "meshopt_decodeVertexBuffer");
-    library.find(triangles, "meshopt_decodeIndexBuffer");
-    library.find(indices, "meshopt_decodeIndexSequence");
-    library.find(octahedral, "meshopt_decodeFilterOct");
-    library.find(quaternion, "meshopt_decodeFilterQuat");
-    library.find(exponential, "meshopt_decodeFilterExp");
-  }
+  explicit MeshoptLibrary(const std::string& place) : library(Library::Meshoptimizer, place) {}
 };
 
 void check_stride(const JsonView& json, const std::string& mode, const std::string& filter, std::uint64_t stride) {
