@@ -145,6 +145,30 @@ TEST_F(Equality, IsOfLayersAndParts) {
   expect_different("p3.exr dark.exr", "stored values differ: AO in 16 pixels");  // of half as many columns and rows
 }
 
+// More layers than are in memory at once: they are compared in bands of rows.
+TEST_F(Equality, IsOfManyLayersOfWideImages) {
+  constexpr int width = 3600, height = 40;
+  const LinearImage image(width, height, {0.5f, 0.5f, 0.5f, 1});
+  Plane<float> values(width, height, 2.0f), changed = values;
+  changed(5, 39) = changed(6, 39) = changed(7, 3) = 7, values(8, 20) = changed(8, 20) = std::nanf("");
+  const auto file = [&](const Plane<float>& last) {
+    std::vector<ExrChannel> channels = rgba_channels(image);
+    for (int i = 0; i < 60; ++i)
+      channels.push_back(
+          {fmt::format("d.{}", i), i == 0 ? ExrType::Float : ExrType::Half, (i == 59 ? last : values).values().data()});
+    return encode_exr(width, height, channels);
+  };
+  save("a.exr", file(values)), save("b.exr", file(changed));
+  const ProgramAnswer answer = run("a.exr b.exr --metric psnr");
+  EXPECT_EQ(answer.code, 1);
+  EXPECT_TRUE(contains(answer.out, "stored values differ: d.59 in 3 pixels")) << answer.out;
+  for (const char* const side : {"the reference", "the test image"})
+    EXPECT_TRUE(contains(answer.out, fmt::format("not finite in {}: d.0 in 1 pixel", side))) << answer.out;
+  const ProgramAnswer same = run("a.exr a.exr --metric psnr");
+  EXPECT_TRUE(contains(same.out, "not finite in the test image: d.0 in 1 pixel")) << same.out;
+  EXPECT_TRUE(contains(same.out, "d.59")) << same.out;
+}
+
 TEST_F(Equality, IsOfTheMeaningOfTheValues) {
   const ExrChromaticities wide = {0.7347f, 0.2653f, 0, 1, 0.0001f, -0.077f, 0.32168f, 0.33767f};
   save_exr("a.exr", grey), save_exr("b.exr", grey, std::nullopt, {{"chromaticities", wide}});

@@ -15,6 +15,7 @@
 #include "zoneplate/codec/color/icc.h"
 #include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/codec/exr/exr_header.h"
+#include "zoneplate/codec/exr/exr_layer.h"
 #include "zoneplate/codec/hdr.h"
 #include "zoneplate/codec/jpeg.h"
 #include "zoneplate/codec/pfm.h"
@@ -234,6 +235,20 @@ FileColor of_exr(const ExrPart& part) {
   return out;
 }
 
+/// The part of a layer of an EXR.
+struct ChosenPart {
+  ExrPart part;
+  bool has_colors = false;  ///< in the layer
+};
+
+/// Nothing if the header is wrong.
+std::optional<ChosenPart> choose_part(ByteSpan bytes, const std::string& name, const ExrChoice& choice) {
+  std::vector<ExrPart> parts = read_exr_parts(bytes);
+  if (parts.empty()) return std::nullopt;
+  const ExrLayer layer = choose_exr_layer(parts, choice.layer, name);
+  return ChosenPart{std::move(parts[static_cast<std::size_t>(layer.part)]), layer.has_colors};
+}
+
 }  // namespace
 
 FileColor read_file_color(ByteSpan bytes) {
@@ -249,15 +264,20 @@ FileColor read_file_color(ByteSpan bytes) {
   return part ? of_exr(*part) : out;
 }
 
-std::string color_space_of(ByteSpan bytes) {
-  // The text of an EXR has other attributes, too.
-  if (const std::optional<ExrPart> part = read_exr_part(bytes)) return part->color_space;
+std::string color_space_of(ByteSpan bytes, const std::string& name, const ExrChoice& exr) {
+  if (is_exr(bytes)) {
+    // The text of an EXR has other attributes, too.
+    const std::optional<ChosenPart> chosen = choose_part(bytes, name, exr);
+    return chosen ? chosen->part.color_space : std::string();
+  }
   const FileColor color = read_file_color(bytes);
   return joined(text_of(color.profile), color.scale);
 }
 
-ImageColor read_image_color(ByteSpan bytes, const std::string& name) {
-  FileColor file = read_file_color(bytes);
+namespace {
+
+/// `code_points` is what a message calls those of the file.
+ImageColor color_of_file(FileColor file, const char* code_points, const std::string& name) {
   ImageColor out{.space = nullptr, .orientation = file.orientation};
   if (file.profile.empty()) return out;
   const bool is_icc = !file.profile.icc.empty() && !file.profile.cicp,
@@ -280,7 +300,7 @@ ImageColor read_image_color(ByteSpan bytes, const std::string& name) {
     out.space = std::make_shared<const RgbSpace>(std::move(space));
   } catch (const Error& error) {
     const char* const what = is_icc               ? "ICC profile"
-                             : file.profile.cicp  ? (is_png(bytes) ? "cICP chunk" : "code points (nclx)")
+                             : file.profile.cicp  ? code_points
                              : is_light           ? "chromaticities attribute"
                              : file.profile.gamma ? "gAMA chunk"
                                                   : "cHRM chunk";
@@ -290,7 +310,23 @@ ImageColor read_image_color(ByteSpan bytes, const std::string& name) {
   return out;
 }
 
+}  // namespace
+
+ImageColor read_image_color(ByteSpan bytes, const std::string& name, const ExrChoice& exr) {
+  FileColor file;
+  if (!is_exr(bytes))
+    file = read_file_color(bytes);
+  else if (const std::optional<ChosenPart> chosen = choose_part(bytes, name, exr); chosen && chosen->has_colors)
+    file = of_exr(chosen->part);
+  return color_of_file(std::move(file), is_png(bytes) ? "cICP chunk" : "code points (nclx)", name);
+}
+
 ImageColor color_of(const StoredImage& image, ImageColor stated, const std::string& name) {
+  if (!image.profile.empty()) {
+    FileColor found{.profile = {.icc = image.profile}};
+    found.is_grey = icc_pixels(image.profile) == "GRAY";
+    stated = color_of_file(std::move(found), "", name);
+  }
   stated.orientation = image.orientation;
   if (!std::holds_alternative<LinearImage>(image.pixels) || !stated.space) return stated;
   if (!stated.space->is_standard)

@@ -220,7 +220,7 @@ Picture picture_of(const TexelImage& codes) {
 
 Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t most_pixels,
                        const ExrChoice& exr) {
-  ImageColor color = read_image_color(bytes, name);
+  ImageColor color = read_image_color(bytes, name, exr);
   Picture picture;
   if (const SystemFormat* const format = find_system_format(bytes)) {
     StoredImage image = format->decode(bytes, name, most_pixels);
