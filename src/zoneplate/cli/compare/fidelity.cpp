@@ -20,6 +20,7 @@
 #include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/codec/inspect/color_space.h"
+#include "zoneplate/codec/system/system_format.h"
 #include "zoneplate/formats/import/image_file.h"
 #include "zoneplate/formats/json/json.h"
 #include "zoneplate/image/orientation.h"
@@ -251,13 +252,14 @@ metrics::Picture load_image(const std::string& path, Delivery& out) {
   return picture;
 }
 
-/// The size of an image, which a confined process reads: from the header if it states one.
+/// The size of an image as it is shown, which a confined process reads: from the header if it states that.
 int2 confined_size(const FidelityArgs& args, const std::string& image) {
   const std::vector<std::uint8_t> bytes = run_confined(confined_run(args, image, {image}), [&](Delivery& out) {
     std::optional<int2> size;
     out.read(image, [&] {
       const FileBytes file(image, out.limits().memory);
-      size = find_image_size(file.bytes());
+      // The headers of TIFF, AVIF and JPEG XL state no orientation that would be read without the library.
+      if (!find_system_format(file.bytes())) size = find_image_size(file.bytes());
       if (size && swaps_sides(read_file_color(file.bytes()).orientation)) std::swap(size->x, size->y);
     });
     if (!size) {

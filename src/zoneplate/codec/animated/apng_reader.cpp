@@ -180,6 +180,7 @@ class ApngReader final : public AnimationReader {
   const AnimationInfo& info() const override { return info_; }
 
   AnimationFrame next() override {
+    check_deadline();
     const Frame& frame = chunks_.frames()[done_++];
     const CanvasPart& part = frame.part;
     const PngImage png =

@@ -191,6 +191,7 @@ class GifReader final : public AnimationReader {
   const AnimationInfo& info() const override { return info_; }
 
   AnimationFrame next() override {
+    check_deadline();
     const Frame& frame = blocks_.frames[done_++];
     if (frame.colors.empty()) fail("has no colours");
     if (frame.code_bits < 1 || frame.code_bits > 8) fail("has codes of an invalid size");

@@ -141,13 +141,16 @@ struct Properties {
   }
 };
 
-void read_properties(View bytes, Properties& out) {
+/// Boxes in boxes down to `depth` levels, of which AVIF has five.
+void read_properties(View bytes, Properties& out, int depth = 6) {
+  if (depth == 0) return;
   for_boxes(bytes, [&](std::string_view name, View box) {
     constexpr std::size_t version_and_flags = 4;
-    if (name == "meta" && box.size() > version_and_flags) read_properties(box.subspan(version_and_flags), out);
+    if (name == "meta" && box.size() > version_and_flags)
+      read_properties(box.subspan(version_and_flags), out, depth - 1);
     if (name == "iprp" || name == "ipco" || name == "moov" || name == "trak" || name == "mdia" || name == "minf" ||
         name == "stbl")
-      read_properties(box, out);
+      read_properties(box, out, depth - 1);
     if (name == "colr" && box.size() >= 4) out.take_colors(box);
     if (name == "ispe" && box.size() >= 12) out.take_size(big_endian(box, 4, 4), big_endian(box, 8, 4));
     // The sample description, whose first entry states the size of its images.

@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 #include <jxl/encode.h>
 
+#include <memory>
+
 #include "zoneplate/base/error.h"
+#include "zoneplate/codec/color/icc.h"
 #include "zoneplate/codec/system/avif.h"
 #include "zoneplate/codec/system/jxl.h"
 #include "zoneplate/codec/system/system_format.h"
@@ -89,6 +92,67 @@ INSTANTIATE_TEST_SUITE_P(All, SystemFormats,
                          testing::Values(Codec{"AVIF", Library::Avif, encode_avif},
                                          Codec{"JPEG XL", Library::Jxl, encode_jxl}),
                          [](const auto& test) { return test.index == 0 ? "Avif" : "Jxl"; });
+
+// Boxes that contain each other deeper than a stack reaches.
+TEST(Avif, DeepBoxesAreNotFollowed) {
+  Bytes file = {0, 0, 0, 16, 'f', 't', 'y', 'p', 'a', 'v', 'i', 'f', 0, 0, 0, 0};
+  constexpr std::uint32_t size = 8 << 20;
+  for (std::uint32_t left = size; left >= 8; left -= 8)
+    for (const std::uint32_t byte : {left >> 24, left >> 16, left >> 8, left, std::uint32_t{'m'}, std::uint32_t{'o'},
+                                     std::uint32_t{'o'}, std::uint32_t{'v'}})
+      file.push_back(static_cast<std::uint8_t>(byte));
+  EXPECT_FALSE(find_avif_size(file));
+  EXPECT_TRUE(find_avif_colors(file).profile.empty());
+}
+
+TEST(Jxl, CodesOfOtherSpacesHaveAProfile) {
+  if (!open_library(Library::Jxl)) GTEST_SKIP() << "libjxl is not installed";
+  const SharedLibrary library(Library::Jxl, "test");
+  decltype(&JxlEncoderCreate) make = library.find("JxlEncoderCreate");
+  decltype(&JxlEncoderDestroy) destroy = library.find("JxlEncoderDestroy");
+  decltype(&JxlEncoderInitBasicInfo) init_info = library.find("JxlEncoderInitBasicInfo");
+  decltype(&JxlEncoderSetBasicInfo) set_info = library.find("JxlEncoderSetBasicInfo");
+  decltype(&JxlEncoderSetColorEncoding) set_color = library.find("JxlEncoderSetColorEncoding");
+  decltype(&JxlEncoderFrameSettingsCreate) make_settings = library.find("JxlEncoderFrameSettingsCreate");
+  decltype(&JxlEncoderSetFrameLossless) set_lossless = library.find("JxlEncoderSetFrameLossless");
+  decltype(&JxlEncoderAddImageFrame) add = library.find("JxlEncoderAddImageFrame");
+  decltype(&JxlEncoderCloseInput) close = library.find("JxlEncoderCloseInput");
+  decltype(&JxlEncoderProcessOutput) process = library.find("JxlEncoderProcessOutput");
+  const auto decoded = [&](std::uint32_t channels, JxlPrimaries primaries, JxlTransferFunction curve,
+                           bool is_lossless) {
+    const std::unique_ptr<JxlEncoder, void (*)(JxlEncoder*)> encoder(make(nullptr), destroy);
+    JxlBasicInfo info;
+    init_info(&info);
+    info.xsize = info.ysize = 8, info.bits_per_sample = 8, info.num_color_channels = channels;
+    info.uses_original_profile = is_lossless ? JXL_TRUE : JXL_FALSE;
+    EXPECT_EQ(set_info(encoder.get(), &info), JXL_ENC_SUCCESS);
+    JxlColorEncoding color{};
+    color.color_space = channels == 1 ? JXL_COLOR_SPACE_GRAY : JXL_COLOR_SPACE_RGB;
+    color.white_point = JXL_WHITE_POINT_D65, color.primaries = primaries, color.transfer_function = curve;
+    color.rendering_intent = JXL_RENDERING_INTENT_RELATIVE;
+    EXPECT_EQ(set_color(encoder.get(), &color), JXL_ENC_SUCCESS);
+    JxlEncoderFrameSettings* const settings = make_settings(encoder.get(), nullptr);
+    EXPECT_EQ(set_lossless(settings, is_lossless ? JXL_TRUE : JXL_FALSE), JXL_ENC_SUCCESS);
+    const Bytes codes(std::size_t{64} * channels, 200);
+    const JxlPixelFormat format{channels, JXL_TYPE_UINT8, JXL_NATIVE_ENDIAN, 0};
+    EXPECT_EQ(add(settings, &format, codes.data(), codes.size()), JXL_ENC_SUCCESS);
+    close(encoder.get());
+    Bytes file(1 << 16);
+    std::uint8_t* next = file.data();
+    std::size_t left = file.size();
+    EXPECT_EQ(process(encoder.get(), &next, &left), JXL_ENC_SUCCESS);
+    file.resize(file.size() - left);
+    return decode_jxl(file, "a", 100);
+  };
+  const StoredImage wide = decoded(3, JXL_PRIMARIES_P3, JXL_TRANSFER_FUNCTION_SRGB, true);
+  EXPECT_EQ(icc_pixels(wide.profile), "RGB ");
+  EXPECT_EQ(std::get<Rgba8Image>(wide.pixels)(3, 3), (Rgba8{200, 200, 200, 255}));
+  EXPECT_EQ(icc_pixels(decoded(1, JXL_PRIMARIES_SRGB, JXL_TRANSFER_FUNCTION_LINEAR, true).profile), "GRAY");
+  EXPECT_TRUE(decoded(3, JXL_PRIMARIES_SRGB, JXL_TRANSFER_FUNCTION_SRGB, true).profile.empty());
+  EXPECT_TRUE(decoded(1, JXL_PRIMARIES_SRGB, JXL_TRANSFER_FUNCTION_SRGB, true).profile.empty());
+  // What is lossy is stored in a space of its own, and comes out as sRGB.
+  EXPECT_TRUE(decoded(3, JXL_PRIMARIES_P3, JXL_TRANSFER_FUNCTION_SRGB, false).profile.empty());
+}
 
 TEST(Avif, RotationsAreOrientationsAndTenBitsStay) {
   if (!open_library(Library::Avif)) GTEST_SKIP() << "libavif is not installed";

@@ -6,6 +6,7 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/codec/color/icc.h"
 #include "zoneplate/os/limited_child.h"
 
 namespace zoneplate {
@@ -39,13 +40,16 @@ StoredImage decode_silently(const std::function<StoredImage()>& decode) {
 struct Header {
   std::uint64_t kind = 0;  ///< an index of StoredImage::pixels
   std::int32_t width = 0, height = 0, orientation = 1;
+  std::uint32_t profile_bytes = 0;
 };
 
 void send(const StoredImage& image, ChildAnswer& answer) {
   std::visit(
       [&](const auto& pixels) {
-        const Header header{image.pixels.index(), pixels.width(), pixels.height(), image.orientation};
+        const Header header{image.pixels.index(), pixels.width(), pixels.height(), image.orientation,
+                            static_cast<std::uint32_t>(image.profile.size())};
         answer.write(&header, sizeof header);
+        answer.write(image.profile.data(), image.profile.size());
         answer.write(pixels.values().data(), pixels.values().size_bytes());
       },
       image.pixels);
@@ -76,10 +80,12 @@ StoredImage decode_in_child(const std::string& place, Library library, std::uint
   Header header;
   child.read(&header, sizeof header);
   const bool is_sound =
-      header.width > 0 && header.height > 0 && header.kind < 3 &&
+      header.width > 0 && header.height > 0 && header.kind < 3 && header.profile_bytes <= most_icc_bytes &&
       static_cast<std::uint64_t>(header.width) * static_cast<std::uint64_t>(header.height) <= max_pixels;
   if (!is_sound) throw Error(ErrorKind::Input, place + ": its reader gave a wrong answer");
   StoredImage image{.pixels = {}, .orientation = header.orientation};
+  image.profile.resize(header.profile_bytes);
+  child.read(image.profile.data(), image.profile.size());
   if (header.kind == 0) image.pixels = receive<Rgba8Image>(header, child);
   if (header.kind == 1) image.pixels = receive<Rgba16Image>(header, child);
   if (header.kind == 2) image.pixels = receive<LinearImage>(header, child);

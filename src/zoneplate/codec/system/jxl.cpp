@@ -12,6 +12,7 @@
 
 #include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/codec/color/icc.h"
 #include "zoneplate/codec/system/in_child.h"
 
 namespace zoneplate {
@@ -33,6 +34,8 @@ struct JxlLibrary {
   decltype(&JxlDecoderGetBasicInfo) basic_info = library.find("JxlDecoderGetBasicInfo");
   decltype(&JxlDecoderSetPreferredColorProfile) prefer_profile = library.find("JxlDecoderSetPreferredColorProfile");
   decltype(&JxlDecoderGetColorAsEncodedProfile) profile = library.find("JxlDecoderGetColorAsEncodedProfile");
+  decltype(&JxlDecoderGetICCProfileSize) icc_size = library.find("JxlDecoderGetICCProfileSize");
+  decltype(&JxlDecoderGetColorAsICCProfile) icc = library.find("JxlDecoderGetColorAsICCProfile");
   decltype(&JxlDecoderSetImageOutBuffer) set_output = library.find("JxlDecoderSetImageOutBuffer");
   decltype(&JxlColorEncodingSetToSRGB) set_srgb = library.find("JxlColorEncodingSetToSRGB");
   decltype(&JxlColorEncodingSetToLinearSRGB) set_linear = library.find("JxlColorEncodingSetToLinearSRGB");
@@ -95,6 +98,7 @@ class JxlReader {
         case JXL_DEC_FULL_IMAGE:
           if (is_light_)
             for (Linear& c : std::get<LinearImage>(out.pixels).values()) c = {c.r * c.a, c.g * c.a, c.b * c.a, c.a};
+          out.profile = std::move(profile_);
           return out;
         default:
           fail("is corrupt or truncated");
@@ -123,13 +127,25 @@ class JxlReader {
     are_floats ? library_.set_linear(&wanted, is_grey) : library_.set_srgb(&wanted, is_grey);
     // This has an effect on XYB alone; codes of other spaces are returned as they are stored.
     static_cast<void>(library_.prefer_profile(decoder_.get(), &wanted));
-    if (!are_floats) return;
     const bool is_known =
         library_.profile(decoder_.get(), nullptr, JXL_COLOR_PROFILE_TARGET_DATA, &found) == JXL_DEC_SUCCESS;
-    is_light_ = !is_known || found.transfer_function == JXL_TRANSFER_FUNCTION_LINEAR;
     const bool has_primaries = is_grey == JXL_TRUE || found.primaries == JXL_PRIMARIES_SRGB;
-    if (is_light_ && (!is_known || found.white_point != JXL_WHITE_POINT_D65 || !has_primaries))
-      fail("its floats are in another space than linear Rec.709");
+    const bool is_rec709 = is_known && found.white_point == JXL_WHITE_POINT_D65 && has_primaries;
+    is_light_ = are_floats && (!is_known || found.transfer_function == JXL_TRANSFER_FUNCTION_LINEAR);
+    if (is_light_ && !is_rec709) fail("its floats are in another space than linear Rec.709");
+    const bool is_srgb = is_rec709 && found.transfer_function == JXL_TRANSFER_FUNCTION_SRGB;
+    if (!is_light_ && !is_srgb) read_profile();
+  }
+
+  /// The profile of the codes; of an unknown space there is none.
+  void read_profile() {
+    std::size_t size = 0;
+    constexpr auto codes = JXL_COLOR_PROFILE_TARGET_DATA;
+    if (library_.icc_size(decoder_.get(), nullptr, codes, &size) != JXL_DEC_SUCCESS) return;
+    if (size > most_icc_bytes)
+      fail(fmt::format("its ICC profile has {} bytes, at most {} are read", size, most_icc_bytes));
+    profile_.resize(size);
+    check(library_.icc(decoder_.get(), nullptr, codes, profile_.data(), size));
   }
 
   template <class Pixel>
@@ -149,6 +165,7 @@ class JxlReader {
   JxlBasicInfo info_{};
   JxlPixelFormat format_{};
   bool is_light_ = false;
+  std::vector<std::uint8_t> profile_;
 };
 
 constexpr std::string_view container("\0\0\0\x0cJXL \r\n\x87\n", 12);
