@@ -307,30 +307,40 @@ std::string short_help(const Syntax& syntax) {
   return text + fmt::format("\nAll options: zoneplate {} --help\n", syntax.verb);
 }
 
-std::string group_help(const Syntax& syntax, const std::string& heading) {
+namespace {
+
+/// In the order in which they appear.
+std::vector<std::string_view> headings_of(const Syntax& syntax) {
   std::vector<std::string_view> headings;
   for (const Option& option : syntax.options)
     if (std::ranges::find(headings, option.group) == headings.end()) headings.push_back(option.group);
+  return headings;
+}
+
+std::string lines_of(const Syntax& syntax, std::string_view heading) {
+  std::string text = fmt::format("{}:\n", heading);
+  for (const Option& option : syntax.options)
+    if (option.group == heading) text += help_line(option);
+  return text;
+}
+
+}  // namespace
+
+std::string group_help(const Syntax& syntax, const std::string& heading) {
+  const std::vector<std::string_view> headings = headings_of(syntax);
   std::vector<std::string> words;
   for (const std::string_view each : headings) words.push_back(word_of(each));
   const std::string_view chosen =
       headings[parse_choice(word_of(heading), std::vector<std::string_view>(words.begin(), words.end()))];
-  std::string text = fmt::format("{}:\n", chosen);
-  for (const Option& option : syntax.options)
-    if (option.group == chosen) text += help_line(option);
-  return text;
+  return lines_of(syntax, chosen);
 }
 
 std::string full_help(const Syntax& syntax) {
   std::string text = usage_line(syntax);
-  std::string group;
-  for (const Option& option : syntax.options) {
-    if (option.group != group) text += fmt::format("\n{}:\n", group = option.group);
-    text += help_line(option);
-  }
-  const bool has_groups = !syntax.options.empty() && syntax.options.front().group != group;
+  const std::vector<std::string_view> headings = headings_of(syntax);
+  for (const std::string_view heading : headings) text += '\n' + lines_of(syntax, heading);
   const std::string one_group =
-      has_groups ? "; --help=GROUP: one group of it, as --help=" + word_of(syntax.options.front().group) : "";
+      headings.size() > 1 ? "; --help=GROUP: one group of it, as --help=" + word_of(syntax.options.front().group) : "";
   text += "\nOther:\n" + help_line({.names = "-h", .meaning = "Short help with examples"}) +
           help_line({.names = "--help", .meaning = "This text" + one_group});
   if (!syntax.examples.empty()) text += "\nExamples:\n" + syntax.examples;

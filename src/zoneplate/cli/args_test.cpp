@@ -99,6 +99,12 @@ TEST(Help, BreaksLongMeanings) {
   EXPECT_NE(full_help(toy.syntax).find("a\n                                  bbb"), std::string::npos);
 }
 
+TEST(Help, GathersEachGroup) {
+  Toy toy;
+  toy.syntax.options.push_back({"--small", "", "Not large", "Form", false, [](auto&) {}});
+  EXPECT_NE(full_help(toy.syntax).find("How large\n  --small"), std::string::npos) << full_help(toy.syntax);
+}
+
 TEST(Help, ShowsOneGroup) {
   const Toy toy;
   EXPECT_EQ(group_help(toy.syntax, "Sound"), "Sound:\n  --loud                          Noise\n");

@@ -18,11 +18,14 @@ metrics::Picture in_space_of(metrics::Picture picture, FilteredValues values, co
       picture.is_scene_linear || space.is_standard || values == FilteredValues::Codes || can_encode(space);
   if (is_stated && is_made) return picture;
   if (!space.is_standard)
-    out.warn(
-        fmt::format("{}: has {}, which {}: its colours are converted to {}", input, space.name,
-                    is_stated ? "gives light but no codes" : output + " cannot state",
-                    is_linear_file(output) ? "light of Rec.709 primaries" : "sRGB, and those outside it are clamped"));
+    warn_of_conversion(input, space, is_stated ? "gives light but no codes" : output + " cannot state",
+                       is_linear_file(output) ? rec709_light : clamped_srgb, out);
   return metrics::in_srgb(std::move(picture));
+}
+
+void warn_of_conversion(const std::string& input, const RgbSpace& space, const std::string& why,
+                        const std::string& target, Delivery& out) {
+  out.warn(fmt::format("{}: has {}, which {}: its colours are converted to {}", input, space.name, why, target));
 }
 
 ColorProfile profile_of(const RgbSpacePtr& space) { return space ? space->profile : ColorProfile{}; }

@@ -17,6 +17,13 @@ enum class FilteredValues { Codes, Light };
 metrics::Picture in_space_of(metrics::Picture picture, FilteredValues values, const std::string& input,
                              const std::string& output, Delivery& out);
 
+/// Warns that the colours of an input are converted to others, because its space `why`: "gives light but no codes".
+void warn_of_conversion(const std::string& input, const RgbSpace& space, const std::string& why,
+                        const std::string& target, Delivery& out);
+/// The targets.
+inline constexpr const char* rec709_light = "light of Rec.709 primaries";
+inline constexpr const char* clamped_srgb = "sRGB, and those outside it are clamped";
+
 /// What the file of an image in this space states.
 ColorProfile profile_of(const RgbSpacePtr& space);
 

@@ -113,6 +113,43 @@ TEST_F(Colors, FiltersOfCodesKeepThemAndTheirProfile) {
   }
 }
 
+// A background is a colour of sRGB, and is seen as that whatever the space of the image is.
+TEST_F(Colors, BackgroundsAreColoursOfSrgb) {
+  constexpr Rgba8 behind{200, 40, 90, 255};
+  const auto near_behind = [&](const std::string& name, float tolerance) {
+    const Rgba8Image found = quantize8(srgb(name).display);
+    for (const auto channel : {&Rgba8::r, &Rgba8::g, &Rgba8::b, &Rgba8::a})
+      EXPECT_NEAR(found(20, 4).*channel, behind.*channel, tolerance) << name;
+  };
+  const auto clear_above = [](Rgba8Image image) {
+    for (int y = 0; y < 32; ++y) std::ranges::fill(image.row(y), Rgba8{10, 250, 20, 0});
+    return image;
+  };
+  for (const ColorProfile& one :
+       {ColorProfile{.icc = icc_display_p3()}, ColorProfile{.gamma = 100000}, ColorProfile{.cicp = {{9, 16, 0, 1}}}}) {
+    save("in.png", encode_png(clear_above(ramps()), {.profile = one}));
+    EXPECT_EQ(succeed("filter in.png --aa smaa --background '#c8285a' -o out.png --bit-depth 16"), "");
+    EXPECT_EQ(profile("out.png"), one);
+    near_behind("out.png", 1);
+    EXPECT_EQ(codes("out.png")(5, 60), ramps()(5, 60));
+  }
+  // Of a space that light gives no codes of, the image becomes sRGB, but not where the background is not seen.
+  save("in.png", encode_png(clear_above(ramps()), {.profile = {.icc = icc_of_table()}}));
+  EXPECT_TRUE(
+      contains(succeed("filter in.png --aa smaa --background '#c8285a' -o out.png"), "gives light but no codes"));
+  EXPECT_TRUE(profile("out.png").empty());
+  near_behind("out.png", 0);
+  save("in.png", encode_png(ramps(), {.profile = {.icc = icc_of_table()}}));
+  EXPECT_EQ(succeed("filter in.png --aa smaa --background '#c8285a' -o out.png"), "");
+  EXPECT_FALSE(profile("out.png").empty());
+
+  const LinearImage clear(32, 32, {0, 0, 0, 0});
+  save("in.exr", encode_exr(32, 32, rgba_channels(clear), {{"chromaticities", aces}}));
+  succeed("filter in.exr --aa smaa --background '#c8285a' -o out.exr");
+  EXPECT_EQ(read_exr_part(file("out.exr"))->chromaticities, aces);
+  near_behind("out.exr", 1);
+}
+
 TEST_F(Colors, TiffHasItsProfileAndOrientation) {
   if (!open_library(Library::Tiff)) GTEST_SKIP() << "libtiff6 is not installed";
   const Rgba8Image upright = ramps(), stored = oriented(upright, 3);
@@ -160,7 +197,10 @@ TEST_F(Colors, OutputsThatCannotStateASpaceAreConverted) {
   succeed("filter grey.png --aa smaa -o out.png");
   EXPECT_TRUE(profile("out.png").empty());
   EXPECT_EQ(codes("out.png")(4, 4).r, encode_srgb8(std::pow(30000 / 65535.0f, 1.8f)));
-  succeed("signal resample grey.png --size 50% -o out.png");
+  for (const char* options : {"", "--codes "}) {
+    const std::string told = succeed(fmt::format("signal resample grey.png --size 50% {}-o out.png", options));
+    EXPECT_TRUE(contains(told, "which out.png cannot state: its colours are converted to sRGB")) << told;
+  }
   EXPECT_EQ(codes("out.png")(2, 2).r, encode_srgb8(std::pow(30000 / 65535.0f, 1.8f)));
 }
 
@@ -227,6 +267,67 @@ TEST_F(Colors, ChromaticitiesOfExrAreKept) {
   EXPECT_TRUE(contains(converted, "has its chromaticities, which out.png cannot state")) << converted;
   EXPECT_TRUE(contains(converted, "light outside 0 to 1, which is clamped")) << converted;
   EXPECT_EQ(quantize8(srgb("out.png").display)(20, 4), quantize8(srgb("in.exr").display)(20, 4));
+}
+
+// A layer of data has no colours that chromaticities would convert, whichever part it lies in.
+TEST_F(Colors, ChromaticitiesAreThoseOfColours) {
+  const LinearImage light(16, 16, {0.5f, 0.25f, 0.125f, 1}), normal(16, 16, {0.6f, -0.48f, 0.64f, 1});
+  std::vector<ExrChannel> channels = rgba_channels(light), data = rgba_channels(normal);
+  for (const auto& [slot, name] : {std::pair(0, "N.X"), std::pair(1, "N.Y"), std::pair(2, "N.Z")}) {
+    data[static_cast<std::size_t>(slot)].name = name;
+    channels.push_back(data[static_cast<std::size_t>(slot)]);
+  }
+  save("in.exr", encode_exr(16, 16, channels, {{"chromaticities", aces}}));
+  data.pop_back();
+  const auto part = [](const std::vector<ExrChannel>& of, const ExrAttributes& attributes, const std::string& name) {
+    const ExrWindow window{0, 0, 15, 15};
+    return encode_exr_part({.data = window, .display = window, .channels = of, .attributes = attributes}, name);
+  };
+  const std::vector<ExrPartBytes> parts = {part(rgba_channels(light), {}, "plain"),
+                                           part(rgba_channels(light), {{"chromaticities", aces}}, "wide"),
+                                           part(data, {{"chromaticities", aces}}, "N")};
+  save("parts.exr", join_exr_parts(parts));
+  const auto stored = [&](const std::string& arguments) {
+    succeed(arguments + " -o out.pfm");
+    return srgb("out.pfm").linear(8, 8);
+  };
+  const Linear whole = stored("signal resample in.exr --layer N --size 100% --kernel box");
+  EXPECT_NEAR(whole.r, 0.6f, 1e-3f);
+  EXPECT_NEAR(whole.g, -0.48f, 1e-3f);
+  EXPECT_NEAR(whole.b, 0.64f, 1e-3f);
+  EXPECT_EQ(stored("filter in.exr --layer N --upscale bilinear:scale=2"), whole);
+  EXPECT_EQ(stored("filter parts.exr --layer N --upscale bilinear:scale=2"), whole);
+  // The luminance of the data itself, by Rec.709's weights.
+  EXPECT_TRUE(contains(succeed("signal spectrum in.exr --layer N"), "mean -0.1695"))
+      << succeed("signal spectrum in.exr --layer N");
+  // Colours are those of their own part.
+  const auto is_near = [](const Linear& a, const Linear& b) {
+    return std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b) < 0.01f;
+  };
+  const char* const resample = "signal resample parts.exr --size 100% --kernel box --layer ";
+  EXPECT_TRUE(is_near(stored(std::string(resample) + "plain"), light(0, 0)));
+  EXPECT_FALSE(is_near(stored(std::string(resample) + "wide"), light(0, 0)));
+  // Layers of data are equal whatever the colours beside them mean, which is said.
+  save("plain.exr", encode_exr(16, 16, channels));
+  const ProgramAnswer compared = run("metrics in.exr plain.exr --layer N --metric psnr --threshold 200");
+  EXPECT_EQ(compared.code, 0) << compared.out;
+  EXPECT_TRUE(contains(compared.out, "the colours beside the layer mean chromaticities 0.7347")) << compared.out;
+}
+
+// What is computed on codes is no light, which the file of its origin would hold beside its other layers.
+TEST_F(Colors, CodesOfLightAreNotPutInPlaceOfIt) {
+  const LinearImage light(16, 16, {0.5f, 0.25f, 0.125f, 1});
+  const std::vector<float> depth(256, 3.0f);
+  std::vector<ExrChannel> channels = rgba_channels(light);
+  channels.push_back({"Z", ExrType::Float, depth.data(), nullptr, 1});
+  save("in.exr", encode_exr(16, 16, channels, {{"chromaticities", rec709_chromaticities}, {"whiteLuminance", 100.0f}}));
+  const auto names = [&] { return exr_channel_names(file("out.exr")); };
+  EXPECT_FALSE(contains(succeed("signal resample in.exr --size 100% --kernel box -o out.exr"), "warning"));
+  EXPECT_EQ(names(), (std::vector<std::string>{"A", "B", "G", "R", "Z"}));
+  EXPECT_TRUE(read_exr_part(file("out.exr"))->find("whiteLuminance"));
+  EXPECT_TRUE(contains(succeed("signal resample in.exr --codes --size 100% --kernel box -o out.exr"), "lacks"));
+  EXPECT_EQ(names(), (std::vector<std::string>{"A", "B", "G", "R"}));
+  EXPECT_FALSE(read_exr_part(file("out.exr"))->find("whiteLuminance"));
 }
 
 TEST_F(Colors, BrokenProfilesAreNamedAndTheImageIsSrgb) {

@@ -217,6 +217,52 @@ TEST_F(FilterFiles, StillsFillWhatIsNotFiniteAsSequencesDo) {
   EXPECT_TRUE(std::ranges::equal(file.bytes(), expected.bytes()));
 }
 
+// As `signal` does, where the result has the size of the image and is an EXR.
+TEST_F(FilterFiles, OverscanIsKeptAndFiltered) {
+  LinearImage image(side + 8, side + 8, {0, 0, 0, 1});
+  for (int y = 0; y < side + 8; ++y)
+    for (int x = 0; x < 6 + y / 3; ++x) image(x, y) = {1, 1, 1, 1};
+  const ExrWindow data{-4, -4, side + 3, side + 3}, display{0, 0, side - 1, side - 1};
+  std::vector<ExrChannel> channels = rgba_channels(image);
+  for (ExrChannel& channel : channels) channel.type = ExrType::Float;
+  const ExrPartBytes part = encode_exr_part({.data = data, .display = display, .channels = channels});
+  save("c.exr", join_exr_parts({part}));
+  save_exr("whole.exr", image);
+  const auto pixels = [&](const char* name, ExrArea area) {
+    const FileBytes file((place / name).string());
+    return decode_exr_as_stored(file.bytes(), name, 1 << 20, {.area = area});
+  };
+  ProgramAnswer answer = run("c.exr --aa smaa -o out.exr");
+  EXPECT_EQ(answer.code, 0);
+  EXPECT_EQ(answer.out, "");
+  ASSERT_EQ(run("whole.exr --aa smaa -o expected.exr").code, 0);
+  EXPECT_EQ(pixels("out.exr", ExrArea::Whole), pixels("expected.exr", ExrArea::Whole));
+  EXPECT_NE(pixels("out.exr", ExrArea::Whole), pixels("c.exr", ExrArea::Whole));
+  EXPECT_EQ(pixels("out.exr", ExrArea::Display).width(), side);
+  answer = run("c.exr --upscale bilinear:scale=2 -o large.exr");
+  EXPECT_TRUE(contains(answer.out, "lacks what c.exr has beside the layer: the pixels outside the display window"))
+      << answer.out;
+  EXPECT_EQ(pixels("large.exr", ExrArea::Whole).width(), 2 * side);
+}
+
+// A warning about a frame is not repeated for the frames after it, but for another image.
+TEST_F(FilterFiles, FramesRepeatNoWarning) {
+  for (int i = 0; i < 5; ++i) {
+    LinearImage image(side, side, {0.25f, 0.25f, 0.25f, 1});
+    for (int k = 0; k <= i; ++k) image(k, 5).r = infinity;
+    save_exr(fmt::format("c.{}.exr", i), image);
+  }
+  save_exr("other.exr", LinearImage(side, side, {-1, 2, 0.25f, 1}));
+  const ProgramAnswer answer = run("c.#.exr -o out --upscale bilinear:scale=2");
+  EXPECT_EQ(answer.code, 0);
+  EXPECT_TRUE(contains(answer.out, "c.0.exr: 1 pixel is not finite")) << answer.out;
+  EXPECT_TRUE(contains(answer.out, "c.1.exr: 2 pixels are not finite")) << answer.out;
+  EXPECT_FALSE(contains(answer.out, "c.2.exr")) << answer.out;
+  EXPECT_TRUE(contains(answer.out, "c.#.exr: 3 more warnings are those above, of other frames")) << answer.out;
+  const ProgramAnswer all = run(". -o all --upscale fsr1");
+  EXPECT_TRUE(contains(all.out, "other.exr: ")) << all.out;
+}
+
 TEST_F(FilterFiles, TheLimitOfPixelsHoldsForPasses) {
   const LinearImage large(2 * side, side, {4, 4, 4, 1});
   for (int i = 0; i < 2; ++i) {

@@ -25,6 +25,7 @@
 #include "zoneplate/codec/save.h"
 #include "zoneplate/codec/system/encoder_library.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/metrics/backdrop.h"
 #include "zoneplate/metrics/file/picture_file.h"
 #include "zoneplate/metrics/file/picture_set.h"
 #include "zoneplate/os/file.h"
@@ -180,10 +181,12 @@ void filter_linear(const FilterItem& item, Still still, const Filters& filters, 
 }
 
 void filter_image(const FilterItem& item, const Filters& filters, const FilterArgs& args, Delivery& out) {
-  Still still = load_still(item.input, {.layer = args.layer}, out);
+  Still still = load_still(item.input, {args.layer, area_for(item.output, !filters.upscaler)}, out);
   metrics::Picture& picture = still.picture;
-  picture = in_space_of(std::move(picture), FilteredValues::Codes, item.input, item.output, out);
-  if (args.background) lay_over(picture, *args.background);
+  const bool is_laid = args.background && metrics::has_alpha(picture);
+  picture = in_space_of(std::move(picture), is_laid ? FilteredValues::Light : FilteredValues::Codes, item.input,
+                        item.output, out);
+  if (is_laid) lay_over(picture, *args.background);
   if (picture.is_scene_linear && is_linear_file(item.output))
     return filter_linear(item, std::move(still), filters, out);
   if (picture.is_scene_linear && !filters.antialiasing)
@@ -350,8 +353,7 @@ void filter_frames(const FilterWork& work, const metrics::PictureSet& frames, De
   sink.finish();
 }
 
-/// Runs in the confined process.
-void filter_all(const FilterWork& work, Delivery& out) {
+void filter_items(const FilterWork& work, Delivery& out) {
   const FilterArgs& args = work.args;
   const std::optional<metrics::PictureSet> frames = frames_of(work, out);
   if (!work.method.empty()) {
@@ -379,6 +381,13 @@ void filter_all(const FilterWork& work, Delivery& out) {
     out.progress(item.input, done++ / static_cast<double>(work.items.size()));
     filter_image(item, work.filters, args, out);
   }
+}
+
+/// Runs in the confined process.
+void filter_all(const FilterWork& work, Delivery& out) {
+  out.repeat_no_warnings();
+  filter_items(work, out);
+  out.tell_repeated(work.operand);
 }
 
 ConfinedRun confined_run(const FilterWork& work) {

@@ -267,8 +267,7 @@ void filter_sequence(const SequenceFilter& filter, Delivery& out) {
       save_codes(files[i].output, std::move(image), space, filter.bit_depth, out);
       continue;
     }
-    const std::vector<std::string> left_out = save_light(files[i].output, image, still.file, {}, out);
-    if (i == 0) warn_of_left_out(files[i].output, files[i].color, left_out, out);
+    warn_of_left_out(files[i].output, files[i].color, save_light(files[i].output, image, still.file, {}, out), out);
   }
   if (sink) sink->finish();
 }

@@ -7,9 +7,10 @@
 #include <vector>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/cli/filter/color.h"
 #include "zoneplate/cli/process/exr_layer.h"
 #include "zoneplate/codec/animated/animation_reader.h"
-#include "zoneplate/image/tonemap.h"
+#include "zoneplate/image/rgb_space.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/vec.h"
 #include "zoneplate/metrics/backdrop.h"
@@ -116,14 +117,13 @@ void warn_of_filled(const std::string& name, std::size_t pixels, Delivery& out) 
 }
 
 void lay_over(metrics::Picture& picture, float4 background) {
-  picture.linear = over_background(std::move(picture.linear), {.background = background});
-  for (std::size_t i = 0; i < picture.linear.values().size(); ++i) {
-    const Linear& c = picture.linear.values()[i];
-    Display& codes = picture.display.values()[i];
-    if (codes.a == 1) continue;
-    const auto code = [&](float light) { return encode_srgb(std::clamp(light / c.a, 0.0f, 1.0f)); };
-    codes = c.a > 0 ? Display{code(c.r), code(c.g), code(c.b), c.a} : Display{0, 0, 0, 0};
-  }
+  Linear behind{decode_srgb(background.x), decode_srgb(background.y), decode_srgb(background.z), 1};
+  if (picture.space && !picture.space->is_standard) behind = from_rec709(behind, *picture.space);
+  for (Linear& c : picture.linear.values()) c = c + behind * ((1 - c.a) * background.w);
+  // The codes of light are those of sRGB, whatever its primaries are.
+  const DisplayImage laid = display_of(picture.linear, picture.is_scene_linear ? nullptr : picture.space);
+  for (std::size_t i = 0; i < laid.values().size(); ++i)
+    if (picture.display.values()[i].a != 1) picture.display.values()[i] = laid.values()[i];
 }
 
 std::size_t fill_not_finite(LinearImage& image, const std::string& name) {

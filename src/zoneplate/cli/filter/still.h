@@ -26,8 +26,9 @@ Still load_still(const std::string& path, const ExrChoice& exr, Delivery& out);
 /// The same for an open file, or a frame of an animation.
 metrics::Picture load_still(const metrics::ImageFile& file, Delivery& out);
 
-/// Lays an image with alpha over a background, an encoded colour with straight alpha, in linear light.
+/// Lays an image with alpha over a background, an sRGB colour with straight alpha, in linear light.
 ///
+/// Requires  light of the picture's space can be encoded (in_space_of, for FilteredValues::Light).
 /// Exact     an opaque pixel keeps its values.
 void lay_over(metrics::Picture& picture, float4 background);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/cli/process/confined.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -101,6 +103,25 @@ ProgramLimits video_limits(const ReadingLimits& limits) {
 Option allow_path_option(LoadLimits& load, const std::string& group) {
   return {"--allow-path", "PATH", "Allow models to read this file or folder outside their own; may be repeated",
           group,          false,  [&](auto& text) { load.allowed_paths.push_back(text); }};
+}
+
+void Delivery::warn(std::string_view message) {
+  if (!repeats_warnings_) {
+    std::string kind(message);
+    std::erase_if(kind, [](char c) { return c >= '0' && c <= '9'; });
+    const bool is_new = warnings_.insert(std::move(kind)).second;
+    repeated_ += !is_new;
+    if (!is_new) return;
+  }
+  sender_.text(TextKind::Warning, message);
+}
+
+void Delivery::tell_repeated(const std::string& input) {
+  if (repeated_ == 0) return;
+  const std::string text = repeated_ == 1 ? "1 more warning is one of those above"
+                                          : fmt::format("{} more warnings are those above", repeated_);
+  sender_.text(TextKind::Warning, fmt::format("{}: {}, of other frames", input, text));
+  repeated_ = 0;
 }
 
 void Delivery::warn_of_flaw(const std::string& flaw) {

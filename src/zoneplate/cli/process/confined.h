@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <limits>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -52,7 +53,11 @@ class Delivery {
   void print_report(std::string_view text, bool is_stdout_taken = false) {
     sender_.text(is_stdout_taken ? TextKind::Aside : TextKind::Report, text);
   }
-  void warn(std::string_view message) { sender_.text(TextKind::Warning, message); }
+  void warn(std::string_view message);
+  /// From now on, of warnings that differ in numbers alone, as those of the frames of a sequence do, only the first is
+  /// printed, and tell_repeated counts the others.
+  void repeat_no_warnings() { repeats_warnings_ = false; }
+  void tell_repeated(const std::string& input);
   /// Warns of damage of an image that its decoder passed over. An empty text means none.
   ///
   /// Errors    ErrorKind::Input with the text if the limits are strict.
@@ -78,6 +83,9 @@ class Delivery {
   ItemSender& sender_;
   const LoadLimits& limits_;
   std::vector<std::uint8_t> result_;
+  bool repeats_warnings_ = true;
+  std::set<std::string> warnings_;  ///< without numbers
+  std::size_t repeated_ = 0;
 };
 
 /// What a confined process may do, and where its files go.

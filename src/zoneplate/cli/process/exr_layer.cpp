@@ -25,6 +25,10 @@ Option layer_option(std::string& layer) {
           }};
 }
 
+ExrArea area_for(const std::string& output, bool keeps_size) {
+  return keeps_size && extension_of(output) == ".exr" ? ExrArea::Whole : ExrArea::Display;
+}
+
 void tell_layer(const metrics::ImageFile& file, Delivery& out) {
   const std::string& wanted = file.exr.layer;
   if (!is_exr(file.bytes)) {

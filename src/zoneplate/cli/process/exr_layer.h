@@ -14,6 +14,10 @@ namespace zoneplate::cli {
 /// The option --layer of a verb that opens images.
 Option layer_option(std::string& layer);
 
+/// The pixels of an EXR of which an image is made: those with overscan if it has their size and is an EXR, which can
+/// keep it.
+ExrArea area_for(const std::string& output, bool keeps_size);
+
 /// Warns, after an image has been decoded, if it is none of the colours that every viewer shows of an EXR, and no layer
 /// was chosen. (Work begins anew where the decoder's library has to be opened.)
 ///
@@ -21,7 +25,7 @@ Option layer_option(std::string& layer);
 void tell_layer(const metrics::ImageFile& file, Delivery& out);
 
 /// Saves an image that was made of a file to .exr or .pfm: to .exr with what else that file has, if it is an EXR
-/// (codec/exr_replace.h). Other files become floats.
+/// (codec/exr/exr_replace.h). Other files become floats.
 ///
 /// Returns   what is left out.
 /// Errors    that of check_alpha (codec/save.h).

@@ -8,6 +8,8 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/cli/filter/color.h"
+#include "zoneplate/cli/filter/items.h"
 #include "zoneplate/cli/process/exr_layer.h"
 #include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/signal/show.h"
@@ -53,13 +55,12 @@ std::vector<Option> signal_options(SignalArgs& args, const std::string& output_m
 
 std::vector<Option> image_options(SignalArgs& args, const std::string& output_meaning) {
   std::vector<Option> options = signal_options(args, output_meaning);
-  options.push_back(layer_option(args.layer));
+  options.insert(options.begin(), layer_option(args.layer));
   return options;
 }
 
 SignalChoice signal_choice(const SignalArgs& args, bool keeps_size) {
-  const bool has_overscan = keeps_size && args.output.ends_with(".exr");
-  return {args.uses_codes, {args.layer, has_overscan ? ExrArea::Whole : ExrArea::Display}};
+  return {args.uses_codes, {args.layer, area_for(args.output, keeps_size)}};
 }
 
 void run_subcommand(const SignalArgs& args, const std::vector<std::string>& inputs,
@@ -124,20 +125,26 @@ void save_result(const std::string& path, const LinearImage& values, const std::
 
 void save_signal(const std::string& path, const Signal& values, Delivery& out,
                  const std::function<Rgba8Image()>& picture) {
-  const RgbSpacePtr& space = values.meaning.space;
-  const ColorProfile profile = space ? space->profile : ColorProfile{};
-  const bool is_exr_name = path.ends_with(".exr");
-  if (is_exr_name || path.ends_with(".pfm")) {
-    const bool is_stated = values.meaning.are_codes || !space || (is_exr_name && profile.chromaticities);
-    return is_stated ? save_values(path, values, out) : save_values(path, in_rec709(values), out);
-  }
-  if (picture) return save_picture(path, picture(), out);
-  if (!space || !can_hold(".png", profile))
-    return save_picture(path, shown(in_rec709(values).image, values.meaning.are_codes), out);
-  const Rgba8Image codes = values.meaning.are_codes || space->is_standard
-                               ? shown(values.image, values.meaning.are_codes)
-                               : quantize8(codes_of(values.image, *space));
-  save_picture(path, codes, out, profile);
+  const RgbSpacePtr &space = values.meaning.space, &original = values.origin.space;
+  const bool are_codes = values.meaning.are_codes, is_light_file = is_linear_file(path);
+  if (picture && !is_light_file) return save_picture(path, picture(), out);
+  const std::string ending = is_light_file ? extension_of(path) : ".png";
+  const bool is_stated = space && can_hold(ending, space->profile);
+  const bool is_kept = is_stated || (is_light_file && are_codes && space);
+  if (original && !original->is_standard && !is_kept)
+    warn_of_conversion(values.origin.file.name, *original,
+                       can_hold(ending, original->profile)
+                           ? "gives light but no codes"
+                           : fmt::format("{} cannot state", path == "-" ? "a PNG" : path),
+                       !is_light_file ? clamped_srgb
+                       : are_codes    ? "sRGB codes"
+                                      : rec709_light,
+                       out);
+  if (is_light_file) return save_values(path, is_kept ? values : in_rec709(values), out);
+  if (!is_stated) return save_picture(path, shown(in_rec709(values).image, are_codes), out);
+  const Rgba8Image codes =
+      are_codes || space->is_standard ? shown(values.image, are_codes) : quantize8(codes_of(values.image, *space));
+  save_picture(path, codes, out, space->profile);
 }
 
 void print_result(const SignalArgs& args, const std::string& text, const Json::Object& json, Delivery& out) {

@@ -73,7 +73,8 @@ void save_result(const std::string& path, const LinearImage& values, const std::
                  Delivery& out);
 
 /// Writes a result with the profile of its input, as far as the format of the output states it: to .png codes of its
-/// space, to .exr light of its chromaticities, else sRGB codes or light of Rec.709 primaries; codes as they are.
+/// space, to .exr light of its chromaticities, else sRGB codes or light of Rec.709 primaries, with a warning; codes as
+/// they are.
 /// What is made of an EXR keeps in an EXR what else that file has (save_light), with a warning of what it lacks.
 /// `picture`: the image of a .png, in sRGB, if it does not show the colours themselves.
 void save_signal(const std::string& path, const Signal& values, Delivery& out,

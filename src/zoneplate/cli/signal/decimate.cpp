@@ -127,13 +127,11 @@ Rgba8Image figure_of(const std::string& input, const DecimateArgs& args, const P
        .text = {}});
 }
 
-Pair make_pair(const DecimateArgs& args, LinearImage image) {
-  const auto smaller = [&](int n) { return std::max(1, static_cast<int>(std::floor(n / args.by + 0.5))); };
-  const int width = smaller(image.width()), height = smaller(image.height());
-  Pair pair{std::move(image), {}, {}};
-  pair.naive = resampled(pair.image, width, height, "nearest", Border::Clamp);
-  pair.filtered = resampled(pair.image, width, height, args.kernel, Border::Clamp);
-  return pair;
+/// The signal in fewer pixels, in its own space.
+Signal smaller(const DecimateArgs& args, const Signal& signal, const std::string& kernel) {
+  const auto side = [&](int n) { return std::max(1, static_cast<int>(std::floor(n / args.by + 0.5))); };
+  return {resampled(signal.image, side(signal.image.width()), side(signal.image.height()), kernel, Border::Clamp),
+          signal.meaning, signal.origin};
 }
 
 Syntax make_syntax(DecimateArgs& args) {
@@ -180,16 +178,13 @@ void run_signal_decimate(std::span<const std::string> arguments) {
   check_picture_name(args.output);
   for (const std::string& path : {args.naive_path, args.filtered_path}) check_result_name(path);
   run_subcommand(args, {input}, {args.naive_path, args.filtered_path}, [&](Delivery& out) {
-    const Signal stored = load_as_stored(input, signal_choice(args), out);
-    const Pair pair = make_pair(args, in_rec709(stored).image);
+    Signal signal = load_as_stored(input, signal_choice(args), out);
+    Signal naive = smaller(args, signal, "nearest"), filtered = smaller(args, signal, args.kernel);
+    if (!args.naive_path.empty()) save_signal(args.naive_path, naive, out);
+    if (!args.filtered_path.empty()) save_signal(args.filtered_path, filtered, out);
+    const Pair pair{in_rec709(std::move(signal)).image, in_rec709(std::move(naive)).image,
+                    in_rec709(std::move(filtered)).image};
     if (!args.output.empty()) save_picture(args.output, figure_of(input, args, pair), out);
-    const auto save = [&](const std::string& path, const std::string& kernel) {
-      if (path.empty()) return;
-      const int width = pair.naive.width(), height = pair.naive.height();
-      save_signal(path, {resampled(stored.image, width, height, kernel, Border::Clamp), stored.meaning, stored.origin},
-                  out);
-    };
-    save(args.naive_path, "nearest"), save(args.filtered_path, args.kernel);
     const std::vector<Figures> rows = measure(args, pair);
     print_result(args, text_of(input, pair, rows), json_of(input, args, pair, rows), out);
   });

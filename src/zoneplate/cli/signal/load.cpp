@@ -132,7 +132,7 @@ Loaded load_file(const std::string& operand, const SignalChoice& choice, ImageCo
   metrics::ImageFile file = metrics::open_image(operand);
   file.exr = choice.exr;
   ImageColor color =
-      content == ImageContent::Data ? ImageColor{.space = nullptr} : read_image_color(file.bytes, operand);
+      content == ImageContent::Data ? ImageColor{.space = nullptr} : read_image_color(file.bytes, operand, file.exr);
   const bool is_png = !file.bytes.empty() && file.bytes[0] == 0x89;
   Loaded out{.signal = {}, .frames = count_frames(file.bytes)};
   if (is_light(file.bytes)) {
@@ -215,13 +215,7 @@ LinearImage load_signal(const std::string& operand, const SignalChoice& choice, 
 }
 
 Signal load_as_stored(const std::string& operand, const SignalChoice& choice, Delivery& out) {
-  Signal signal = load(operand, choice, ImageContent::Colors, out);
-  if (is_converted(signal) && !can_encode(*signal.origin.space))
-    out.warn(
-        fmt::format("{}: has {}, which gives light but no codes: results have sRGB colours, and those outside it "
-                    "are clamped",
-                    operand, signal.origin.space->name));
-  return signal;
+  return load(operand, choice, ImageContent::Colors, out);
 }
 
 Signal in_rec709(Signal signal) {
@@ -231,7 +225,10 @@ Signal in_rec709(Signal signal) {
   return signal;
 }
 
-bool is_converted(const Signal& signal) { return signal.origin.space && !signal.meaning.space; }
+bool is_converted(const Signal& signal) {
+  const bool are_codes_of_light = signal.meaning.are_codes && is_light(signal.origin.file.bytes);
+  return are_codes_of_light || (signal.origin.space && !signal.meaning.space);
+}
 
 int2 displayed_size(const Signal& signal) {
   const ExrWindow window = display_window(signal);

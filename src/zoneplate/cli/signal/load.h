@@ -54,14 +54,14 @@ struct SignalChoice {
 /// pixels and those of tell_layer (process/exr_layer.h).
 LinearImage load_signal(const std::string& operand, const SignalChoice& choice, Delivery& out);
 
-/// The same with the primaries of the file, for results that are written with its profile. Light of which no codes of
-/// the file's space can be made in a PNG is in Rec.709.
+/// The same with the primaries of the file, for results that are written with its profile (save_signal, args.h). Light
+/// of which no codes of the file's space can be made in a PNG is in Rec.709.
 Signal load_as_stored(const std::string& operand, const SignalChoice& choice, Delivery& out);
 
 /// The same signal as light of Rec.709 primaries; codes stay as they are.
 Signal in_rec709(Signal signal);
 
-/// True if the values do not mean what the file of the signal states.
+/// True if the values do not mean what the file of the signal states: light of other primaries, or codes of its light.
 bool is_converted(const Signal& signal);
 
 /// The size of the display window, without overscan.
