@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A fuzz target of libFuzzer: bytes that pretend to be an image.
 //
-// The codecs are libraries without sanitizers, those of TIFF, AVIF and JPEG XL in a child process; what is watched is
-// what we do with them. Checksums of a PNG's chunks are
+// The codecs are libraries without sanitizers; what is watched is what we do with them. Checksums of a PNG's chunks are
 // put right first, since a wrong one ends the reading before anything else is seen.
 #include <zlib.h>
 
@@ -13,9 +12,11 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/codec/animated/animation_reader.h"
+#include "zoneplate/codec/color/icc.h"
 #include "zoneplate/codec/exr/exr_dwa.h"
 #include "zoneplate/codec/exr/exr_header.h"
 #include "zoneplate/codec/exr/exr_layer.h"
+#include "zoneplate/codec/exr/exr_replace.h"
 #include "zoneplate/codec/inspect/color_space.h"
 #include "zoneplate/codec/inspect/image_format.h"
 #include "zoneplate/codec/pfm.h"
@@ -53,17 +54,30 @@ void unpack_dwa(const Bytes& packed) {
   decoder.unpack(packed, channels, 0, out);
 }
 
+/// The image of an EXR in its own place, and another one.
+void replace_layer(const Bytes& exr) {
+  constexpr std::uint64_t few_pixels = 1 << 12;
+  for (const zoneplate::ExrArea area : {zoneplate::ExrArea::Display, zoneplate::ExrArea::Whole}) {
+    const zoneplate::ExrChoice choice{.area = area};
+    const zoneplate::LinearImage image = zoneplate::decode_exr_as_stored(exr, "image", few_pixels, choice);
+    const Bytes same = zoneplate::replace_exr_layer(exr, "image", choice, image).bytes;
+    if (zoneplate::read_exr_parts(same).empty()) std::abort();
+    zoneplate::replace_exr_layer(exr, "image", choice, zoneplate::LinearImage(3, 2));
+    zoneplate::replace_exr_layer(exr, "image", choice, image, {.is_converted = true});
+  }
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   Bytes bytes(data, data + size);
   const std::string_view format = ZONEPLATE_FUZZ_FORMAT;
   if (format == "png" || format == "apng") put_checksums_right(bytes);
-  zoneplate::color_space_of(bytes);
   try {
-    zoneplate::ColorProfile profile = zoneplate::read_file_color(bytes).profile;
-    profile.icc.clear();  // which a library reads, in a child
-    zoneplate::make_rgb_space(profile);
+    zoneplate::color_space_of(bytes);
+    const zoneplate::FileColor color = zoneplate::read_file_color(bytes);
+    zoneplate::make_rgb_space(color.profile);
+    if (!color.profile.icc.empty()) zoneplate::read_icc_space(color.profile.icc, color.is_grey);
   } catch (const zoneplate::Error& error) {
     if (std::string_view(error.what()).find('\n') != std::string_view::npos) std::abort();
   }
@@ -85,7 +99,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       return 0;
     }
     const auto stated = zoneplate::find_image_size(bytes);
-    if (format == "exr") return 0;
+    if (format == "exr") replace_layer(bytes);
     const zoneplate::TexelImage image = zoneplate::decode_image(bytes, "image", max_pixels).texels;
     // The budget of an import is asked by what the header states.
     if (!stated || stated->x < image.width() || stated->y < image.height()) std::abort();

@@ -10,6 +10,7 @@
 #include "zoneplate/codec/color/icc_for_test.h"
 #include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/codec/inspect/exif_for_test.h"
+#include "zoneplate/codec/inspect/exr_parts_for_test.h"
 #include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/ktx2/files_for_test.h"
 #include "zoneplate/codec/pfm.h"
@@ -222,6 +223,9 @@ void write_light(const std::string& root) {
   write(root + "/exr", "light.exr",
         encode_exr(4, 3, {{"R", ExrType::Half, values.data()}, {"Z", ExrType::Float, values.data()}},
                    {{"note", "text"}}));
+  write(root + "/exr", "parts.exr",
+        exr_of_parts(4, {{"beauty", {{"B", 0.5f}, {"G", 0.5f}, {"R", 0.5f}, {"depth.Z", 1}}},
+                         {"normals", {{"N.X", 0}, {"N.Y", 0}, {"N.Z", 1}}}}));
 }
 
 /// A scene as write_scene writes it.
