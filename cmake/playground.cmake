@@ -20,7 +20,8 @@ make_table(figures cli/demo demos cli/demo/demo.h Demo zoneplate::cli demos demo
 # Compiled alone, since they define the same names as others of their folders.
 set_source_files_properties(src/zoneplate/formats/gltf/mesh.cpp src/zoneplate/formats/obj/mtl_material.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 add_executable(zoneplate_playground web/playground/session.cpp web/playground/look.cpp web/playground/files.cpp
-               web/playground/figures.cpp web/playground/truetype.cpp ${readers} ${figures})
+               web/file_bytes.cpp web/playground/figures.cpp web/playground/truetype.cpp
+               ${readers} ${figures})
 compile_folders_together(zoneplate_playground)
 target_link_libraries(zoneplate_playground PRIVATE zoneplate)
 # The page has one instruction set, whose vectors every kernel has (base/isa.h); a tenth of the module was scalar twins.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// As wasm_library.h, for the readers of models and the lessons.
+// As wasm_library.h, for the readers of models and images, and the lessons.
 #pragma once
 
 #ifdef __cplusplus
@@ -47,6 +47,43 @@ constexpr auto minmax(Range&& range, Order order = {}, Part part = {}) {
     return std::invoke(order, std::invoke(part, a), std::invoke(part, b));
   });
   return minmax_result<std::decay_t<decltype(*found.first)>>{*found.first, *found.second};
+}
+template <class Range>
+constexpr auto max(Range&& range) {
+  return *std::max_element(std::begin(range), std::end(range));
+}
+template <class Range>
+constexpr auto min(Range&& range) {
+  return *std::min_element(std::begin(range), std::end(range));
+}
+template <class Range>
+constexpr void reverse(Range&& range) {
+  std::reverse(std::begin(range), std::end(range));
+}
+template <class Range, class Place>
+constexpr void nth_element(Range&& range, Place place) {
+  std::nth_element(std::begin(range), place, std::end(range));
+}
+template <class A, class B, class Same>
+constexpr bool equal(A&& a, B&& b, Same same) {
+  return std::equal(std::begin(a), std::end(a), std::begin(b), std::end(b), same);
+}
+template <class Range, class Condition, class Part>
+constexpr bool any_of(Range&& range, Condition condition, Part part) {
+  return std::any_of(std::begin(range), std::end(range), [&](auto&& x) { return condition(std::invoke(part, x)); });
+}
+template <class Range, class Out, class Condition>
+constexpr void copy_if(Range&& range, Out out, Condition condition) {
+  std::copy_if(std::begin(range), std::end(range), out, [&](auto&& x) { return std::invoke(condition, x); });
+}
+template <class Range, class Condition, class T>
+constexpr void replace_if(Range&& range, Condition condition, const T& value) {
+  std::replace_if(std::begin(range), std::end(range), condition, value);
+}
+template <class Range, class Order, class Part>
+void stable_sort(Range&& range, Order, Part part) {
+  std::stable_sort(std::begin(range), std::end(range),
+                   [&](auto&& a, auto&& b) { return std::invoke(part, a) < std::invoke(part, b); });
 }
 }  // namespace ranges
 

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the readers of models need of an operating system and of libraries of codecs, in a page: files are those of the
-// module's memory, and images are decoded by the browser.
+// What the readers of models need of libraries of codecs, in a page: images are decoded by the browser.
 #include <emscripten/emscripten.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <filesystem>
 #include <string_view>
-#include <system_error>
-#include <utility>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/codec/bitmap/tga.h"
@@ -42,45 +36,6 @@ EM_JS(void, copy_image, (int image, void* to), {
 // clang-format on
 
 namespace zoneplate {
-
-namespace {
-
-/// The contents of an open file, which is closed.
-std::span<const std::uint8_t> contents_of(std::FILE* file, const std::string& path, std::uint64_t limit) {
-  if (file == nullptr) throw Error(ErrorKind::Input, path + ": no such file was dropped");
-  std::fseek(file, 0, SEEK_END);
-  const auto size = static_cast<std::size_t>(std::ftell(file));
-  std::rewind(file);
-  if (size > limit) {
-    std::fclose(file);
-    throw Error(ErrorKind::Input, fmt::format("{}: {} bytes, at most {} are allowed", path, size, limit));
-  }
-  auto* const memory = new std::uint8_t[size];
-  const std::size_t read = std::fread(memory, 1, size, file);
-  std::fclose(file);
-  return {memory, read};
-}
-
-/// The module's memory opens no name of /proc/self/fd, which is a link there.
-std::FILE* open_by_name(const std::string& path) {
-  std::error_code failure;
-  const std::filesystem::path linked = std::filesystem::read_symlink(path, failure);
-  return std::fopen(failure ? path.c_str() : linked.c_str(), "rb");
-}
-
-}  // namespace
-
-FileBytes::FileBytes(const std::string& path, std::uint64_t limit)
-    : bytes_(contents_of(open_by_name(path), path, limit)) {}
-FileBytes::FileBytes(int descriptor, const std::string& path, std::uint64_t limit)
-    : bytes_(contents_of(::fdopen(::dup(descriptor), "rb"), path, limit)) {}
-FileBytes::~FileBytes() { delete[] bytes_.data(); }
-FileBytes::FileBytes(FileBytes&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
-FileBytes& FileBytes::operator=(FileBytes&& other) noexcept {
-  std::swap(bytes_, other.bytes_);
-  return *this;
-}
-void FileBytes::forget(const void*, std::size_t) const {}
 
 /// Why the page does not decode an image that the program does; empty for others.
 static std::string_view reason_of(std::span<const std::uint8_t> bytes) {

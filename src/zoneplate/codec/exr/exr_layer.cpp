@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <optional>
 
@@ -88,7 +89,7 @@ class LayerMaker {
       if (lower == "a") return std::size_t{256};
       return lower.size() == 1 ? std::min(order.find(lower), order.size()) : order.size();
     };
-    std::ranges::stable_sort(channels, {}, rank);
+    std::ranges::stable_sort(channels, std::less<>(), rank);
     ExrLayer out = layer_;
     out.name = name;
     out.channels = {};

@@ -56,8 +56,6 @@ float radiance(float3 d) {
 
 float3 studio_key() { return normalize(boxes[0].towards); }
 
-PreparedEnvironment prepare_studio() { return PreparedEnvironment(studio_cube(64)); }
-
 std::uint64_t studio_key_number() {
   // A few texels vary with every part of the studio.
   const CubeImage probe = studio_cube(16);
