@@ -373,3 +373,16 @@ test('narrow and dark windows are served', async () => {
   assert.ok(await luminance(light) > 220);
   assert.ok(await luminance(dark) < 60);
 });
+
+test('the picture of the documents is that of the commands below it', async () => {
+  const blocks = [...fs.readFileSync(path.resolve('docs/ci.md'), 'utf8').matchAll(/```sh\n(.*?)```/gs)].map((match) => match[1]);
+  const commands = blocks.find((block) => block.includes('photograph.mjs')), place = at('picture');
+  fs.mkdirSync(path.join(place, 'docs'), { recursive: true });
+  fs.symlinkSync(program, path.join(place, 'zoneplate'));
+  fs.symlinkSync(path.resolve('web'), path.join(place, 'web'));
+  execFileSync('bash', ['-c', commands], { cwd: place, stdio: ['ignore', 'ignore', 'pipe'] });
+  const [now, shown] = [path.join(place, 'docs/report.png'), path.resolve('docs/report.png')].map(readPng), pictures = await Promise.all([now, shown]);
+  assert.deepEqual([pictures[0].width, pictures[0].height], [pictures[1].width, pictures[1].height]);
+  const difference = pictures[0].data.reduce((sum, value, i) => sum + Math.abs(value - pictures[1].data[i]), 0) / pictures[0].data.length;
+  assert.ok(difference < 1, `mean difference ${difference}`); // another version of Chromium may draw letters otherwise
+});
