@@ -63,7 +63,7 @@ package_versions() {
 }
 
 # True if build/PRESET was made with other versions of its packages. The versions are compared only after an
-# installation: dpkg-query takes longer than a small picture.
+# installation: dpkg-query takes longer than a small render.
 has_new_packages() {
   local versions=$root/build/$1/.zoneplate-packages
   [ "$dpkg_status" -nt "$versions" ] || return 1
