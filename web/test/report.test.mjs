@@ -374,7 +374,7 @@ test('narrow and dark windows are served', async () => {
   assert.ok(await luminance(dark) < 60);
 });
 
-test('the picture of the documents is that of the commands below it', async () => {
+test('the image of the documents is that of the commands below it', async () => {
   const blocks = [...fs.readFileSync(path.resolve('docs/ci.md'), 'utf8').matchAll(/```sh\n(.*?)```/gs)].map((match) => match[1]);
   const commands = blocks.find((block) => block.includes('photograph.mjs')), place = at('picture');
   fs.mkdirSync(path.join(place, 'docs'), { recursive: true });
