@@ -20,7 +20,7 @@ class Deadline {
   void check() const {
     const Clock::time_point now = Clock::now();
     for (const Deadline* limit = this; limit; limit = limit->outer_)
-      if (now > limit->end_) throw Error(limit->kind_, limit->message_);
+      if (now > limit->end_) throw DeadlinePassed(limit->kind_, limit->message_);
   }
 
  private:

@@ -8,13 +8,19 @@
 
 namespace zoneplate {
 
+/// The error of a limit of time that is exceeded.
+class DeadlinePassed : public Error {
+ public:
+  using Error::Error;
+};
+
 /// Runs `body` with a limit of elapsed time, which starts now.
 ///
 /// The limit applies to the calling thread and to every thread that takes part in its loops: `parallel_for` checks it
 /// before each item. A long serial loop, such as that over the rows of a decoder, calls `check_deadline`. Nested limits
 /// all apply.
 /// Requires  `message` is one complete line, which names the file and the option that raises the limit.
-/// Errors    those of `body`; Error(kind, message) from the first check after the limit.
+/// Errors    those of `body`; DeadlinePassed(kind, message) from the first check after the limit.
 void with_deadline(double seconds, ErrorKind kind, const std::string& message, const std::function<void()>& body);
 
 /// Errors    that of the innermost enclosing `with_deadline` whose limit is exceeded.

@@ -74,7 +74,8 @@ void confine(const Task& task) {
 [[noreturn]] void be_child(int pipe, pid_t parent, int threads, const Task& task) {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (::getppid() != parent) ::_exit(1);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, SIG_DFL);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    std::signal(signal, signal == SIGTERM && task.limits.ignores_termination ? SIG_IGN : SIG_DFL);
   std::signal(SIGPIPE, SIG_IGN);
   ChildAnswer answer(pipe);
   try {
@@ -229,7 +230,7 @@ void LimitedChild::fail() {
     if (patience.ms() > 1000) ::kill(id_, SIGKILL);
   }
   id_ = -1;
-  throw Error(ErrorKind::Input, place_ + ": " + cause_of(status, limits_));
+  throw ChildEnded(ErrorKind::Input, place_ + ": " + cause_of(status, limits_));
 }
 
 void LimitedChild::begin() {

@@ -24,6 +24,12 @@ class ChildAnswer {
   bool is_begun_ = false;
 };
 
+/// The error of a child that ended without its whole answer: it crashed, or it was killed.
+class ChildEnded : public Error {
+ public:
+  using Error::Error;
+};
+
 class LimitedChild;
 
 /// Children that work at the same time, while the parent reads their answers one after the other.
@@ -55,7 +61,7 @@ bool is_limited_child();
 /// The child has limits of memory and time and the sandbox of sandbox.h; it ends with its parent, and is killed by the
 /// destructor. `work` computes its result first and then writes it: an Error that it throws before the first write is
 /// rethrown in the parent by the first `read`.
-/// Errors    ErrorKind::Input with `place` in front if the child crashes, exceeds its memory or time, or makes a system
+/// Errors    ChildEnded, of ErrorKind::Input with `place` in front, if the child crashes, exceeds its memory or time, or makes a system
 ///           call that reading does not need; ErrorKind::Failed if no process can be started.
 class LimitedChild {
  public:
@@ -69,6 +75,7 @@ class LimitedChild {
     std::optional<std::vector<std::string>> readable = {};  ///< files and folders; nothing: all that the user may read
     /// The subject of error messages about the end of the child.
     std::string worker = "its reader";
+    bool ignores_termination = false;     ///< SIGTERM ends the child only with its parent
     LimitedChildren* siblings = nullptr;  ///< the child becomes one of them; they outlive it
   };
 

@@ -150,8 +150,8 @@ void ItemSender::environment(std::uint64_t key, std::span<const std::uint8_t> by
   send(Kind::Environment, half(0), half(32), bytes);
 }
 void ItemSender::result(std::span<const std::uint8_t> bytes) { send(Kind::Result, 0, 0, bytes); }
-void ItemSender::failure(ErrorKind kind, const std::string& message) {
-  send(Kind::Failure, static_cast<int>(kind), 0, bytes_of(message));
+void ItemSender::failure(ErrorKind kind, const std::string& message, ItemCause cause) {
+  send(Kind::Failure, static_cast<int>(kind), static_cast<int>(cause), bytes_of(message));
 }
 void ItemSender::needs_library(Library library, const std::string& message) {
   send(Kind::NeedsLibrary, static_cast<int>(library), 0, bytes_of(message));
@@ -167,7 +167,9 @@ std::optional<std::vector<std::uint8_t>> receive_message(const std::string& plac
   if (header.kind == Kind::Result) return body.rest();
   if (header.kind == Kind::Failure) {
     const bool is_known = header.first >= 0 && header.first <= static_cast<int>(ErrorKind::Output);
-    throw Error(is_known ? static_cast<ErrorKind>(header.first) : ErrorKind::Failed, body.text());
+    const bool has_cause = header.second >= 0 && header.second <= static_cast<int>(ItemCause::Killed);
+    throw ItemError(is_known ? static_cast<ErrorKind>(header.first) : ErrorKind::Failed, body.text(),
+                    has_cause ? static_cast<ItemCause>(header.second) : ItemCause::Other);
   }
   if (header.kind == Kind::Progress) {
     const std::string stage = body.text();

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/cli/process/item_error.h"
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/os/library.h"
 
@@ -55,7 +56,7 @@ class ItemSender {
   void environment(std::uint64_t key, std::span<const std::uint8_t> bytes);
   /// The end of a job: its result, an error, or the library without which it cannot go on.
   void result(std::span<const std::uint8_t> bytes);
-  void failure(ErrorKind kind, const std::string& message);
+  void failure(ErrorKind kind, const std::string& message, ItemCause cause = ItemCause::Other);
   void needs_library(Library library, const std::string& message);
 
   /// Whether the current job does not read.
@@ -96,7 +97,7 @@ struct ItemEvents {
 
 /// Receives one message from `source` and calls its handler. Returns the result of the job if the message is one.
 ///
-/// Errors    the error in the message; ErrorKind::Failed naming `place` for invalid messages, and for results and texts
+/// Errors    the error in the message, an ItemError; ErrorKind::Failed naming `place` for invalid messages, and for results and texts
 ///           larger than 1 GB; exceptions of `source` and the handlers.
 std::optional<std::vector<std::uint8_t>> receive_message(const std::string& place, const ItemEvents& events,
                                                          const ItemEvents::Read& source);

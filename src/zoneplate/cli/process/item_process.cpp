@@ -48,9 +48,9 @@ ItemProcess::~ItemProcess() = default;
 
 void ItemProcess::check_time() const {
   if (!has_read_ && reading_.ms() / 1000 > limits_.load.seconds + grace)
-    throw Error(ErrorKind::Input, late_reading(input_, limits_.load));
+    throw ItemError(ErrorKind::Input, late_reading(input_, limits_.load), ItemCause::Time);
   if (watch_.ms() / 1000 > limits_.seconds + grace)
-    throw Error(ErrorKind::Failed, late_item(limits_.name, limits_.seconds));
+    throw ItemError(ErrorKind::Failed, late_item(limits_.name, limits_.seconds), ItemCause::Time);
 }
 
 void ItemProcess::start(std::size_t first) {
@@ -63,6 +63,7 @@ void ItemProcess::start(std::size_t first) {
   limits.is_sandboxed = limits_.is_sandboxed;
   limits.readable = limits_.readable;
   limits.worker = "its process";
+  limits.ignores_termination = limits_.ignores_termination;
   limits.siblings = limits_.siblings;
   child_ = std::make_unique<LimitedChild>(
       limits_.name, limits, [this, first](ChildAnswer& answer) { work_on(first, answer); }, limits_.open);
@@ -93,11 +94,17 @@ void ItemProcess::work_on(std::size_t first, ChildAnswer& answer) {
       const std::string message = error.what();
       const bool needs_name = sender.is_past_reading() || error.kind() == ErrorKind::Failed;
       const bool is_named = !limits_.names_errors || !needs_name || message.find(limits_.name) != message.npos;
-      sender.failure(error.kind(), is_named ? message : limits_.name + ": " + message);
+      const bool is_late = dynamic_cast<const DeadlinePassed*>(&error) != nullptr;
+      const bool is_killed = dynamic_cast<const ChildEnded*>(&error) != nullptr;  // a process of a library
+      sender.failure(error.kind(), is_named ? message : limits_.name + ": " + message,
+                     is_late     ? ItemCause::Time
+                     : is_killed ? ItemCause::Killed
+                                 : ItemCause::Other);
     } catch (const std::bad_alloc& error) {
       sender.failure(sender.is_past_reading() ? ErrorKind::Failed : ErrorKind::Input,
                      out_of_memory(sender.input().empty() ? limits_.name : sender.input(), limits_, memory_limit_,
-                                   error, sender.is_past_reading()));
+                                   error, sender.is_past_reading()),
+                     ItemCause::Memory);
     } catch (const std::exception& error) {
       sender.failure(ErrorKind::Failed, limits_.name + ": " + error.what());
     }
@@ -109,9 +116,12 @@ void ItemProcess::work_on(std::size_t first, ChildAnswer& answer) {
 void ItemProcess::read(std::span<std::uint8_t> out) {
   try {
     child_->read(out.data(), out.size());
-  } catch (const Error& error) {
-    if (has_read_ && error.kind() == ErrorKind::Input) throw Error(ErrorKind::Failed, error.what());
+  } catch (const ItemError&) {
     throw;
+  } catch (const Error& error) {
+    const bool is_killed = dynamic_cast<const ChildEnded*>(&error) != nullptr;
+    throw ItemError(has_read_ && error.kind() == ErrorKind::Input ? ErrorKind::Failed : error.kind(), error.what(),
+                    is_killed ? ItemCause::Killed : ItemCause::Other);
   }
 }
 

@@ -24,6 +24,7 @@ struct ItemLimits {
   double seconds = std::numeric_limits<double>::infinity();  ///< elapsed time limit of the whole item
   bool is_sandboxed = true;                                  ///< if the kernel supports sandboxes
   std::optional<std::vector<std::string>> readable = {};     ///< files and folders; nothing: every file
+  bool ignores_termination = false;                          ///< SIGTERM ends it only with the program
   LimitedChildren* siblings = nullptr;                       ///< the processes that work at the same time
   std::function<void()> open = {};                           ///< runs in the process before it is confined
   bool names_errors = true;                                  ///< errors begin with `name`
@@ -51,8 +52,9 @@ class ItemProcess {
   /// The result of the next job. The first call starts the process if it does not run yet. The handlers has_read and
   /// needs_library are added here.
   ///
-  /// Errors    exceptions of the job; if its process runs out of memory or time or is ended by a signal,
-  ///           ErrorKind::Input while it reads its model and ErrorKind::Failed after that; exceptions of the handlers.
+  /// Errors    exceptions of the job; if its process runs out of memory or time or is ended by a signal, an ItemError
+  ///           with that cause, of ErrorKind::Input while it reads its model and ErrorKind::Failed after that;
+  ///           exceptions of the handlers.
   ///           The next call continues with the following job, in a new process.
   std::vector<std::uint8_t> next(ItemEvents events);
 
