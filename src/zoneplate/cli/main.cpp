@@ -147,6 +147,9 @@ int main(int argc, char** argv) {
   } catch (const cli::Difference& difference) {
     cli::say_note(difference.what());
     return 1;
+  } catch (const cli::Terminated& ended) {
+    cli::say_note(ended.what());
+    return 128 + SIGTERM;
   } catch (const std::bad_alloc&) {
     cli::say_error("out of memory");
     return 1;

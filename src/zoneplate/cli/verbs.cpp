@@ -7,6 +7,8 @@ namespace {
 constexpr Verb verbs[] = {
     {"render", "render a model or a built-in scene to an image (the verb is optional)", run_render},
     {"contact-sheet", "render many models into one image, with their names", run_contact_sheet},
+    {"plan", "estimate the time, disk and memory of a batch, and divide it into tasks", run_plan},
+    {"verify", "check the files of a batch, and name those that must be made again", run_verify},
     {"list", "list antialiasing methods, built-in scenes and file formats", run_list},
     {"info", "print the contents of a model", run_info},
     {"metrics", "measure the difference between images and a reference", run_metrics},

@@ -22,6 +22,12 @@ class Difference : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// SIGTERM ended a batch between two items: exit code 143, and one line on stderr that is not an error message.
+class Terminated : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// A word after `zoneplate`, or after `zoneplate signal`, and the function that it calls with the following arguments.
 struct Verb {
   std::string_view name, summary;
@@ -53,6 +59,8 @@ void run_contact_sheet(std::span<const std::string> arguments);
 void run_list(std::span<const std::string> arguments);
 void run_info(std::span<const std::string> arguments);
 void run_metrics(std::span<const std::string> arguments);
+void run_plan(std::span<const std::string> arguments);
+void run_verify(std::span<const std::string> arguments);
 void run_filter(std::span<const std::string> arguments);
 void run_compare(std::span<const std::string> arguments);
 void run_dataset(std::span<const std::string> arguments);

@@ -63,6 +63,8 @@ std::string expat_version() {
 
 }  // namespace
 
+std::string program_name() { return fmt::format("{} {}", version, commit); }
+
 std::string version_text() {
   return fmt::format(
       "zoneplate {} ({}, {})\n"

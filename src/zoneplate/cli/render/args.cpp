@@ -270,11 +270,22 @@ std::vector<Option> batch_options(RenderArgs& a) {
        false, [&](auto& text) { a.manifest = text; }},
       {"--shard", "I/N",
        "Run only every Nth job, from job I (0 to N-1); auto/N: I is the index of the task in an array of Slurm, "
-       "Kubernetes, AWS Batch, Cloud Run, Google Batch, PBS, Grid Engine or LSF; auto: N too, where the engine gives "
-       "it",
-       group, false, [&](auto& text) { a.shard = parse_shard(text); }},
+       "Kubernetes, AWS Batch, Cloud Run, Google Batch, PBS, Grid Engine or LSF; auto: N too, where the ledger or the "
+       "engine gives it",
+       group, false, [&](auto& text) { a.shard_text = text; }},
       {"--skip-existing", "", "Skip jobs, and frames, whose files exist and are whole: the image and its data passes",
        group, false, [&](auto&) { a.skip_existing = true; }},
+      {"--ledger", "DIR",
+       "Record results, and the digests of files, for zoneplate verify, and pin the number of shards; files that are "
+       "recorded and unchanged are skipped, others made anew",
+       group, false, [&](auto& text) { a.ledger = text; }},
+      {"--retries", "N",
+       "Try a job again whose process was killed or took too long, or whose output could not be written; default 0",
+       group, false, [&](auto& text) { a.retries = parse_whole(text, 0, 100); }},
+      {"--grace", "S",
+       "After SIGTERM, finish the job at hand if that takes at most so many seconds, then end with exit code 143; "
+       "default 0",
+       group, false, [&](auto& text) { a.grace = parse_number(text, 0, 1e6); }},
   };
 }
 
@@ -581,6 +592,24 @@ std::vector<Option> run_options(RenderArgs& a) {
   return options;
 }
 
+/// Whether the bytes of images depend on the option. They do not depend on how a run is divided, limited and reported;
+/// where a file goes is its name.
+bool determines_image(const Option& option) {
+  return option.group != "Batches" && option.group != "Running" && names_of(option).front() != "--output";
+}
+
+/// Sets an option as before, and notes it in `args.given` in place of an earlier value.
+std::function<void(const std::string&)> noting(RenderArgs& args, const Option& option) {
+  return [&args, set = option.set, name = names_of(option).front()](const std::string& text) {
+    set(text);
+    const std::size_t begin = ('\n' + args.given).find('\n' + name + '=');
+    if (begin != std::string::npos) args.given.erase(begin, args.given.find('\n', begin) + 1 - begin);
+    std::string line = text;
+    std::ranges::replace(line, '\n', ' ');
+    args.given += name + '=' + line + '\n';
+  };
+}
+
 }  // namespace
 
 Syntax render_syntax(RenderArgs& args) {
@@ -593,6 +622,8 @@ Syntax render_syntax(RenderArgs& args) {
   for (const auto table : {picture_options, input_options, sequence_options, batch_options, camera_options,
                            scene_options, teaching_options, run_options})
     for (Option& option : table(args)) syntax.options.push_back(std::move(option));
+  for (Option& option : syntax.options)
+    if (determines_image(option)) option.set = noting(args, option);
   return syntax;
 }
 

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -62,12 +64,18 @@ struct FileOptions {
 /// The arguments of `zoneplate render`.
 struct RenderArgs {
   std::string input, output;
+  std::uint64_t number = 0;               ///< of the item in its batch
   std::optional<FramePlace> frame_place;  ///< of the frame number in `output`
   std::vector<std::string> inputs;        ///< all inputs; `input` is the first
   std::string manifest;
   bool has_placeholders = false;  ///< the output's name depends on its input
-  Shard shard;
+  std::string shard_text;         ///< --shard as it is given; empty: all items
+  Shard shard;                    ///< set from it by parse_render_args
   bool skip_existing = false;
+  std::string ledger;  ///< folder of cli/batch/ledger.h; empty: none is kept
+  int retries = 0;     ///< of an item whose failure need not happen again
+  double grace = 0;    ///< seconds after SIGTERM in which an item may be finished
+  std::string given;   ///< the options that determine the images, as they were given, in lines "--size=512"
   SequenceArgs sequence;
   bool has_animation_time = false;
   int bit_depth = 8;
@@ -115,8 +123,9 @@ struct RenderArgs {
   Verbosity verbosity = Verbosity::Normal;
   std::optional<ProgressKind> progress;  ///< nothing: a bar on a terminal
 
-  /// Whether each item is reported by a line of its own: several inputs, a manifest, or an output with placeholders.
-  bool is_batch() const { return inputs.size() > 1 || !manifest.empty() || has_placeholders; }
+  /// Whether each item is reported by a line of its own: several inputs, a manifest, an output with placeholders, or a
+  /// ledger.
+  bool is_batch() const { return inputs.size() > 1 || !manifest.empty() || has_placeholders || !ledger.empty(); }
   /// The output's name with an extension for its format, also for stdout.
   std::string named_output() const { return output == "-" ? "stdout." + stdout_format : output; }
 };
@@ -148,9 +157,11 @@ bool is_picture_ending(const std::string& extension);
 /// Errors    ErrorKind::Usage for a name whose ending is not that of an image that can be written.
 void check_picture_ending(const std::string& output);
 
-/// Parses and checks the whole command line of the verb; nothing after printing the help.
+/// Parses and checks the whole command line of the verb; nothing after printing the help. `adapt` makes the options of
+/// another verb about the same items of those of `render`.
 ///
 /// Errors    ErrorKind::Usage.
-std::optional<RenderArgs> parse_render_args(std::span<const std::string> arguments);
+std::optional<RenderArgs> parse_render_args(std::span<const std::string> arguments,
+                                            const std::function<void(Syntax&)>& adapt = {});
 
 }  // namespace zoneplate::cli

@@ -8,6 +8,7 @@
 #include "zoneplate/base/spec.h"
 #include "zoneplate/cli/batch/frame_name.h"
 #include "zoneplate/cli/batch/input_names.h"
+#include "zoneplate/cli/batch/ledger.h"
 #include "zoneplate/cli/batch/output_name.h"
 #include "zoneplate/cli/config/config.h"
 #include "zoneplate/cli/render/args.h"
@@ -78,6 +79,26 @@ void check_effects(const RenderArgs& args, const std::string& ending) {
     refuse("--frame-rate requires a sequence: --frames, --frame-start, --frame-end or --turntable");
   if (!sequence.shutter && sequence.shutter_samples != SequenceArgs{}.shutter_samples)
     refuse("--shutter-samples requires --shutter");
+}
+
+// A single operand that is a list of jobs is the manifest.
+void take_manifest(RenderArgs& args, std::vector<std::string>& operands) {
+  if (operands.size() != 1 || extension_of(operands.front()) != ".jsonl") return;
+  if (!args.manifest.empty())
+    throw Error(ErrorKind::Usage, fmt::format("two manifests: {} and {}", args.manifest, operands.front()));
+  args.manifest = std::move(operands.front());
+  operands.clear();
+}
+
+// The shard of the options; the ledger, if there is one, pins their number.
+Shard shard_of(const RenderArgs& args) {
+  if (args.shard_text.empty()) return {};
+  try {
+    const std::optional<BatchPin> pinned = args.ledger.empty() ? std::nullopt : find_pin(args.ledger, args.load.limits);
+    return parse_shard(args.shard_text, pinned ? std::optional(pinned->shards) : std::nullopt);
+  } catch (const Error& error) {
+    throw Error(error.kind(), std::string(error.kind() == ErrorKind::Usage ? "--shard: " : "") + error.what());
+  }
 }
 
 // Several inputs, and one file for all of them. After `convert in out` an output without -o is a likely mistake.
@@ -184,17 +205,22 @@ void check_args(RenderArgs& args) {
                                                 args.options.width, args.options.height));
 }
 
-std::optional<RenderArgs> parse_render_args(std::span<const std::string> arguments) {
+std::optional<RenderArgs> parse_render_args(std::span<const std::string> arguments,
+                                            const std::function<void(Syntax&)>& adapt) {
   // The command line is parsed twice: first for the choice of a preset, then on top of the configuration.
   RenderArgs first;
   Syntax first_syntax = render_syntax(first);
+  if (adapt) adapt(first_syntax);
   if (!parse(first_syntax, arguments)) return std::nullopt;
   RenderArgs args;
   Syntax syntax = render_syntax(args);
+  if (adapt) adapt(syntax);
   if (!first.reads_config && !first.preset.empty())
     throw Error(ErrorKind::Usage, "--preset requires the configuration, which --no-config ignores");
   if (first.reads_config) apply_config(user_config(), first.preset, syntax);
   parse(syntax, arguments);
+  take_manifest(args, syntax.found_operands);
+  args.shard = shard_of(args);
   args.inputs = with_folders_listed(syntax.found_operands);
   if (!args.manifest.empty()) {
     if (!args.inputs.empty())

@@ -17,101 +17,28 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/cli/batch/input_names.h"
-#include "zoneplate/cli/batch/manifest.h"
 #include "zoneplate/cli/batch/output_files.h"
 #include "zoneplate/cli/batch/output_name.h"
+#include "zoneplate/cli/process/grace_period.h"
+#include "zoneplate/cli/process/item_error.h"
 #include "zoneplate/cli/render/item_files.h"
 #include "zoneplate/cli/render/items.h"
 #include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/verbs.h"
-#include "zoneplate/formats/json/json.h"
 #include "zoneplate/os/memory_limit.h"
 
 namespace zoneplate::cli {
 namespace {
 
-// Parses the jobs of a manifest: each has the options of the command line, overridden by its own. A manifest may come
-// from a stranger: a line cannot lift the sandbox, nor raise a limit of the command line.
-class Jobs {
- public:
-  explicit Jobs(const RenderArgs& common) : common_(common), syntax_(render_syntax(args_)) {}
-  Jobs(const Jobs&) = delete;
-  Jobs& operator=(const Jobs&) = delete;
-
-  // Errors    ErrorKind::Input or Usage, naming the line.
-  RenderArgs read(std::string_view text, const std::string& place, std::uint64_t index) {
-    ImportBudget budget(place, common_.load.limits);
-    const JsonValue job = parse_json({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, budget);
-    try {
-      return read(job, JsonView(job, place), index);
-    } catch (const Error& error) {
-      if (error.kind() != ErrorKind::Usage) throw;
-      throw Error(ErrorKind::Usage, place + ": " + error.what());
-    }
-  }
-
- private:
-  RenderArgs read(const JsonValue& job, const JsonView& view, std::uint64_t index) {
-    args_ = common_;
-    args_.input.clear();
-    for (std::size_t i = 0; i < job.items.size(); ++i) set(job.keys[i], job.items[i], view);
-    if (args_.input.empty()) view.fail("has no input");
-    args_.inputs = {args_.input};
-    check_limits(view);
-    set_output(args_, args_.output, index);
-    check_args(args_);
-    return args_;
-  }
-
-  void check_limits(const JsonView& view) const {
-    const auto check = [&view](const char* option, auto limit, auto most) {
-      if (limit > most)
-        view.fail(fmt::format("{} can only be lowered by a line, and is {:.6g} on the command line", option,
-                              static_cast<double>(most)));
-    };
-    const LoadLimits &limits = args_.load.limits, &most = common_.load.limits;
-    check("max-memory", limits.memory, most.memory);
-    check("max-pixels", limits.pixels, most.pixels);
-    check("max-import-seconds", limits.seconds, most.seconds);
-    check("max-seconds", args_.max_seconds, common_.max_seconds);
-  }
-
-  void set(const std::string& key, const JsonValue& value, const JsonView& view) {
-    using Kind = JsonValue::Kind;
-    if (value.kind != Kind::Boolean && value.kind != Kind::Text && value.kind != Kind::Number)
-      view.fail(key + " is neither a text, nor a number, nor true or false");
-    const std::string text = value.kind == Kind::Number ? fmt::format("{}", value.number) : value.text;
-    if (text.find('\0') != text.npos) view.fail(key + " has a character of code 0");
-    for (const char* common : {"manifest", "shard", "preset", "no-config", "dry-run"})
-      if (key == common) view.fail(key + " is for all jobs together, not for one");
-    for (const char* right : {"no-sandbox", "allow-path"})
-      if (key == right) view.fail(key + " is for the command line alone, because a manifest may come from a stranger");
-    if (key == "input" && value.kind != Kind::Boolean)
-      args_.input = text;
-    else if (value.kind != Kind::Boolean)
-      set_option(syntax_, key, text);
-    else if (value.boolean)
-      set_option(syntax_, key, std::nullopt);
-  }
-
-  const RenderArgs& common_;
-  RenderArgs args_;
-  Syntax syntax_;  ///< its options set args_
-};
-
-// How many models are processed at once: as many as there are threads, if their memory limits together do not exceed
-// the machine's memory.
-std::size_t most_at_once(std::uint64_t memory_limit) {
-  const std::uint64_t fit = machine_memory() / std::max<std::uint64_t>(memory_limit, 1);
-  return static_cast<std::size_t>(std::clamp<std::uint64_t>(fit, 1, static_cast<std::uint64_t>(thread_limit())));
-}
-
 // Processes items, several at once, and reports them in order. Consecutive items with one model form a group, which is
 // processed in one process.
 class Batch {
  public:
-  Batch(const RenderArgs& common, std::uint64_t size)
+  // `ledger` may be null.
+  Batch(const RenderArgs& common, std::uint64_t size, Ledger* ledger, BatchResult took)
       : common_(common),
+        ledger_(ledger),
+        took_(std::move(took)),
         size_(size),
         threads_(thread_limit()),
         most_at_once_(most_at_once(common.load.limits.memory)),
@@ -120,17 +47,19 @@ class Batch {
 
   // Adds the item that `make` returns; if it throws, the item has failed.
   template <class Make>
-  void add(const std::string& name, const Make& make) {
+  void add(const std::string& name, std::uint64_t number, const Make& make) {
     try {
       RenderArgs args = make();
       args.progress = ProgressKind::None;
       const bool is_alike = !groups_.empty() && groups_.back().is_open(args);
       if (!is_alike) add_group().is_ahead = can_be_ahead(args);
-      groups_.back().items.push_back({name, std::move(args), nullptr});
+      groups_.back().items.push_back({name, number, std::move(args), nullptr});
     } catch (const std::exception&) {
-      add_group().items.push_back({name, {}, std::current_exception()});
+      add_group().items.push_back({name, number, {}, std::current_exception()});
     }
   }
+
+  std::uint64_t failed() const { return failed_; }
 
   void finish() {
     while (!groups_.empty()) report_first();
@@ -141,6 +70,7 @@ class Batch {
  private:
   struct Item {
     std::string name;
+    std::uint64_t number = 0;
     RenderArgs args;
     std::exception_ptr error;  ///< of its arguments
     bool is_rendered = false;  ///< by the group's process
@@ -178,12 +108,12 @@ class Batch {
     group.is_started = true;
     std::vector<RenderArgs> to_render;
     for (Item& item : group.items) {
-      item.is_rendered = !item.error && !common_.is_dry_run && !is_finished(item.args);
+      item.is_rendered = !item.error && !common_.is_dry_run && !is_finished(item.args, ledger_);
       if (item.is_rendered) to_render.push_back(item.args);
     }
     if (to_render.empty()) return;
     group.threads = threads_ / static_cast<int>(std::min(most_at_once_, groups_.size()));
-    group.process.emplace(std::move(to_render), &processes_);
+    group.process.emplace(std::move(to_render), &processes_, ledger_);
     with_threads(group.threads, [&] { group.process->start_ahead(); });
   }
 
@@ -203,8 +133,11 @@ class Batch {
     start_some();
     Group& group = groups_.front();
     for (const Item& item : group.items) {
+      if (GracePeriod::has_begun())
+        throw Terminated(fmt::format("SIGTERM: {} of {} items are complete; run again to go on", count_, size_));
       const Stopwatch watch;
-      report(item.error           ? failure(item, item.error)
+      report(item,
+             item.error           ? failure(item, item.error)
              : item.is_rendered   ? render(item, group)
              : common_.is_dry_run ? planned(item)
                                   : skipped(item),
@@ -216,18 +149,43 @@ class Batch {
   Json::Object render(const Item& item, Group& group) {
     progress_.begin(fmt::format("{} of {}: {}", count_ + 1, size_, item.name),
                     static_cast<double>(count_) / static_cast<double>(size_));
-    try {
-      Summary summary;
-      with_threads(group.threads, [&] { summary = group.process->next(); });
-      print_text(fmt::format("{} -> {}, {} × {}, {:.0f} ms", item.name, summary.output, summary.width, summary.height,
-                             summary.total_ms()));
-      Json::Object line = summary_json(item.args, summary);
-      line.emplace(line.begin() + 4, "status", "done");
-      line.emplace_back("seconds", summary.total_ms() / 1000);
-      return line;
-    } catch (const std::exception&) {
-      return failure(item, std::current_exception());
-    }
+    for (int attempt = 1;; ++attempt) try {
+        const Summary summary = attempt == 1 ? first_attempt(group) : next_attempt(item);
+        print_text(fmt::format("{} -> {}, {} × {}, {:.0f} ms", item.name, summary.output, summary.width, summary.height,
+                               summary.total_ms()));
+        Json::Object line = summary_json(item.args, summary);
+        line.emplace(line.begin() + 4, "status", "done");
+        if (attempt > 1) line.emplace_back("attempts", attempt);
+        line.emplace_back("seconds", summary.total_ms() / 1000);
+        if (took_) took_(item.args, summary);
+        return line;
+      } catch (const Error& error) {
+        if (attempt > common_.retries || !may_pass(error) || GracePeriod::has_begun())
+          return failure(item, std::current_exception(), attempt);
+        progress_.clear();
+        say_warning(std::string(error.what()) + "; it is tried again");
+      } catch (const std::exception&) {
+        return failure(item, std::current_exception(), attempt);
+      }
+  }
+
+  Summary first_attempt(Group& group) {
+    Summary summary;
+    with_threads(group.threads, [&] { summary = group.process->next(); });
+    return summary;
+  }
+  // In a process of its own.
+  Summary next_attempt(const Item& item) {
+    Summary summary;
+    with_threads(threads_, [&] { summary = RenderItems({item.args}, &processes_, ledger_).next(); });
+    return summary;
+  }
+
+  // Whether the same job may succeed: what the job itself causes, such as a corrupt input or too small a limit of
+  // memory, would happen again.
+  static bool may_pass(const Error& error) {
+    const std::string_view cause = cause_name(error);
+    return cause == "killed" || cause == "time" || cause == "output";
   }
 
   Json::Object skipped(const Item& item) {
@@ -235,14 +193,14 @@ class Batch {
     return plan_json(item.args, "skipped");
   }
   Json::Object planned(const Item& item) {
-    const bool is_left_out = is_finished(item.args);
+    const bool is_left_out = is_finished(item.args, ledger_);
     print_text(is_left_out ? fmt::format("{}: {} exists already", item.name, item.args.output) : plan_text(item.args));
     return plan_json(item.args, is_left_out ? "skipped" : "planned");
   }
 
-  Json::Object failure(const Item& item, const std::exception_ptr& error) {
+  Json::Object failure(const Item& item, const std::exception_ptr& error, int attempts = 1) {
     ++failed_;
-    const std::string cause = cause_of(item.name, error);
+    const auto [word, cause] = cause_of(item.name, error);
     progress_.clear();
     say_error(cause);
     const std::string& output = item.args.output;
@@ -253,21 +211,43 @@ class Batch {
                       {"status", "failed"}};
     if (!output.empty()) line.emplace_back("not_written", output);
     line.emplace_back("error", cause);
+    line.emplace_back("cause", word);
+    if (attempts > 1) line.emplace_back("attempts", attempts);
     return line;
   }
 
-  static std::string cause_of(const std::string& name, const std::exception_ptr& error) {
+  // The word for the cause (cli/process/item_error.h), and the message.
+  static std::pair<std::string, std::string> cause_of(const std::string& name, const std::exception_ptr& error) {
     try {
       std::rethrow_exception(error);
     } catch (const std::bad_alloc&) {
-      return name + ": out of memory";
+      return {"memory", name + ": out of memory"};
+    } catch (const Error& cause) {
+      return {std::string(cause_name(cause)), cause.what()};
     } catch (const std::exception& cause) {
-      return cause.what();
+      return {"failed", cause.what()};
     }
   }
 
-  void report(Json::Object line, const Stopwatch& watch) {
-    if (line.back().first != "seconds") line.emplace_back("seconds", watch.ms() / 1000);
+  // Skipped items are recorded by an earlier line.
+  void record(const Item& item, const Json::Object& line) {
+    if (ledger_ == nullptr || !trouble_.empty()) return;
+    Json::Object result{{"item", item.number}};
+    for (const char* name : {"status", "error", "cause", "attempts", "frames", "seconds"})
+      for (const auto& [key, value] : line)
+        if (key == name) result.emplace_back(key, value);
+    try {
+      ledger_->add_result(std::move(result));
+    } catch (const Error& error) {
+      trouble_ = error.what();
+      say_error(trouble_ + "; the batch goes on without reports");
+    }
+  }
+
+  void report(const Item& item, Json::Object line, const Stopwatch& watch) {
+    const bool is_made = line.back().first == "seconds";
+    if (!is_made) line.emplace_back("seconds", watch.ms() / 1000);
+    if (item.is_rendered || item.error) record(item, line);
     ++count_;
     progress_.clear();
     if (!prints_text_) print_line(Json(std::move(line)).text());
@@ -291,6 +271,8 @@ class Batch {
   }
 
   const RenderArgs& common_;
+  Ledger* const ledger_;
+  const BatchResult took_;
   const std::uint64_t size_;
   const int threads_;
   const std::size_t most_at_once_;
@@ -300,35 +282,6 @@ class Batch {
   std::deque<Group> groups_;  ///< those that are not yet reported
   std::uint64_t count_ = 0, failed_ = 0;
   std::string trouble_;  ///< why reports are no longer printed; empty if they are
-};
-
-// The items of the command line, or of the manifest.
-class BatchItems {
- public:
-  explicit BatchItems(RenderArgs common)
-      : inputs_(std::exchange(common.inputs, {})), common_(std::move(common)), jobs_(common_) {
-    constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30;
-    if (!common_.manifest.empty())
-      manifest_.emplace(common_.manifest, std::min(most_bytes, common_.load.limits.memory / 2));
-  }
-
-  std::uint64_t count() const { return manifest_ ? manifest_->size() : inputs_.size(); }
-  std::string name(std::uint64_t i) const { return manifest_ ? manifest_->place(i) : inputs_[i]; }
-  // Errors    ErrorKind::Input or Usage, naming the line.
-  RenderArgs args(std::uint64_t i) {
-    if (manifest_) return jobs_.read(manifest_->text(i), manifest_->place(i), i);
-    RenderArgs args = common_;
-    args.input = inputs_[i];
-    set_output(args, args.output, i);
-    check_args(args);
-    return args;
-  }
-
- private:
-  const std::vector<std::string> inputs_;
-  const RenderArgs common_;  ///< without the inputs
-  Jobs jobs_;
-  std::optional<Manifest> manifest_;
 };
 
 // Fails before the first item is rendered if two items would write the same file, or one a file that another reads.
@@ -362,26 +315,56 @@ void make_folder(const RenderArgs& args) {
   if (error) throw Error(ErrorKind::Output, fmt::format("{}: {}", folder.string(), error.message()));
 }
 
+// The arguments of an item that is to be rendered, after its folder is made.
+RenderArgs prepared(RenderArgs args) {
+  make_folder(args);
+  check_outputs(args);
+  return args;
+}
+
 }  // namespace
+
+std::size_t most_at_once(std::uint64_t memory_limit) {
+  const std::uint64_t fit = machine_memory() / std::max<std::uint64_t>(memory_limit, 1);
+  return static_cast<std::size_t>(std::clamp<std::uint64_t>(fit, 1, static_cast<std::uint64_t>(thread_limit())));
+}
 
 void render_batch(const RenderArgs& common) {
   BatchItems items(common);
   check_files(items, common.output);
-  Batch batch(common, common.shard.size_of(items.count()));
+  std::optional<Ledger> ledger;
+  if (!common.ledger.empty() && !common.is_dry_run)
+    ledger.emplace(common.ledger, common.shard.index, items.pin(), common.load.limits);
+  const GracePeriod grace(common.is_dry_run ? 0 : common.grace);
+  Batch batch(common, common.shard.size_of(items.count()), ledger ? &*ledger : nullptr, {});
   for (std::uint64_t i = 0; i < items.count(); ++i) {
     if (!common.shard.has(i)) continue;
-    batch.add(items.name(i), [&] {
+    batch.add(items.name(i), i, [&] {
       RenderArgs args = items.args(i);
-      if (common.is_dry_run) {
-        check_input(args.input, args.load.format);
-        return args;
-      }
-      make_folder(args);
-      check_outputs(args);
+      if (!common.is_dry_run) return prepared(std::move(args));
+      check_input(args.input, args.load.format);
       return args;
     });
   }
   batch.finish();
+}
+
+std::uint64_t render_sample(const RenderArgs& common, BatchItems& items, std::span<const std::uint64_t> numbers,
+                            const std::function<void(RenderArgs&)>& complete, const BatchResult& took) {
+  RenderArgs quiet = common;
+  quiet.verbosity = Verbosity::Quiet;
+  Batch batch(quiet, numbers.size(), nullptr, took);
+  for (const std::uint64_t i : numbers)
+    batch.add(items.name(i), i, [&] {
+      RenderArgs args = items.args(i);
+      complete(args);
+      return prepared(std::move(args));
+    });
+  try {
+    batch.finish();
+  } catch (const PartialFailure&) {
+  }
+  return batch.failed();
 }
 
 }  // namespace zoneplate::cli

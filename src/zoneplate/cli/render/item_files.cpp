@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/sha256.h"
 #include "zoneplate/cli/batch/whole_file.h"
 #include "zoneplate/cli/render/environment_file.h"
 #include "zoneplate/cli/render/picture.h"
@@ -20,24 +21,23 @@ namespace fs = std::filesystem;
 
 bool is_whole(const RenderArgs& args, const std::string& path) {
   std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) return false;
   try {
-    const FileBytes file(path);
-    if (extension_of(path) != ".rgba") return is_whole_file(extension_of(path), file.bytes());
-    const std::optional<Crop>& crop = args.options.crop;
-    const auto width = static_cast<std::uint64_t>(crop ? crop->width : args.options.width);
-    const auto height = static_cast<std::uint64_t>(crop ? crop->height : args.options.height);
-    return file.bytes().size() == width * height * (args.bit_depth == 16 ? 8 : 4);
+    return fs::is_regular_file(path, ignored) && can_be_whole(args, path);
   } catch (const Error&) {  // without permission to read it, for example
     return false;
   }
 }
 
-bool are_whole(const RenderArgs& args, int frame) {
-  for (int layer = -1; layer < static_cast<int>(args.aovs.size()); ++layer)
-    if (!is_whole(args, output_path(args, frame, layer))) return false;
+bool are_whole(const RenderArgs& args, int frame, const Ledger* ledger) {
+  const std::string job = ledger != nullptr ? job_digest(args) : "";
+  for (int layer = -1; layer < static_cast<int>(args.aovs.size()); ++layer) {
+    const std::string path = output_path(args, frame, layer);
+    if (ledger != nullptr ? !ledger->has_whole(path, job) : !is_whole(args, path)) return false;
+  }
   return true;
 }
+
+bool keeps_files(const RenderArgs& args, const Ledger* ledger) { return args.skip_existing || ledger != nullptr; }
 
 // The name of a data pass of frames: its ending follows the frame number.
 std::string with_layer(const RenderArgs& args, const Aov& aov) {
@@ -74,13 +74,26 @@ void check_own_files(const RenderArgs& args) {
                 fmt::format("{} would be written to {}, which is read as well", args.input, collision->path));
 }
 
-bool is_finished(const RenderArgs& args) {
-  return args.skip_existing && !args.frame_place && args.output != "-" && are_whole(args, 0);
+std::string job_digest(const RenderArgs& args) {
+  return sha256_of(fmt::format("{}\n{}\n{}", args.input, extension_of(args.named_output()), args.given)).substr(0, 16);
 }
 
-std::vector<int> finished_frames(const RenderArgs& args) {
+bool can_be_whole(const RenderArgs& args, const std::string& path) {
+  const FileBytes file(path);
+  if (extension_of(path) != ".rgba") return is_whole_file(extension_of(path), file.bytes());
+  const std::optional<Crop>& crop = args.options.crop;
+  const auto width = static_cast<std::uint64_t>(crop ? crop->width : args.options.width);
+  const auto height = static_cast<std::uint64_t>(crop ? crop->height : args.options.height);
+  return file.bytes().size() == width * height * (args.bit_depth == 16 ? 8 : 4);
+}
+
+bool is_finished(const RenderArgs& args, const Ledger* ledger) {
+  return keeps_files(args, ledger) && !args.frame_place && args.output != "-" && are_whole(args, 0, ledger);
+}
+
+std::vector<int> finished_frames(const RenderArgs& args, const Ledger* ledger) {
   std::vector<int> frames;
-  if (!args.skip_existing || !args.frame_place) return frames;
+  if (!keeps_files(args, ledger) || !args.frame_place) return frames;
   // The frame number is in the name of a file, or of a folder of files.
   const std::string& path = args.output;
   const std::size_t place = args.frame_place->begin, place_end = place + args.frame_place->size;
@@ -97,7 +110,7 @@ std::vector<int> finished_frames(const RenderArgs& args) {
                  args.frame_place->digits);
     const std::int64_t last = args.sequence.last_frame().value_or(std::numeric_limits<int>::max());
     if (!frame || *frame < args.sequence.first_frame() || *frame > last) continue;
-    if (are_whole(args, static_cast<int>(*frame))) frames.push_back(static_cast<int>(*frame));
+    if (are_whole(args, static_cast<int>(*frame), ledger)) frames.push_back(static_cast<int>(*frame));
   }
   std::ranges::sort(frames);
   return frames;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "zoneplate/cli/batch/ledger.h"
 #include "zoneplate/cli/batch/output_files.h"
 #include "zoneplate/cli/render/args.h"
 
@@ -15,11 +16,21 @@ void add_files(const RenderArgs& args, std::uint64_t item, OutputFiles& files);
 /// Errors    ErrorKind::Usage if the item would write a file that it reads.
 void check_own_files(const RenderArgs& args);
 
-/// For --skip-existing: whether all files of an item are there and whole (cli/batch/whole_file.h), its image and its
-/// data passes. False for numbered frames, of which `finished_frames` are skipped.
-bool is_finished(const RenderArgs& args);
+/// The digest of what determines the files of an item: its input's name, its options as they are given, and the format.
+/// The contents of the input are not part of it.
+std::string job_digest(const RenderArgs& args);
 
-/// The frames of an item whose files are all there and whole, sorted; none without --skip-existing.
-std::vector<int> finished_frames(const RenderArgs& args);
+/// Whether all files of an item are there, its image and its data passes: with a ledger those that it records as whole
+/// (Ledger::has_whole), else, with --skip-existing, those that can be whole (cli/batch/whole_file.h). False for
+/// numbered frames, of which `finished_frames` are skipped.
+bool is_finished(const RenderArgs& args, const Ledger* ledger = nullptr);
+
+/// The frames of an item whose files are all there and whole, in the same sense, sorted.
+std::vector<int> finished_frames(const RenderArgs& args, const Ledger* ledger = nullptr);
+
+/// Whether the bytes of a file can be those of a whole one of the item.
+///
+/// Errors    ErrorKind::Input if it cannot be read.
+bool can_be_whole(const RenderArgs& args, const std::string& path);
 
 }  // namespace zoneplate::cli

@@ -10,6 +10,7 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/cli/render/film.h"
 #include "zoneplate/cli/render/item_files.h"
+#include "zoneplate/cli/version.h"
 #include "zoneplate/os/cache_folder.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/shade/environment/prepared_environment.h"
@@ -31,6 +32,7 @@ ItemLimits limits_of(const std::vector<RenderArgs>& items, LimitedChildren* sibl
           .seconds = args.max_seconds,
           .is_sandboxed = uses_sandbox(args.is_sandboxed),
           .readable = std::move(readable),
+          .ignores_termination = args.grace > 0,
           .siblings = siblings};
 }
 
@@ -49,20 +51,31 @@ void for_parts(std::uint64_t size, const ItemEvents::Read& read, Take take) {
   }
 }
 
-std::vector<RenderArgs> with_finished_frames(std::vector<RenderArgs> items) {
-  for (RenderArgs& item : items) item.sequence.finished = finished_frames(item);
+std::vector<RenderArgs> with_finished_frames(std::vector<RenderArgs> items, const Ledger* ledger) {
+  for (RenderArgs& item : items) item.sequence.finished = finished_frames(item, ledger);
   return items;
 }
 
 }  // namespace
 
-RenderItems::RenderItems(std::vector<RenderArgs> items, LimitedChildren* siblings)
-    : items_(with_finished_frames(std::move(items))),
+RenderItems::RenderItems(std::vector<RenderArgs> items, LimitedChildren* siblings, Ledger* ledger)
+    : ledger_(ledger),
+      items_(with_finished_frames(std::move(items), ledger)),
       process_(limits_of(items_, siblings), items_.size(),
                [this, jobs = std::make_shared<RenderJobs>()](std::size_t i, ItemSender& sender) {
                  if (progress_of(items_[i]) == ProgressKind::None) sender.mute_progress();
                  return pack_summary(jobs->run(items_[i], sender));
                }) {}
+
+/// A file that has its name now.
+void RenderItems::record(const RenderArgs& args, const std::string& path, std::uint64_t bytes, Sha256& digest) {
+  if (ledger_ == nullptr || path == "-") return;
+  ledger_->add_file(path, {.item = args.number,
+                           .bytes = bytes,
+                           .sha256 = digest.hex(),
+                           .job = job_digest(args),
+                           .program = program_name()});
+}
 
 Summary RenderItems::next() {
   const RenderArgs& args = items_[next_++];
@@ -85,8 +98,13 @@ Summary RenderItems::next() {
       throw Error(ErrorKind::Failed, args.input + ": an unknown data pass");
     const std::string path = output_path(args, frame, layer);
     FileWriter file(path);
-    for_parts(size, read, [&](std::span<const std::uint8_t> part) { file.write(part); });
+    Sha256 digest;
+    for_parts(size, read, [&](std::span<const std::uint8_t> part) {
+      file.write(part);
+      if (ledger_ != nullptr) digest.add(part);
+    });
     file.commit();
+    record(args, path, size, digest);
     if (layer < 0) last_image = path;
     write_ms += watch.ms();
   };
@@ -111,7 +129,11 @@ Summary RenderItems::next() {
   if (film) {
     const Stopwatch watch;
     progress.begin("encode", 1);
-    save_bytes(args.output, film->encode());
+    const std::vector<std::uint8_t> encoded = film->encode();
+    save_bytes(args.output, encoded);
+    Sha256 digest;
+    if (ledger_ != nullptr) digest.add(encoded);
+    record(args, args.output, encoded.size(), digest);
     write_ms += watch.ms();
   }
   summary.output = summary.frames == 1 && !last_image.empty() ? last_image : args.output;

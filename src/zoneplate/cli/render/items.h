@@ -3,6 +3,8 @@
 
 #include <vector>
 
+#include "zoneplate/base/sha256.h"
+#include "zoneplate/cli/batch/ledger.h"
 #include "zoneplate/cli/process/item_process.h"
 #include "zoneplate/cli/render/job.h"
 
@@ -12,9 +14,10 @@ namespace zoneplate::cli {
 /// this class writes their files.
 class RenderItems {
  public:
-  /// `siblings`: the processes of other items that work at the same time; none if null.
+  /// `siblings`: the processes of other items that work at the same time; none if null. `ledger`: where their files are
+  /// recorded; nowhere if null.
   /// Requires  at least one item.
-  explicit RenderItems(std::vector<RenderArgs> items, LimitedChildren* siblings = nullptr);
+  explicit RenderItems(std::vector<RenderArgs> items, LimitedChildren* siblings = nullptr, Ledger* ledger = nullptr);
 
   /// Starts the process, whose results `next` then returns.
   void start_ahead() noexcept { process_.start_ahead(); }
@@ -26,6 +29,9 @@ class RenderItems {
   Summary next();
 
  private:
+  void record(const RenderArgs& args, const std::string& path, std::uint64_t bytes, Sha256& digest);
+
+  Ledger* ledger_;
   std::vector<RenderArgs> items_;
   std::size_t next_ = 0;
   ItemProcess process_;
