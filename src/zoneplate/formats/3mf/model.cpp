@@ -67,7 +67,7 @@ void center_far(Object& object, ImportBudget& budget) {
   const double3 centre = choice.origin();
   if (centre != double3{}) {
     for (std::size_t i = 0; i < object.position.size(); ++i)
-      object.position[i] = narrowed(object.far.place[i] - centre);
+      object.position[i] = relative_to(centre, object.far.place[i]);
     object.centre = centre;
   }
   forget_places(object, budget);

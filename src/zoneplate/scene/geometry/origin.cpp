@@ -43,7 +43,7 @@ double3 center_far_mesh(Mesh& mesh) {
   choice.add_used(mesh.index, [&](std::uint32_t vertex) { return mesh.position[vertex]; });
   const double3 centre = widened(narrowed(choice.origin()));
   if (centre == double3{}) return {};
-  for (float3& p : mesh.position) p = narrowed(widened(p) - centre);
+  for (float3& p : mesh.position) p = relative_to(centre, widened(p));
   return centre;
 }
 

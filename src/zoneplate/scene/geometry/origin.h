@@ -58,6 +58,12 @@ class OriginChoice {
                 -std::numeric_limits<double>::infinity()};
 };
 
+/// A vertex relative to `origin`; 0 where no float has that, as it may be of a vertex that nothing uses.
+inline float3 relative_to(double3 origin, double3 vertex) {
+  const float3 out = narrowed(vertex - origin);
+  return is_finite(out) ? out : float3{};
+}
+
 /// Moves a mesh that lies far from its own origin, as OriginChoice decides, to lie around it; returns how far it was
 /// moved back. Differences of floats of one magnitude are exact.
 double3 center_far_mesh(Mesh& mesh);

@@ -74,6 +74,16 @@ TEST(OriginChoice, PlacesOfNoFloatDoNotCount) {
             (double3{500000.5, 1, 0}));
 }
 
+TEST(OriginChoice, VerticesThatNothingUsesStayFinite) {
+  Mesh mesh;
+  const float far = -0.9f * std::numeric_limits<float>::max(), step = 0.001f * std::numeric_limits<float>::max();
+  mesh.position = {{far, 0, 0}, {far + step, 0, 0}, {far, step, 0}, {-far, 0, 0}};
+  mesh.index = {0, 1, 2};
+  EXPECT_NE(center_far_mesh(mesh), double3{});
+  EXPECT_LE(std::abs(mesh.position[0].x), step);
+  EXPECT_EQ(mesh.position[3], float3{});
+}
+
 /// A triangle twice: at its own coordinates, and turned by a quarter about z; with a light and a camera.
 Scene placed(float3 at) {
   Scene scene;
