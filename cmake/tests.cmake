@@ -58,8 +58,13 @@ add_test(NAME environment_error CONFIGURATIONS Long
          COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=EnvironmentError.*)
 set_tests_properties(environment_error PROPERTIES TIMEOUT 3600 FAIL_REGULAR_EXPRESSION "Running 0 tests")
 
+# The images of README.md and docs/, made again.
+add_test(NAME document_images CONFIGURATIONS Long
+         COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=DocumentImages.*)
+set_tests_properties(document_images PROPERTIES TIMEOUT 3600 FAIL_REGULAR_EXPRESSION "Running 0 tests")
+
 # Every input of fuzz_appetite takes minutes: only for `ctest -C Long`.
-foreach(test EveryInputStaysWithinTheLimits JobsBesideAllOfThemAreDone)
+foreach(test EveryInputStaysWithinTheLimits EveryInputStaysWithinTheLimitsOfEveryVerb JobsBesideAllOfThemAreDone)
   add_test(NAME Appetite.${test} CONFIGURATIONS Long
            COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=Appetite.DISABLED_${test})
   set_tests_properties(Appetite.${test} PROPERTIES TIMEOUT 3600 RUN_SERIAL TRUE FAIL_REGULAR_EXPRESSION "Running 0 tests")

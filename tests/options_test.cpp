@@ -217,6 +217,28 @@ TEST_F(Options, LightsThatWouldClipASceneToWhiteAreDimmed) {
   EXPECT_FALSE(contains(run("glow.gltf -o a.png --size 64").out, "dimmed"));
 }
 
+TEST_F(Options, ALightThatRisesDimsAllFramesOfASequence) {
+  std::string text = bright_gltf();
+  const auto after = [&](const std::string& what, const std::string& more) {
+    text.insert(text.find(what) + what.size(), more);
+  };
+  after(R"("max": [1, 1, 0]})", R"(,
+{"bufferView": 1, "componentType": 5126, "count": 2, "type": "SCALAR", "min": [0], "max": [1]},
+{"bufferView": 1, "byteOffset": 8, "componentType": 5126, "count": 2, "type": "SCALAR"})");
+  after(R"({"buffer": 0, "byteLength": 36})", R"(, {"buffer": 1, "byteLength": 16})");
+  after(R"(AAAAgD8AAAAA"})",
+        R"(, {"byteLength": 16, "uri": "data:application/octet-stream;base64,AAAAAAAAgD8AAAAAAFDDRw=="})");
+  after(R"("scenes": [{"nodes": [0, 1]}],)", R"(
+"animations": [{"samplers": [{"input": 1, "output": 2}], "channels": [{"sampler": 0, "target": {"path": "pointer",
+ "extensions": {"KHR_animation_pointer": {"pointer": "/extensions/KHR_lights_punctual/lights/0/intensity"}}}}]}],)");
+  write("rising.gltf", text);
+  const ProgramAnswer answer = run("rising.gltf -o r.#.png --size 64 --frames 3 --frame-rate 2");
+  ASSERT_EQ(answer.code, 0) << answer.out;
+  EXPECT_TRUE(contains(answer.out, "are dimmed")) << answer.out;
+  EXPECT_LT(middle(image("r.1.png")).r, middle(image("r.2.png")).r);
+  EXPECT_LT(middle(image("r.2.png")).r, 255);
+}
+
 TEST_F(Options, AModelThatCannotBeSeenIsWarnedAbout) {
   const auto with_material = [](const std::string& properties) {
     std::string text = bright_gltf();

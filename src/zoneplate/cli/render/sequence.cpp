@@ -36,7 +36,8 @@ class Plan {
             scene.animations.size(), scene.animations[0].name.empty() ? "" : " (" + scene.animations[0].name + ")"));
     }
     end_ = end_of_animation(choice_, scene);
-    if (!choice_.animation && choice_.animation_name.empty()) still_ = std::move(scene);
+    is_animated_ = choice_.animation || !choice_.animation_name.empty();
+    if (!is_animated_) still_ = std::move(scene);
     list_frames();
     if (still_ && !args.sequence.turntable && frames_.size() > 1)
       notes_.push_back(fmt::format("{}: has no animation, so that all {} frames show the same; see --turntable",
@@ -47,6 +48,14 @@ class Plan {
   const std::vector<int>& frames() const { return frames_; }
   // What the user may not expect: which of several animations is played, or that nothing moves.
   const std::vector<std::string>& notes() const { return notes_; }
+  // Those by whose lights all frames are dimmed, whichever are rendered: the first one, and of an animation four more,
+  // evenly to its end.
+  std::vector<double> metered_frames() const {
+    constexpr int parts = 4;
+    std::vector<double> out = {0};
+    for (int i = 1; i <= parts && is_animated_; ++i) out.push_back(end_ * args_.sequence.rate * i / parts);
+    return out;
+  }
   // Of the scene that was made last.
   ToneMapping tone_mapping() const { return tone_mapping_; }
 
@@ -112,7 +121,8 @@ class Plan {
   SceneChoice choice_;
   std::vector<std::string> notes_;
   ToneMapping tone_mapping_ = ToneMapping::None;
-  double end_ = 0;              // end of the animation, in seconds
+  double end_ = 0;  // end of the animation, in seconds
+  bool is_animated_ = false;
   std::optional<Scene> still_;  // the scene, if it is not animated
   std::vector<int> frames_;
 };
@@ -229,11 +239,19 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
     throw Error(ErrorKind::Usage, "--aov requires numbered frames, as chair.####.png");
   sequence.set_view(args.view, aspect);
   summary.warnings = sequence.scene(plan.frames().front()).scene().warnings;
-  if (args.meters_exposure || renderer.scene().scene().needs_fill_light) {
+  if (renderer.scene().scene().needs_fill_light) {
+    std::string warning;
+    for (const double frame : plan.metered_frames()) {
+      RenderArgs own = args;
+      std::string its_warning = set_light_dimming(own, sequence.scene(frame), args.output);
+      if (own.light_dimming < args.light_dimming)
+        args.light_dimming = own.light_dimming, warning = std::move(its_warning);
+    }
+    if (!warning.empty()) summary.warnings.push_back(std::move(warning));
+  }
+  if (args.meters_exposure) {
     const SceneView start = sequence.view(0);
-    if (std::string warning = set_light_dimming(args, start.scene, args.output); !warning.empty())
-      summary.warnings.push_back(std::move(warning));
-    if (args.meters_exposure) args.display.exposure = metered_exposure(start.scene, start.camera, args);
+    args.display.exposure = metered_exposure(start.scene, start.camera, args);
   }
   summary.exposure = args.display.exposure;
   summary.warnings.insert(summary.warnings.end(), plan.notes().begin(), plan.notes().end());
