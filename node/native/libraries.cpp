@@ -37,9 +37,10 @@ SharedLibrary::SharedLibrary(Library library, const std::string& place) : librar
   if (library != Library::Meshoptimizer) refuse(place, contents[static_cast<std::size_t>(library)]);
 }
 
-SharedLibrary::AnyFunction SharedLibrary::address_of(const char* symbol) const {
+SharedLibrary::Found SharedLibrary::find(const char* symbol) const {
   using Decoder = int (*)(void*, std::size_t, std::size_t, const unsigned char*, std::size_t);
   using Filter = void (*)(void*, std::size_t, std::size_t);
+  using AnyFunction = void (*)();
   const auto decoder = [](Decoder function) { return reinterpret_cast<AnyFunction>(function); };
   const auto filter = [](Filter function) { return reinterpret_cast<AnyFunction>(function); };
   const std::pair<std::string_view, AnyFunction> functions[] = {
@@ -50,7 +51,7 @@ SharedLibrary::AnyFunction SharedLibrary::address_of(const char* symbol) const {
       {"meshopt_decodeFilterQuat", filter(meshopt_decodeFilterQuat)},
       {"meshopt_decodeFilterExp", filter(meshopt_decodeFilterExp)}};
   const auto* const found = std::ranges::find_if(functions, [&](const auto& f) { return f.first == symbol; });
-  return found == std::end(functions) ? nullptr : found->second;
+  return Found(found == std::end(functions) ? nullptr : found->second);
 }
 
 StoredImage decode_in_child(const std::string& place, Library library, std::uint64_t, std::uint64_t,

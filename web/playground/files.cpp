@@ -92,7 +92,7 @@ std::optional<std::string> size_warning(const TextureImage&) { return std::nullo
 SharedLibrary::SharedLibrary(Library library, const std::string& place) : library_(library), place_(place) {
   throw Error(ErrorKind::Input, place + ": data packed by Zstandard are read by the program, not by this page");
 }
-SharedLibrary::AnyFunction SharedLibrary::address_of(const char*) const { return nullptr; }
+SharedLibrary::Found SharedLibrary::find(const char*) const { return Found(nullptr); }
 
 DracoMesh decode_draco(std::span<const std::uint8_t>, std::uint64_t, std::span<const DracoWish>,
                        const std::string& place, ImportBudget&) {

@@ -26,7 +26,8 @@ void thin_labels(std::span<Curve> curves, const Axis& x, const Axis& y) {
       places.push_back({at, part(y, curve.points[i].second), is_right ? at : at - width, is_right ? at + width : at,
                         &curve.labels[i]});
     }
-  std::ranges::stable_sort(places, {}, [](const Place& p) { return std::pair(p.x, p.y); });
+  std::stable_sort(places.begin(), places.end(),
+                   [](const Place& p, const Place& q) { return std::pair(p.x, p.y) < std::pair(q.x, q.y); });
   std::vector<Place> shown;
   for (const Place& p : places) {
     const auto is_under = [&](const Place& q) {
