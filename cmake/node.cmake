@@ -9,7 +9,8 @@ foreach(header /usr/include/avif /usr/include/jxl /usr/include/lcms2.h ${tiff_he
   get_filename_component(name ${header} NAME)
   file(CREATE_LINK ${header} ${CMAKE_CURRENT_BINARY_DIR}/headers/${name} SYMBOLIC)
 endforeach()
-set_source_files_properties(src/zoneplate/codec/exr/exr.cpp PROPERTIES INCLUDE_DIRECTORIES /usr/include/OpenEXR SKIP_UNITY_BUILD_INCLUSION ON)
+set_source_files_properties(src/zoneplate/codec/exr/exr.cpp src/zoneplate/codec/exr/exr_reader.cpp PROPERTIES
+                            INCLUDE_DIRECTORIES /usr/include/OpenEXR SKIP_UNITY_BUILD_INCLUSION ON)
 
 # The package defines it itself.
 set_source_files_properties(src/zoneplate/shade/environment/prepare_studio.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
