@@ -99,7 +99,7 @@ std::optional<std::vector<float>> light_of(Members& members, const char* name) {
   return color;
 }
 
-/// Sizes have 32 bits here, and the image and the tables of a scene need memory beside its file.
+/// Sizes have 32 bits here, and the image and the tables of a scene need memory in addition to its file.
 constexpr double usual_memory = 1 << 30, most_memory = std::numeric_limits<std::int32_t>::max();
 
 ScenePointer load(const Input& request) {

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -13,8 +14,10 @@
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "zoneplate/base/paths_for_test.h"
+#include "zoneplate/os/file.h"
 
 namespace zoneplate {
 
@@ -44,6 +47,13 @@ class ProgramTest : public testing::Test {
     ::setenv("XDG_CONFIG_HOME", (place / "config").c_str(), 1);  // not the configuration of the user
   }
   void TearDown() override { std::filesystem::remove_all(place); }
+
+  bool exists(const std::string& name) const { return std::filesystem::exists(place / name); }
+  /// Writes a file of that folder, and makes the folder of its name.
+  void save(const std::string& name, const std::vector<std::uint8_t>& bytes) const {
+    std::filesystem::create_directories((place / name).parent_path());
+    save_bytes((place / name).string(), bytes);
+  }
 
   /// Runs the program in that folder, with arguments in shell syntax. `before` precedes the program in its command: a
   /// command that runs it, as `timeout 60`.

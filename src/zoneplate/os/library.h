@@ -40,7 +40,7 @@ class SharedLibrary {
    public:
     explicit Found(void (*address)()) : address_(address) {}
     template <class Function>
-    operator Function*() const {  // implicit: the type stands beside it
+    operator Function*() const {  // implicit: its users state the type
       return reinterpret_cast<Function*>(address_);
     }
 

@@ -121,6 +121,8 @@ RenderOptions Renderer::frame_options(const RenderSettings& settings, const Requ
     const float scale = static_cast<float>(request.frame->height) / static_cast<float>(options.height);
     options.point_size *= scale, options.line_width *= scale;
     options.width = request.frame->width, options.height = request.frame->height, options.crop = request.frame->crop;
+    // A scene-linear image has no display transform, which would decide on the light of the background.
+    if (settings.form == ImageForm::Linear) options.display.mapping = ToneMapping::None, options.display.exposure = 1;
   }
   options.crop = padded_crop(options, request.halo);
   if (!options.last) options.last = moment_;

@@ -127,7 +127,7 @@ double reading_fraction(const std::vector<std::string>& models, std::uint64_t sh
 
 /// The result of a sample.
 struct Sample {
-  std::vector<double> seconds = {};   ///< of each item, which others render beside it
+  std::vector<double> seconds = {};   ///< of each item, while others render at the same time
   double wall = 0, start = 0;         ///< of all of them; and once for each task
   double read_share = 0;              ///< of the items' time
   double reading = 1;                 ///< fraction of items that read their model

@@ -51,9 +51,6 @@ class Colors : public ProgramTest {
     if (!open_library(Library::Lcms)) GTEST_SKIP() << "liblcms2-2 is not installed";
     if (!open_library(Library::OpenExr)) GTEST_SKIP() << "libopenexr-3-1-30 is not installed";
   }
-  void save(const std::string& name, const std::vector<std::uint8_t>& bytes) const {
-    save_bytes((place / name).string(), bytes);
-  }
   std::vector<std::uint8_t> file(const std::string& name) const {
     const FileBytes bytes((place / name).string());
     return {bytes.bytes().begin(), bytes.bytes().end()};

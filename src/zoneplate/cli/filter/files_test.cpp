@@ -27,11 +27,6 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 class FilterFiles : public ProgramTest {
  protected:
   ProgramAnswer run(const std::string& arguments) const { return ProgramTest::run("filter " + arguments); }
-  bool exists(const std::string& name) const { return fs::exists(place / name); }
-  void save(const std::string& name, const std::vector<std::uint8_t>& bytes) const {
-    fs::create_directories((place / name).parent_path());
-    save_bytes((place / name).string(), bytes);
-  }
   /// An image with an edge, which every filter changes.
   void save_png(const std::string& name) const {
     Rgba8Image image(side, side, {0, 0, 0, 255});

@@ -27,11 +27,6 @@ constexpr FrameTime times[] = {{1, 10}, {3, 100}, {1, 2}, {7, 100}};
 class FilterFrames : public ProgramTest {
  protected:
   ProgramAnswer run(const std::string& arguments) const { return ProgramTest::run("filter " + arguments); }
-  bool exists(const std::string& name) const { return fs::exists(place / name); }
-  void save(const std::string& name, const std::vector<std::uint8_t>& bytes) const {
-    fs::create_directories((place / name).parent_path());
-    save_bytes((place / name).string(), bytes);
-  }
   /// A frame with an edge, which every filter changes.
   static Rgba8Image frame(int i, std::uint8_t alpha) {
     Rgba8Image image(width, height, {0, 40, 0, 255});

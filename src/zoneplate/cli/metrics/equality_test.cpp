@@ -30,10 +30,6 @@ class Equality : public ProgramTest {
  protected:
   static constexpr int side = 16;
 
-  void save(const std::string& name, const std::vector<std::uint8_t>& bytes) const {
-    fs::create_directories((place / name).parent_path());
-    save_bytes((place / name).string(), bytes);
-  }
   /// An EXR of floats, grey but for a patch of 4 × 4 pixels; with a layer Z if `depth` is given.
   void save_exr(const std::string& name, Linear patch, std::optional<float> depth = std::nullopt,
                 const ExrAttributes& attributes = {}) const {

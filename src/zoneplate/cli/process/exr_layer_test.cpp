@@ -22,9 +22,6 @@ constexpr int side = 12;
 
 class ExrLayers : public ProgramTest {
  protected:
-  void save(const std::string& name, const std::vector<std::uint8_t>& bytes) const {
-    save_bytes((place / name).string(), bytes);
-  }
   std::vector<std::uint8_t> bytes_of(const std::string& name) const {
     const std::string text = text_of(place / name);
     return {text.begin(), text.end()};

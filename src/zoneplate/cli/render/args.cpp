@@ -14,6 +14,7 @@
 #include "zoneplate/cli/look/solid_texture.h"
 #include "zoneplate/cli/process/confined.h"
 #include "zoneplate/cli/render/environment_file.h"
+#include "zoneplate/cli/render/option_values.h"
 #include "zoneplate/cli/values.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/elementary.h"
@@ -72,8 +73,6 @@ constexpr const char* notes =
     "files\n"
     "remain.\n";
 
-using Choices = std::vector<std::string_view>;
-
 /// The options of a level of --quality: 0 fast, 1 default, 2 best.
 void set_quality(RenderArgs& a, int level) {
   const RenderArgs usual;
@@ -83,121 +82,6 @@ void set_quality(RenderArgs& a, int level) {
   a.options.shadows = level == 2 ? parse_shadows("soft:samples=64,spacing=8") : usual.options.shadows;
   a.options.occlusion = level == 2 ? parse_occlusion("rays:samples=64,spacing=8") : usual.options.occlusion;
   a.options.ground = level == 2 ? GroundKind::Shadow : usual.options.ground;
-}
-
-float radians(const std::string& text, double low, double high) {
-  return static_cast<float>(parse_number(text, low, high) * 3.14159265358979323846 / 180);
-}
-
-float3 linear_color(const std::string& text) {
-  const float4 code = parse_color(text);
-  return {decode_srgb(code.x), decode_srgb(code.y), decode_srgb(code.z)};
-}
-
-float3 parse_up(const std::string& text) {
-  constexpr float3 axes[] = {{0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {-1, 0, 0}};
-  const std::string signed_text = text.size() == 1 ? '+' + text : text;
-  return axes[parse_choice(signed_text, {"+Y", "-Y", "+Z", "-Z", "+X", "-X"})];
-}
-
-Crop parse_crop(const std::string& text) {
-  std::vector<int> numbers;
-  std::size_t at = 0;
-  while (at <= text.size()) {
-    const std::size_t comma = std::min(text.find(',', at), text.size());
-    numbers.push_back(parse_whole(text.substr(at, comma - at), 0, max_side));
-    at = comma + 1;
-  }
-  if (numbers.size() != 4 || numbers[2] == 0 || numbers[3] == 0)
-    throw Error(ErrorKind::Usage, fmt::format("'{}' is not a rectangle x,y,width,height", text));
-  return {numbers[0], numbers[1], numbers[2], numbers[3]};
-}
-
-Choices stdout_formats() { return {"png", "jpg", "webp", "exr", "pfm", "rgba"}; }
-
-// The number of --quality's level. A number is what --quality means in other programs.
-int parse_quality(const std::string& text) {
-  if (!text.empty() && text.find_first_not_of("0123456789") == text.npos)
-    throw Error(ErrorKind::Usage,
-                fmt::format("'{}' is not one of fast, default, best; did you mean --jpeg-quality {} or "
-                            "--webp-quality {}?",
-                            text, text, text));
-  return static_cast<int>(parse_choice(text, {"fast", "default", "best"}));
-}
-
-Choices method_names() {
-  std::vector<std::string_view> names;
-  for (const Method& method : antialias::methods()) names.push_back(method.name);
-  return names;
-}
-
-Choices upscaler_names() {
-  Choices names;
-  for (const Upscaler& upscaler : upscale::upscalers()) names.push_back(upscaler.name);
-  return names;
-}
-
-Choices aov_names() {
-  std::vector<std::string_view> names;
-  for (const Aov& aov : aovs()) names.push_back(aov.name);
-  return names;
-}
-
-std::vector<const Aov*> parse_aovs(const std::string& text) {
-  const std::vector<std::string_view> names = aov_names();
-  std::vector<const Aov*> found;
-  std::size_t at = 0;
-  while (at <= text.size()) {
-    const std::size_t comma = std::min(text.find(',', at), text.size());
-    const std::string name = text.substr(at, comma - at);
-    if (name == "all" || name == "light") {
-      for (const Aov& aov : aovs()) {
-        Planes planes;
-        planes.*aov.plane = true;
-        const bool is_special = planes.motion || planes.flow || planes.error;
-        if (name == "light" ? planes.any_light() : !planes.any_light() && !is_special) found.push_back(&aov);
-      }
-    } else {
-      found.push_back(&aovs()[parse_choice(name, names)]);
-    }
-    at = comma + 1;
-  }
-  return found;
-}
-
-double parse_render_scale(const std::string& text) {
-  constexpr std::pair<std::string_view, double> presets[] = {
-      {"ultra-quality", 1.3}, {"quality", 1.5}, {"balanced", 1.7}, {"performance", 2}, {"ultra-performance", 3}};
-  for (const auto& [name, scale] : presets)
-    if (text == name) return scale;
-  return parse_number(text, scale_param.low, scale_param.high);
-}
-
-Choices texture_filter_list() {
-  std::vector<std::string_view> names;
-  for (const TextureFilterEntry& entry : texture_filters()) names.push_back(entry.name);
-  return names;
-}
-
-std::string texture_filter_names() { return fmt::format("{}", fmt::join(texture_filter_list(), ", ")); }
-
-struct MipFilterRow {
-  std::string_view name;
-  std::span<const Param> params;
-  MipFilter filter;
-};
-
-void set_mip_filter(const std::string& text, MipOptions& mips) {
-  static constexpr std::string_view alphas[] = {"average", "coverage"}, colors[] = {"weighted", "straight"};
-  static constexpr Param params[] = {
-      {.name = "alpha", .meaning = "of alpha-tested textures", .names = alphas},
-      {.name = "color", .meaning = "of textures with alpha: weighted by it, or not", .names = colors}};
-  static constexpr MipFilterRow rows[] = {
-      {"box", params, MipFilter::Box}, {"kaiser", params, MipFilter::Kaiser}, {"lanczos", params, MipFilter::Lanczos}};
-  const auto spec = parse_spec<MipFilterRow>("mip filter", rows, text);
-  mips.filter = spec.row.filter;
-  mips.keeps_coverage = spec.settings.chosen("alpha") == "coverage";
-  mips.weights_by_alpha = spec.settings.chosen("color") == "weighted";
 }
 
 std::vector<Option> input_options(RenderArgs& a) {
@@ -226,13 +110,6 @@ std::vector<Option> input_options(RenderArgs& a) {
          a.has_animation_time = true;
        }},
   };
-}
-
-ShutterFilter parse_shutter_filter(const std::string& text) {
-  if (text == "box") return ShutterFilter::Box;
-  if (text == "triangle") return ShutterFilter::Triangle;
-  if (text == "gaussian") return ShutterFilter::Gaussian;
-  throw Error(ErrorKind::Usage, fmt::format("'{}' is not box, triangle or gaussian", text));
 }
 
 std::vector<Option> sequence_options(RenderArgs& a) {
@@ -283,7 +160,7 @@ std::vector<Option> batch_options(RenderArgs& a) {
        "Try a job again whose process was killed or took too long, or whose output could not be written; default 0",
        group, false, [&](auto& text) { a.retries = parse_whole(text, 0, 100); }},
       {"--grace", "S",
-       "After SIGTERM, finish the job at hand if that takes at most so many seconds, then end with exit code 143; "
+       "After SIGTERM, finish the job at hand if that takes at most S seconds, then end with exit code 143; "
        "default 0",
        group, false, [&](auto& text) { a.grace = parse_number(text, 0, 1e6); }},
   };

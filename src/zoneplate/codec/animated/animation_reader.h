@@ -14,7 +14,7 @@
 
 namespace zoneplate {
 
-/// What an animated image states beside its pixels.
+/// What an animated image states besides its pixels.
 struct AnimationInfo {
   int2 size;               ///< of the composed frames
   std::size_t frames = 0;  ///< at least one
