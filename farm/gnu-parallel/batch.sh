@@ -6,8 +6,8 @@
 #   zoneplate plan jobs.jsonl --size 512 --threads 1 --ledger out/ledger
 #   farm/gnu-parallel/batch.sh 100 jobs.jsonl --size 512 --ledger out/ledger
 #
-# A shard that was killed, or ended by SIGTERM, is tried again, at most 20 times in all. Ctrl-C ends all of them between
-# two items; the same command goes on.
+# A shard whose exit code is not 0 is tried again, at most 20 times in all: what the ledger records is not made again.
+# Ctrl-C ends all of them between two items; the same command goes on.
 shards=$1
 shift
 seq 0 $((shards - 1)) |

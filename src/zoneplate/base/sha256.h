@@ -10,7 +10,7 @@
 
 namespace zoneplate {
 
-/// The digest SHA-256 of bytes that arrive in parts.
+/// The digest SHA-256 of bytes that arrive in parts. It is our own, since the program links no library that has it.
 ///
 /// Source    FIPS 180-4, Secure Hash Standard, 2015, section 6.2.
 class Sha256 {

@@ -118,7 +118,12 @@ class Child {
     // A process group of its own, so that the programs that it starts are killed with it.
     posix_spawnattr_t attributes;
     ::posix_spawnattr_init(&attributes);
-    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+    // SIGTERM is for this process alone, which may finish its work first (cli/process/grace_period.h): an engine sends
+    // it to all. The program is ended by SIGKILL.
+    sigset_t blocked;
+    ::sigemptyset(&blocked), ::sigaddset(&blocked, SIGTERM);
+    ::posix_spawnattr_setsigmask(&attributes, &blocked);
+    ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK);
     const int error = ::posix_spawn(&id_, path.c_str(), &actions, &attributes, words.data(), variables.data());
     ::posix_spawnattr_destroy(&attributes);
     ::posix_spawn_file_actions_destroy(&actions);

@@ -3,13 +3,15 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <filesystem>
+#include <thread>
 
+#include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/sha256.h"
 #include "zoneplate/cli/report_version.h"
@@ -49,13 +51,32 @@ void add_record(const JsonView& line, LedgerRecords& records) {
                                         .job = line.text("job"),
                                         .program = line.text("program")};
   else if (line.has("status"))
-    records.results[line.whole("item", whole)] = {.is_done = line.text("status") != "failed",
-                                                  .error = line.text("error")};
+    records.results[line.whole("item", whole)] = {
+        .is_done = line.text("status") != "failed", .error = line.text("error"), .frames = line.whole("frames", whole)};
+}
+
+bool is_empty(const std::string& path) {
+  std::error_code ignored;
+  return std::filesystem::file_size(path, ignored) == 0;
+}
+
+void check_pin(const std::string& path, const BatchPin& found, const BatchPin& batch) {
+  const auto differ = [&](const std::string& what) {
+    throw Error(ErrorKind::Usage, fmt::format("{}: {}: give another folder for --ledger", path, what));
+  };
+  if (found.shards != batch.shards)
+    differ(fmt::format("the batch was begun with {} shards, and this is one of {}", found.shards, batch.shards));
+  if (found.items != batch.items)
+    differ(fmt::format("the batch was begun with {} items, and these are {}", found.items, batch.items));
+  if (found.jobs != batch.jobs)
+    differ(fmt::format("the batch was begun with other items (digest {}, and these have {})", found.jobs, batch.jobs));
 }
 
 // Creates a file with its whole contents, unless there is one of this name: false then.
 bool create_whole(const std::string& path, const std::string& text) {
-  const std::string draft = fmt::format("{}.{}.tmp", path, ::getpid());
+  const std::filesystem::path place(path);
+  const std::string draft =
+      (place.parent_path() / fmt::format(".{}.{}.tmp", place.filename().string(), ::getpid())).string();
   save_bytes(draft, bytes_of(text));
   const int result = ::link(draft.c_str(), path.c_str()), error = errno;
   ::unlink(draft.c_str());
@@ -76,6 +97,10 @@ bool create_whole(const std::string& path, const std::string& text) {
 std::optional<BatchPin> find_pin(const std::string& ledger, const LoadLimits& limits) {
   const std::string path = pin_path(ledger);
   if (!exists(path)) return std::nullopt;
+  // Without hard links the file is empty for a moment (create_whole), or for ever, if its process was killed then.
+  for (const Stopwatch waited; is_empty(path) && waited.ms() < 2000;)
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  if (is_empty(path)) return std::nullopt;
   constexpr std::uint64_t most_bytes = 1 << 16;
   const FileBytes file(path, most_bytes);
   ImportBudget budget(path, limits);
@@ -89,23 +114,17 @@ void pin(const std::string& ledger, const BatchPin& batch, const LoadLimits& lim
   std::error_code error;
   std::filesystem::create_directories(ledger, error);
   if (error) throw Error(ErrorKind::Output, fmt::format("{}: {}", ledger, error.message()));
-  const Json::Object text{{"format", ledger_format},
-                          {"version", report_version},
-                          {"shards", batch.shards},
-                          {"items", batch.items},
-                          {"jobs", batch.jobs}};
-  if (!exists(pin_path(ledger)) && create_whole(pin_path(ledger), Json(text).text() + '\n')) return;
-  const std::optional<BatchPin> found = find_pin(ledger, limits);
-  const auto differ = [&](const std::string& what) {
-    throw Error(ErrorKind::Usage, fmt::format("{}: {}: give another folder for --ledger", pin_path(ledger), what));
-  };
-  if (!found) differ("was removed meanwhile");
-  if (found->shards != batch.shards)
-    differ(fmt::format("the batch was begun with {} shards, and this is one of {}", found->shards, batch.shards));
-  if (found->items != batch.items)
-    differ(fmt::format("the batch was begun with {} items, and these are {}", found->items, batch.items));
-  if (found->jobs != batch.jobs)
-    differ(fmt::format("the batch was begun with other items (digest {}, and these have {})", found->jobs, batch.jobs));
+  const std::string path = pin_path(ledger);
+  const std::string text = Json(Json::Object{{"format", ledger_format},
+                                             {"version", report_version},
+                                             {"shards", batch.shards},
+                                             {"items", batch.items},
+                                             {"jobs", batch.jobs}})
+                               .text() +
+                           '\n';
+  if (!exists(path) && create_whole(path, text)) return;
+  if (const std::optional<BatchPin> found = find_pin(ledger, limits)) return check_pin(path, *found, batch);
+  save_bytes(path, bytes_of(text));
 }
 
 LedgerRecords read_records(const std::string& ledger, std::uint64_t shard, const LoadLimits& limits) {
@@ -145,10 +164,15 @@ std::string file_digest(const std::string& path) {
   return digest.hex();
 }
 
-Ledger::Ledger(const std::string& folder, std::uint64_t shard, const BatchPin& batch, const LoadLimits& limits)
+Ledger::Ledger(const std::string& folder, std::uint64_t shard, const BatchPin& batch, const LoadLimits& limits,
+               Access access)
     : path_(shard_path(folder, shard)) {
-  pin(folder, batch, limits);
+  if (access == Access::Write)
+    pin(folder, batch, limits);
+  else if (const std::optional<BatchPin> found = find_pin(folder, limits))
+    check_pin(pin_path(folder), *found, batch);
   records_ = read_records(folder, shard, limits);
+  if (access == Access::Read) return;
   file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_APPEND | O_CLOEXEC, 0666);
   if (file_ < 0) refuse(path_, errno);
   // A line that was cut off ends here.
@@ -158,7 +182,9 @@ Ledger::Ledger(const std::string& folder, std::uint64_t shard, const BatchPin& b
     if (const int error = write_fully(file_, bytes_of("\n")); error != 0) refuse(path_, error);
 }
 
-Ledger::~Ledger() { ::close(file_); }
+Ledger::~Ledger() {
+  if (file_ >= 0) ::close(file_);
+}
 
 bool Ledger::has_whole(const std::string& path, const std::string& job) const {
   const auto found = records_.files.find(path);
@@ -182,6 +208,7 @@ void Ledger::add_file(const std::string& path, const RecordedFile& file) {
        {"sha256", file.sha256},
        {"job", file.job},
        {"program", file.program}});
+  records_.files[path] = file;
 }
 
 void Ledger::add(Json::Object line) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -46,7 +45,8 @@ struct RecordedFile {
 struct LedgerRecords {
   struct Result {
     bool is_done = false;
-    std::string error;  ///< of an item that failed
+    std::string error = {};    ///< of an item that failed
+    std::uint64_t frames = 0;  ///< of a sequence
   };
   std::unordered_map<std::string, RecordedFile> files;
   std::unordered_map<std::uint64_t, Result> results;
@@ -66,8 +66,11 @@ std::string file_digest(const std::string& path);
 /// The ledger of one shard, to which its process adds records.
 class Ledger {
  public:
+  /// What is read is not made: the folder, its pin and the shard's file may be missing.
+  enum class Access { Read, Write };
   /// Errors    those of `pin`; ErrorKind::Output if the shard's file cannot be opened.
-  Ledger(const std::string& folder, std::uint64_t shard, const BatchPin& batch, const LoadLimits& limits);
+  Ledger(const std::string& folder, std::uint64_t shard, const BatchPin& batch, const LoadLimits& limits,
+         Access access = Access::Write);
   ~Ledger();
   Ledger(const Ledger&) = delete;
   Ledger& operator=(const Ledger&) = delete;

@@ -56,6 +56,7 @@ TEST_F(Ledgers, KeepAFileOnlyAsItWasRecorded) {
     Ledger ledger(folder(), 0, {}, {});
     EXPECT_FALSE(ledger.has_whole(path, "job"));
     ledger.add_file(path, record);
+    EXPECT_TRUE(ledger.has_whole(path, "job"));  // for an item that is tried again
   }
   const auto is_kept = [&](const std::string& job) { return Ledger(folder(), 0, {}, {}).has_whole(path, job); };
   EXPECT_TRUE(is_kept("job"));

@@ -25,9 +25,8 @@ struct Shard {
 /// AWS_BATCH_JOB_ARRAY_SIZE, CLOUD_RUN_TASK_COUNT or BATCH_TASK_COUNT. Slurm's SLURM_ARRAY_TASK_COUNT is not used: in
 /// an array with a step, or one of tasks that run again, it is the number of those tasks. Grid Engine's arrays with a
 /// step are refused: each of their tasks stands for SGE_TASK_STEPSIZE numbers, of which it is given the first.
-/// Errors    ErrorKind::Usage naming both numbers if i is not one of 0 to n - 1, n is not `pinned` or the size that the engine
-///           gives, or a step is not 1;
-///           if no variable or several give i, or none gives n.
+/// Errors    ErrorKind::Usage naming both numbers if i is not one of 0 to n - 1, n is not `pinned` or the size that
+///           the engine gives, or a step is not 1; if no variable or several give i, or none gives n.
 Shard parse_shard(const std::string& text, std::optional<std::uint64_t> pinned = {});
 
 /// The specification of an array with the tasks of these shards, in ascending order, for Slurm and PBS: "3,7-9". For

@@ -22,6 +22,7 @@
 #include "zoneplate/cli/batch/ledger.h"
 #include "zoneplate/cli/render/batch.h"
 #include "zoneplate/cli/render/batch_items.h"
+#include "zoneplate/cli/render/item_files.h"
 #include "zoneplate/cli/render/job.h"
 #include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/values.h"
@@ -58,8 +59,7 @@ class TemporaryFolder {
 
   /// Moves the output of an item into a folder of its own in here, the folder of frames included.
   void take_output(RenderArgs& args) const {
-    const std::size_t slash = args.output.rfind('/', args.frame_place ? args.frame_place->begin : args.output.npos);
-    const std::size_t cut = slash == args.output.npos ? 0 : slash + 1;
+    const std::size_t cut = folder_end(args);
     const std::string folder = fmt::format("{}/{}/", path_, args.number);
     args.output = folder + args.output.substr(cut);
     if (args.frame_place) args.frame_place->begin += folder.size() - cut;
@@ -272,6 +272,7 @@ void run_plan(std::span<const std::string> arguments) {
          false, [&](auto& text) { plan.shards = static_cast<std::uint64_t>(parse_whole(text, 1, 1'000'000'000)); }});
   });
   if (!common) return;
+  if (common->is_dry_run) throw Error(ErrorKind::Usage, "--dry-run is for render: plan measures items that it renders");
   BatchItems items(*common);
   if (items.count() == 0) throw Error(ErrorKind::Input, common->manifest + ": no items");
   const auto pin_shards = [&](std::uint64_t shards) {

@@ -57,14 +57,6 @@ class Records {
     const auto found = all_.results.find(item);
     return found == all_.results.end() ? nullptr : &found->second;
   }
-  /// The recorded files of an item, sorted: for a sequence whose end only its animation gives.
-  std::vector<std::string> files_of(std::uint64_t item) const {
-    std::vector<std::string> out;
-    for (const auto& [file, record] : all_.files)
-      if (record.item == item) out.push_back(file);
-    std::ranges::sort(out);
-    return out;
-  }
 
  private:
   LedgerRecords all_;
@@ -82,7 +74,8 @@ std::vector<std::string> files_of(const RenderArgs& args, const Records& records
   } else if (const std::optional<std::int64_t> last = args.sequence.last_frame()) {
     for (std::int64_t frame = args.sequence.first_frame(); frame <= *last; frame += args.sequence.jump) add(frame);
   } else if (const auto* result = records.result(args.number); result != nullptr && result->is_done) {
-    return records.files_of(args.number);
+    for (std::uint64_t i = 0; i < result->frames; ++i)
+      add(args.sequence.first_frame() + static_cast<std::int64_t>(i) * args.sequence.jump);
   } else {
     out.push_back(args.output);
   }
@@ -145,9 +138,21 @@ std::vector<std::string> leftovers_in(const std::set<std::string>& folders) {
   return out;
 }
 
+/// The folder of an item's files, up to one whose name has the number of a frame.
 std::string folder_of(const RenderArgs& args) {
-  const std::size_t end = args.output.rfind('/', args.frame_place ? args.frame_place->begin : args.output.npos);
-  return end == args.output.npos ? "." : args.output.substr(0, end + 1);
+  const fs::path folder = fs::path(args.output.substr(0, folder_end(args))).parent_path();
+  return folder.empty() ? "." : folder.string();
+}
+
+/// Whether the number of a frame is in the name of a folder.
+bool has_frame_folders(const RenderArgs& args) {
+  return args.frame_place && args.output.find('/', args.frame_place->begin) != args.output.npos;
+}
+
+void add_folders_below(const std::string& folder, std::set<std::string>& folders) {
+  std::error_code error;
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (entry->is_directory(error)) folders.insert(entry->path().string());
 }
 
 class Verification {
@@ -165,12 +170,16 @@ class Verification {
     pin(common.ledger, own, common.load.limits);
   }
 
-  /// The folders of all outputs.
+  /// The folders of all outputs, and the ledger.
   std::set<std::string> folders() {
-    std::set<std::string> out;
+    std::set<std::string> out, of_frame_folders;
     for_subjects([&](Subject& subject) {
-      if (subject.invalid.empty()) out.insert(folder_of(subject.args));
+      if (!subject.invalid.empty()) return;
+      out.insert(folder_of(subject.args));
+      if (has_frame_folders(subject.args)) of_frame_folders.insert(folder_of(subject.args));
     });
+    for (const std::string& folder : of_frame_folders) add_folders_below(folder, out);
+    if (!common_.ledger.empty()) out.insert(common_.ledger);
     return out;
   }
 
@@ -247,6 +256,7 @@ class Verification {
                                    {"shards", shards_},
                                    {"faulty_shards", Json::Array(shards.begin(), shards.end())},
                                    {"array", array},
+                                   {"array_from_1", array_of(shards, 1)},
                                    {"leftovers", Json::Array(leftovers.begin(), leftovers.end())}})
                      .text());
     if (faulty_ == 0) return "";
@@ -273,7 +283,9 @@ constexpr const char* verify_notes =
     "manifest. Each file that is not as it should be gives one line with its status: missing, failed, truncated,\n"
     "damaged (other bytes than were written), unrecorded, other-program (made by another version) or other-options.\n"
     "Without --ledger only missing and truncated files are found. --shard looks at one shard alone. The last line has\n"
-    "the specification of the array that makes the faulty shards again, for the same command.\n"
+    "the specification of the array that makes the faulty shards again, for the same command; Grid Engine and LSF "
+    "count\n"
+    "tasks from 1: add 1 to each (array_from_1 of --json).\n"
     "\n"
     "Exit codes: 0 all files are right, 2 wrong usage, 3 input missing or corrupt, 5 some files are not.\n";
 
@@ -293,7 +305,6 @@ void run_verify(std::span<const std::string> arguments) {
   const std::set<std::string> folders = verification.folders();
   const std::vector<std::string> leftovers = leftovers_in(folders);
   std::vector<std::string> readable(folders.begin(), folders.end());
-  if (!args->ledger.empty()) readable.push_back(args->ledger);
   ConfinedRun run{.name = args->manifest.empty() ? "verify" : args->manifest,
                   .limits = {args->load.limits, args->max_seconds, args->is_sandboxed},
                   .readable = std::move(readable),

@@ -470,7 +470,7 @@ std::vector<Option> run_options(RenderArgs& a) {
 }
 
 /// Whether the bytes of images depend on the option. They do not depend on how a run is divided, limited and reported;
-/// where a file goes is its name.
+/// where a file goes is its name. --strict and --allow-path are in job_digest (item_files.h).
 bool determines_image(const Option& option) {
   return option.group != "Batches" && option.group != "Running" && names_of(option).front() != "--output";
 }

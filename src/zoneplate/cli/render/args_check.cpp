@@ -235,6 +235,9 @@ std::optional<RenderArgs> parse_render_args(std::span<const std::string> argumen
   set_output(item, args.output, 0);
   first.output = item.output, first.frame_place = item.frame_place;
   check_effects(first, extension_of(item.named_output()));
+  if (!args.is_batch() && (first.grace > 0 || first.retries > 0))
+    throw Error(ErrorKind::Usage,
+                "--grace and --retries are for batches: give several inputs, a manifest or a --ledger");
   check_args(item);
   return args.is_batch() ? args : item;  // each item of a batch is checked by its own name
 }

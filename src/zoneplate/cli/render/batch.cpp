@@ -306,9 +306,7 @@ void check_files(BatchItems& items, const std::string& output) {
 
 // Makes the folder of an output, up to a folder whose name has the number of a frame.
 void make_folder(const RenderArgs& args) {
-  const std::filesystem::path folder =
-      std::filesystem::path(args.output.substr(0, args.frame_place ? args.frame_place->begin : args.output.npos))
-          .parent_path();
+  const auto folder = std::filesystem::path(args.output.substr(0, folder_end(args))).parent_path();
   if (folder.empty()) return;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -333,8 +331,9 @@ void render_batch(const RenderArgs& common) {
   BatchItems items(common);
   check_files(items, common.output);
   std::optional<Ledger> ledger;
-  if (!common.ledger.empty() && !common.is_dry_run)
-    ledger.emplace(common.ledger, common.shard.index, items.pin(), common.load.limits);
+  if (!common.ledger.empty())
+    ledger.emplace(common.ledger, common.shard.index, items.pin(), common.load.limits,
+                   common.is_dry_run ? Ledger::Access::Read : Ledger::Access::Write);
   const GracePeriod grace(common.is_dry_run ? 0 : common.grace);
   Batch batch(common, common.shard.size_of(items.count()), ledger ? &*ledger : nullptr, {});
   for (std::uint64_t i = 0; i < items.count(); ++i) {

@@ -75,7 +75,16 @@ void check_own_files(const RenderArgs& args) {
 }
 
 std::string job_digest(const RenderArgs& args) {
-  return sha256_of(fmt::format("{}\n{}\n{}", args.input, extension_of(args.named_output()), args.given)).substr(0, 16);
+  const LoadLimits& limits = args.load.limits;  // files beside the model, and what is left out of it
+  return sha256_of(fmt::format("{}\n{}\n{}{}\n{}", args.input, extension_of(args.named_output()), args.given,
+                               limits.is_strict, fmt::join(limits.allowed_paths, "\n")))
+      .substr(0, 16);
+}
+
+std::size_t folder_end(const RenderArgs& args) {
+  const std::size_t slash =
+      args.output.substr(0, args.frame_place ? args.frame_place->begin : args.output.npos).rfind('/');
+  return slash == std::string::npos ? 0 : slash + 1;
 }
 
 bool can_be_whole(const RenderArgs& args, const std::string& path) {
@@ -97,7 +106,7 @@ std::vector<int> finished_frames(const RenderArgs& args, const Ledger* ledger) {
   // The frame number is in the name of a file, or of a folder of files.
   const std::string& path = args.output;
   const std::size_t place = args.frame_place->begin, place_end = place + args.frame_place->size;
-  const std::size_t begin = place == 0 ? 0 : path.rfind('/', place - 1) + 1;
+  const std::size_t begin = folder_end(args);
   const std::string before = path.substr(begin, place - begin);
   const std::string after = path.substr(place_end, std::min(path.find('/', place_end), path.size()) - place_end);
   std::error_code error;

@@ -28,6 +28,9 @@ bool is_finished(const RenderArgs& args, const Ledger* ledger = nullptr);
 /// The frames of an item whose files are all there and whole, in the same sense, sorted.
 std::vector<int> finished_frames(const RenderArgs& args, const Ledger* ledger = nullptr);
 
+/// The length of the folder in an item's output, with its slash; that before the frame number, if a folder has it.
+std::size_t folder_end(const RenderArgs& args);
+
 /// Whether the bytes of a file can be those of a whole one of the item.
 ///
 /// Errors    ErrorKind::Input if it cannot be read.

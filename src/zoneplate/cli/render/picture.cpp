@@ -20,8 +20,7 @@
 #include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
-#include "zoneplate/codec/system/avif.h"
-#include "zoneplate/codec/system/jxl.h"
+#include "zoneplate/codec/save.h"
 #include "zoneplate/codec/webp_still.h"
 #include "zoneplate/image/auto_exposure.h"
 #include "zoneplate/os/file.h"
@@ -235,8 +234,8 @@ std::vector<std::uint8_t> encode_picture(const Rendered& picture, const std::str
   if (extension == ".jpg" || extension == ".jpeg")
     return encode_jpeg(picture.image, options.jpeg_quality.value_or(usual_jpeg_quality));
   if (extension == ".webp") return encode_webp(picture.image, picture.has_alpha, options.webp_quality);
-  if (extension == ".avif") return encode_avif(picture.image, picture.has_alpha);
-  if (extension == ".jxl") return encode_jxl(picture.image, picture.has_alpha);
+  if (extension == ".avif" || extension == ".jxl")
+    return encode_codes(picture.image, picture.has_alpha, extension, output);
   const PngOptions png{.has_alpha = picture.has_alpha, .is_small = options.is_small_png};
   return picture.image16.empty() ? encode_png(picture.image, png) : encode_png(picture.image16, png);
 }
