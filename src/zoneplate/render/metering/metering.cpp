@@ -14,18 +14,26 @@ constexpr int most_side = 256;
 
 bool is_white(const Linear& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b >= c.a; }
 
+/// The part of an image's surfaces whose luminance is clipped; those of `unlit` that are so themselves do not count.
+double clipped_part(const LinearImage& lit, const LinearImage* unlit = nullptr) {
+  std::size_t surfaces = 0, white = 0;
+  for (std::size_t i = 0; i < lit.values().size(); ++i) {
+    const Linear& c = lit.values()[i];
+    if (c.a < 0.5f) continue;
+    ++surfaces, white += is_white(c) && (unlit == nullptr || !is_white(unlit->values()[i]));
+  }
+  return static_cast<double>(white) / static_cast<double>(std::max<std::size_t>(surfaces, 1));
+}
+
 /// The dimming by an image of a scene and one without its lights, which emission and the fill light make.
 LightDimming dimming_by(const LinearImage& lit, const LinearImage& unlit) {
   LinearImage lights = lit;
-  std::size_t surfaces = 0, white = 0;
   for (std::size_t i = 0; i < lit.values().size(); ++i) {
     Linear& c = lights.values()[i];
-    if (c.a < 0.5f) continue;
     const Linear& own = unlit.values()[i];
-    ++surfaces, white += is_white(c) && !is_white(own);
     c = {c.r - own.r, c.g - own.g, c.b - own.b, c.a};
   }
-  const double part = static_cast<double>(white) / static_cast<double>(std::max<std::size_t>(surfaces, 1));
+  const double part = clipped_part(lit, &unlit);
   const float metered = auto_exposure(lights);
   if (part < least_white || !is_well_above_white(1, metered)) return {};
   return {metered, part};
@@ -59,9 +67,8 @@ LightDimming dimming_of(const PreparedScene& prepared, std::unique_ptr<Resolver>
     const RenderOptions options{.width = most_side, .height = most_side};
     renderer.set_scene(prepared);
     const LinearImage lit = metered_image(renderer, camera, options);
-    // Most scenes are not bright, and need no second image.
-    const auto white = std::ranges::count_if(lit.values(), [](const Linear& c) { return c.a >= 0.5f && is_white(c); });
-    if (white == 0) return;
+    // The image without lights can only lower the part that they clip.
+    if (clipped_part(lit) < least_white) return;
     renderer.set_scene(dimmed(prepared, 0));
     const LightDimming found = dimming_by(lit, metered_image(renderer, camera, options));
     if (found.factor < least.factor) least = found;

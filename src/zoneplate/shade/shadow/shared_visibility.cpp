@@ -22,15 +22,16 @@ void copy_entry(const Receivers& from, int i, Receivers& to, int k) {
 SharedVisibility::SharedVisibility(const TracedVisibility& rays, int lights, const ShadowOptions& shadows,
                                    const OcclusionOptions& occlusion, Image image)
     : rays_(rays), image_(std::move(image)) {
-  // Fewer rays cost less than what is interpolated.
-  constexpr int fewest = 16;
-  if (shadows.method == ShadowMethod::Soft && shadows.spacing > 1 && shadows.samples >= fewest)
+  if (shadows.method == ShadowMethod::Soft && shadows.spacing > 1)
     for (int k = 0; k < lights; ++k) lights_.push_back(make_query(shadows.spacing, shadows.samples));
   if (occlusion.samples > 0) environment_ = make_query(occlusion.spacing, occlusion.samples);
 }
 
 SharedVisibility::Query SharedVisibility::make_query(int spacing, int samples) const {
   Query query;
+  // Fewer rays cost less than what is interpolated: 4 of eight lights took 0.23 s by themselves, and 0.89 s shared.
+  constexpr int fewest = 16;
+  if (samples < fewest) return query;
   for (int step = spacing; step > 1; step /= 2)
     for (Grids* const grids : {&query.surfaces, &query.ground})
       grids->push_back(std::make_unique<VisibilityGrid>(step, image_.width, image_.height, samples));

@@ -50,6 +50,7 @@ class SharedVisibility : public LightVisibility {
     std::function<void(const Receivers& receivers, float* visible)> trace;
     std::function<bool(const Receivers& receivers, int i)> is_lit;
   };
+  /// Without grids if there are few samples.
   Query make_query(int spacing, int samples) const;
   void share(const Query& query, const Receivers& receivers, const Rays& rays, float* visible) const;
   void evaluate(bool is_ground, std::span<const PixelPosition> pixels, const Rays& rays,

@@ -22,9 +22,11 @@ constexpr int block_side = 16;
 /// Of the normals of points of one surface.
 constexpr float least_cosine = 0.98f;
 /// The greatest sine of the angle between the line of two points and the plane across the sum of their normals: this at
-/// least, and the sine of the angle between the normals. It is 0 on a circle.
+/// least, and the sine of the angle between the normals. It is 0 on a circle. By 0.02 in place of 0.1 the RMS of ten
+/// scenes is the same, and the time up to 1.2 times as long.
 constexpr float least_slope = 0.1f;
-/// The sine of the slope from which on a point is above a surface, whose other points are no lower.
+/// The sine of the slope from which on a point is above a surface, whose shadow may begin there. A pane 0.1 above a
+/// floor (RMS to 1,024 rays, 320 × 240): 0.0037 by this value, 0.013 by 0.3, at which Suzanne takes 0.7 of the time.
 constexpr float occluding_slope = 0.15f;
 /// The least sum of the weights of the points on the surface; that of all is 1.
 constexpr float least_weight = 0.3f;
@@ -226,7 +228,7 @@ VisibilityGrid::Neighbours VisibilityGrid::neighbours_of(const Cell& cell) {
 }
 
 float VisibilityGrid::at(const Receivers& r, int i, const Cell& cell, const Neighbours& near) const {
-  if (r.is_ground && near.is_even) return near.visible[0];
+  if (r.is_ground && near.is_even && near.visible[0] >= 0) return near.visible[0];
   OfNeighbours weight, across, down, above;
   float least = 1, greatest = 0, reach = 0;
   int count = 0;
