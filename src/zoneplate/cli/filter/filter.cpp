@@ -346,7 +346,7 @@ void filter_frames(const FilterWork& work, const metrics::PictureSet& frames, De
   FrameSink sink(item, frames, work.args.bit_depth, out);
   for (std::size_t i = 0; i < frames.names.size(); ++i) {
     out.progress(frames.names[i], static_cast<double>(i) / static_cast<double>(frames.names.size()));
-    metrics::Picture picture = load_still(frames.open(i), out);
+    metrics::Picture picture = metrics::in_srgb(load_still(frames.open(i), out));
     if (work.args.background) lay_over(picture, *work.args.background);
     sink.add(filtered(std::move(picture.display), work.filters, item.input), frames.time_of(i));
   }

@@ -224,7 +224,8 @@ void filter_sequence(const SequenceFilter& filter, Delivery& out) {
     else
       still = load_still(files[i].color, {.layer = filter.layer}, out);
     metrics::Picture& picture = still.picture;
-    picture = in_space_of(std::move(picture), FilteredValues::Light, files[i].color, files[i].output, out);
+    picture = sink ? metrics::in_srgb(std::move(picture))
+                   : in_space_of(std::move(picture), FilteredValues::Light, files[i].color, files[i].output, out);
     if (filter.background) lay_over(picture, *filter.background);
     if (!sink && picture.is_scene_linear != is_linear_file(files[i].output))
       throw Error(ErrorKind::Usage,

@@ -61,7 +61,9 @@ class Chunks {
   bool has_16_bits() const { return header_[8] == 16; }
   bool has_alpha() const {
     constexpr std::uint8_t alpha = 4;  // of the colour types
-    return (header_[9] & alpha) != 0 || transparency_.data() != nullptr ||
+    // A first frame that is a part of the canvas leaves the rest transparent.
+    const bool covers_all = frames_[0].part.width == size_.x && frames_[0].part.height == size_.y;
+    return (header_[9] & alpha) != 0 || transparency_.data() != nullptr || !covers_all ||
            std::ranges::any_of(frames_, [](const Frame& f) { return f.disposal == Disposal::Clear; });
   }
 

@@ -311,7 +311,12 @@ class DwaChunk {
  public:
   DwaChunk(std::span<const DwaChannel> channels, int first_row, std::span<std::uint8_t> out,
            const std::vector<std::uint16_t>& linear)
-      : channels_(channels), out_(out), linear_(linear), rows_(channels.size()), schemes_(channels.size()) {
+      : channels_(channels),
+        out_(out),
+        linear_(linear),
+        rows_(channels.size()),
+        schemes_(channels.size()),
+        is_colored_(channels.size()) {
     std::size_t at = 0, left = 0;
     for (const DwaChannel& c : channels) left += static_cast<std::size_t>(c.height);
     for (int y = first_row; left > 0; ++y)
@@ -348,7 +353,7 @@ class DwaChunk {
       streams.runs = without_runs(inflated(runs_bytes, runs_deflated, 2 * std::uint64_t{out_.size()}), runs_size);
     for (const std::array<std::size_t, 3>& colors : colors_) unpack_lossy(colors, streams);
     for (std::size_t i = 0; i < channels_.size(); ++i) {
-      if (is_done(i)) continue;
+      if (is_colored_[i]) continue;
       if (schemes_[i] == Scheme::Lossy)
         unpack_lossy(std::span(&i, 1), streams);
       else if (schemes_[i] == Scheme::Runs)
@@ -387,11 +392,8 @@ class DwaChunk {
       if (!std::ranges::all_of(layer, is_alike)) continue;
       if (std::ranges::any_of(layer, [&](std::size_t i) { return schemes_[i] != Scheme::Lossy; })) throw Damaged();
       colors_.push_back(layer);
+      for (const std::size_t i : layer) is_colored_[i] = true;
     }
-  }
-
-  bool is_done(std::size_t channel) const {
-    return std::ranges::any_of(colors_, [&](const auto& c) { return std::ranges::find(c, channel) != c.end(); });
   }
 
   /// One channel, or three as Y'CbCr, block by block. First coefficients are stored channel after channel, the others
@@ -479,6 +481,7 @@ class DwaChunk {
   std::vector<std::vector<std::size_t>> rows_;  ///< of each channel: where they begin in `out_`
   std::vector<Scheme> schemes_;
   std::vector<std::array<std::size_t, 3>> colors_;
+  std::vector<bool> is_colored_;  ///< by channel: it is one of `colors_`
 };
 
 }  // namespace

@@ -101,7 +101,8 @@ Rows rows_for(const ExrPlan& plan, const ExrSelection& selection) {
   const ExrWindow &data = plan.part.data, &out = plan.out;
   if (selection.kind == ExrLayer::Kind::Chroma) return {0, data.height()};
   const std::int64_t first = std::max(data.top, out.top), last = std::min(data.bottom, out.bottom);
-  return {first - data.top, std::max(first, last + 1) - data.top};
+  if (last < first) return {0, 0};
+  return {first - data.top, last + 1 - data.top};
 }
 
 /// An open file, decoded into the channels of rows of its data window.

@@ -197,6 +197,16 @@ TEST(ExrReplace, WindowsAreKeptAndGrowWithTheLight) {
   EXPECT_EQ(decode_exr_stored(grown, "", 0, depth, small.data), decode_exr_stored(crop, "", 0, depth, small.data));
 }
 
+TEST(ExrReplace, ADisplayWindowBelowTheDataIsEmpty) {
+  for (const int top : {6, 7, 37})
+    for (const ExrCompression compression : {ExrCompression::Zips, ExrCompression::Zip}) {
+      Maker maker{.display = {0, top, 7, top + 5}, .compression = compression};
+      maker.add("R", ExrType::Float), maker.add("G", ExrType::Float), maker.add("B", ExrType::Float);
+      const LinearImage image = decode_exr(maker.file(), "a.exr");
+      for (const Linear& c : image.values()) ASSERT_EQ(c, (Linear{0, 0, 0, 0})) << top;
+    }
+}
+
 TEST(ExrReplace, WindowsFarFromEachOtherAreRefused) {
   constexpr std::int32_t far = 500'000'000;
   Maker maker;

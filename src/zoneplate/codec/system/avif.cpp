@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/codec/system/boxes.h"
 #include "zoneplate/codec/system/in_child.h"
 
 namespace zoneplate {
@@ -103,27 +104,6 @@ StoredImage decode(View bytes, const std::string& name, std::uint64_t max_pixels
   return out;
 }
 
-std::uint64_t big_endian(View bytes, std::size_t at, std::size_t size) {
-  std::uint64_t value = 0;
-  for (std::size_t i = 0; i < size; ++i) value = value << 8 | bytes[at + i];
-  return value;
-}
-
-/// Calls use(name, contents) for the boxes of ISO/IEC 14496-12, up to the first that is cut off.
-template <class Use>
-void for_boxes(View bytes, const Use& use) {
-  while (bytes.size() >= 8) {
-    std::uint64_t size = big_endian(bytes, 0, 4);
-    std::size_t header = 8;
-    if (size == 1 && bytes.size() >= 16) size = big_endian(bytes, 8, 8), header = 16;
-    if (size == 0) size = bytes.size();
-    if (size < header || size > bytes.size()) return;
-    const std::string_view name(reinterpret_cast<const char*>(bytes.data()) + 4, 4);
-    use(name, bytes.subspan(header, static_cast<std::size_t>(size) - header));
-    bytes = bytes.subspan(static_cast<std::size_t>(size));
-  }
-}
-
 /// What the properties of items, and the descriptions of tracks, state.
 struct Properties {
   int2 greatest{0, 0};
@@ -156,6 +136,7 @@ void read_properties(View bytes, Properties& out, int depth = 6) {
     // The sample description, whose first entry states the size of its images.
     if (name == "stsd" && box.size() >= 8 + 8 + 28)
       out.take_size(big_endian(box, 8 + 8 + 24, 2), big_endian(box, 8 + 8 + 26, 2));
+    return true;
   });
 }
 

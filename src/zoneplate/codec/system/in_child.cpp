@@ -2,6 +2,7 @@
 #include "zoneplate/codec/system/in_child.h"
 
 #include <cstdio>
+#include <mutex>
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/deadline.h"
@@ -12,15 +13,20 @@
 namespace zoneplate {
 namespace {
 
-/// Discards what is printed to stderr: libjxl reports damage there.
+/// Discards what is printed to stderr, while any thread decodes: libjxl reports damage there.
 class SilentStderr {
  public:
-  SilentStderr() : usual_(stderr), silent_(::fopencookie(nullptr, "w", {.write = discard})) {
-    if (silent_) stderr = silent_;
+  SilentStderr() {
+    const std::lock_guard guard(lock);
+    if (users++ > 0) return;
+    usual = stderr, silent = ::fopencookie(nullptr, "w", {.write = discard});
+    if (silent != nullptr) stderr = silent;
   }
   ~SilentStderr() {
-    stderr = usual_;
-    if (silent_) std::fclose(silent_);
+    const std::lock_guard guard(lock);
+    if (--users > 0) return;
+    stderr = usual;
+    if (silent != nullptr) std::fclose(silent);
   }
   SilentStderr(const SilentStderr&) = delete;
   SilentStderr& operator=(const SilentStderr&) = delete;
@@ -28,7 +34,10 @@ class SilentStderr {
  private:
   static ssize_t discard(void*, const char*, std::size_t size) { return static_cast<ssize_t>(size); }
 
-  std::FILE *usual_, *silent_;
+  // As stderr itself, which is one for all threads.
+  static inline std::mutex lock;
+  static inline int users = 0;
+  static inline std::FILE *usual = nullptr, *silent = nullptr;
 };
 
 StoredImage decode_silently(const std::function<StoredImage()>& decode) {

@@ -13,6 +13,7 @@
 #include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/codec/color/icc.h"
+#include "zoneplate/codec/system/boxes.h"
 #include "zoneplate/codec/system/in_child.h"
 
 namespace zoneplate {
@@ -172,24 +173,14 @@ constexpr std::string_view container("\0\0\0\x0cJXL \r\n\x87\n", 12);
 
 /// The first bytes of the codestream; empty without one.
 View codestream_of(View bytes) {
-  const auto number = [&](std::size_t at, std::size_t size) {
-    std::uint64_t value = 0;
-    for (std::size_t i = 0; i < size; ++i) value = value << 8 | bytes[at + i];
-    return value;
-  };
   if (bytes[0] == 0xff) return bytes;
-  for (std::size_t at = 0; bytes.size() - at >= 8;) {
-    std::uint64_t size = number(at, 4), header = 8;
-    const std::string_view name(reinterpret_cast<const char*>(bytes.data()) + at + 4, 4);
-    if (size == 1 && bytes.size() - at >= 16) size = number(at + 8, 8), header = 16;
-    if (size == 0) size = bytes.size() - at;
-    if (size < header || size > bytes.size() - at) return {};
-    const View box = bytes.subspan(at + header, static_cast<std::size_t>(size - header));
-    if (name == "jxlc") return box;
-    if (name == "jxlp" && box.size() > 4) return box.subspan(4);  // behind the number of the part
-    at += static_cast<std::size_t>(size);
-  }
-  return {};
+  View found;
+  for_boxes(bytes, [&](std::string_view name, View box) {
+    if (name == "jxlc") found = box;
+    if (name == "jxlp" && box.size() > 4) found = box.subspan(4);  // behind the number of the part
+    return found.empty();
+  });
+  return found;
 }
 
 }  // namespace

@@ -198,7 +198,7 @@ Picture picture_of(StoredImage image, const ImageColor& color) {
 
 /// A frame with the colours that its animation states.
 Picture picture_of_frame(const ImageFile& file) {
-  const ImageColor color = read_image_color(file.bytes, file.name);
+  const ImageColor& color = file.frame_color();
   Picture picture = picture_of(file.decode_frame().display, color);
   picture.space = color.space, picture.color_flaw = color.flaw;
   return picture;

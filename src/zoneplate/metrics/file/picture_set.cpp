@@ -84,6 +84,12 @@ class FrameCursor {
   const AnimationReader* reader() const { return reader_.get(); }
   const ImageFile& file() const { return file_; }
 
+  /// What the animation states about the colours of all frames.
+  const ImageColor& color() {
+    if (!color_) color_ = read_image_color(file_.bytes, file_.name);
+    return *color_;
+  }
+
   const AnimationFrame& at(std::size_t i) {
     if (i + 1 < done_) reader_ = opened(), done_ = 0;
     for (; done_ < i + 1; ++done_) frame_ = reader_->next();
@@ -96,6 +102,7 @@ class FrameCursor {
   const ImageFile file_;
   const std::uint64_t most_pixels_;
   std::unique_ptr<AnimationReader> reader_;
+  std::optional<ImageColor> color_;
   std::size_t done_ = 0;
   AnimationFrame frame_;
 };
@@ -105,15 +112,37 @@ PictureSet open_video(const std::string& path, const ProgramLimits& limits) {
   std::error_code error;
   if (!fs::exists(path, error)) throw Error(ErrorKind::Input, path + ": no such file");
   check_is_file(path);
-  const auto stream = std::make_shared<std::vector<std::uint8_t>>(
-      output_of("ffmpeg", path,
-                {"-nostdin", "-i", "file:" + path, "-map", "0:v:0", "-vsync", "passthrough", "-sws_flags",
-                 "accurate_rnd+full_chroma_int+full_chroma_inp", "-c:v", "png", "-pred", "mixed", "-compression_level",
-                 "1", "-f", "image2pipe", "-"},
-                limits));
+  // Viewers display the codes of BT.709 as those of sRGB; ffmpeg would state a gamma of 1.96 for them.
+  const std::string srgb_curve = "setparams=color_trc=iec61966-2-1";
+  const auto stream =
+      std::make_shared<std::vector<std::uint8_t>>(output_of("ffmpeg", path,
+                                                            {"-nostdin",
+                                                             "-i",
+                                                             "file:" + path,
+                                                             "-map",
+                                                             "0:v:0",
+                                                             "-vsync",
+                                                             "passthrough",
+                                                             "-vf",
+                                                             srgb_curve,
+                                                             "-sws_flags",
+                                                             "accurate_rnd+full_chroma_int+full_chroma_inp",
+                                                             "-c:v",
+                                                             "png",
+                                                             "-pred",
+                                                             "mixed",
+                                                             "-compression_level",
+                                                             "1",
+                                                             "-f",
+                                                             "image2pipe",
+                                                             "-"},
+                                                            limits));
   const auto images = split_png_stream(*stream);
   if (images.empty()) throw Error(ErrorKind::Input, path + ": the video has no frame");
-  PictureSet set{.are_frames = true};
+  constexpr std::size_t color_type = 25;  // of the first chunk of a PNG
+  constexpr std::uint8_t alpha = 4;
+  PictureSet set{.are_frames = true,
+                 .has_alpha = images[0].size() > color_type && (images[0][color_type] & alpha) != 0};
   for (std::size_t i = 0; i < images.size(); ++i) set.names.push_back(fmt::format("frame {}", i + 1));
   set.open = [stream, images, path](std::size_t i) {
     return ImageFile{.name = fmt::format("{}, frame {}", path, i + 1), .bytes = images[i], .owner = stream};
@@ -170,6 +199,7 @@ PictureSet with_frames(PictureSet set, std::uint64_t most_pixels) {
     ImageFile file = cursor->file();
     file.name = fmt::format("{}, frame {}", file.name, i + 1);
     file.decode_frame = [cursor, i] { return picture_of(cursor->at(i).image); };
+    file.frame_color = [cursor]() -> const ImageColor& { return cursor->color(); };
     return file;
   };
   frames.time_of = [cursor](std::size_t i) { return cursor->at(i).time; };

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "zoneplate/codec/exr/exr.h"
+#include "zoneplate/codec/inspect/color_space.h"
 #include "zoneplate/metrics/picture.h"
 
 namespace zoneplate::metrics {
@@ -22,6 +23,7 @@ struct ImageFile {
   ExrChoice exr = {};                           ///< the image that is meant, if it is an EXR
   /// The frame of the animation in the bytes; null: the bytes are one image.
   std::function<Picture()> decode_frame = {};
+  std::function<const ImageColor&()> frame_color = {};  ///< of the frames of `decode_frame`
 };
 
 /// A number of pixels of one channel: "R" of the measured layer, "depth.Z" of another, "left.R" of the part `left`.
