@@ -309,8 +309,8 @@ size_t zoneplate_image_count(const zoneplate_image* image);
 const char* zoneplate_image_name(const zoneplate_image* image, size_t index);
 /// An array by its name: a view, valid until the image is freed.
 zoneplate_status zoneplate_image_array(const zoneplate_image* image, const char* name, zoneplate_array* array);
-/// Encodes "color" as a file: "png", "jpg" or "webp", for linear light "exr" or "pfm". `bytes` is the array "bytes" of
-/// a new image.
+/// Encodes "color" as a file: "png", and of 8 bits "jpg", "webp", "avif" or "jxl" (lossless; their libraries are
+/// opened), for linear light "exr" or "pfm". `bytes` is the array "bytes" of a new image.
 zoneplate_status zoneplate_image_encode(const zoneplate_image* image, const char* format, zoneplate_image** bytes);
 /// Saves "color" by the path's extension; the file is written whole or not at all.
 zoneplate_status zoneplate_image_save(const zoneplate_image* image, const char* path);
@@ -320,9 +320,10 @@ void zoneplate_image_free(zoneplate_image* image);
 /// Makes an image whose array "color" is a copy of the pixels: uint8 or uint16 sRGB codes, or float32 linear light, of
 /// 1 (grey), 3 or 4 channels.
 zoneplate_status zoneplate_image_new(const zoneplate_array* pixels, zoneplate_image** image);
-/// Reads a PNG, JPEG, WebP, BMP, TGA, HDR, EXR or PFM file; the floats of the last three as they are stored, with NaN
-/// and infinities. Codes of another colour profile are converted to sRGB, light of other primaries to Rec.709; a
-/// damaged profile is ignored. The image is turned as its Exif orientation says.
+/// Reads a PNG, JPEG, WebP, GIF, TIFF, AVIF, JPEG XL, BMP, TGA, HDR, EXR or PFM file, of an animation the first frame;
+/// the floats of the last three and of TIFF as they are stored, with NaN and infinities. Codes of another colour
+/// profile are converted to sRGB, light of other primaries to Rec.709; a damaged profile is ignored. The image is
+/// turned as its Exif orientation says.
 zoneplate_status zoneplate_image_load(const char* path, zoneplate_image** image);
 
 /// Measures the difference of two images by a metric, as "psnr" or "flip:ppd=30". Integers are sRGB codes, floats

@@ -16,6 +16,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/capi/arrays.h"
 #include "zoneplate/capi/handles.h"
+#include "zoneplate/codec/animated/animation_reader.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/metrics/compare.h"
 #include "zoneplate/metrics/file/picture_file.h"
@@ -270,7 +271,10 @@ Json::Object info(const Input& request) {
 metrics::Picture picture_of(const Input& given, const char* name) {
   metrics::Picture picture;
   if (given.contains("path")) {
-    picture = metrics::load_picture(given.at("path").get<std::string>());
+    const std::string path = given.at("path");
+    if (open_animation(metrics::open_image(path).bytes, path, std::uint64_t{1} << 26))
+      throw Error(ErrorKind::Input, path + ": is an animation, whose frames the program zoneplate metrics compares");
+    picture = metrics::load_picture(path);
     if (!picture.flaw.empty()) throw Error(ErrorKind::Input, picture.flaw);
   } else {
     constexpr const char* types[] = {"uint8", "uint16"};

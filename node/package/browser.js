@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The package in browsers.
 import { Pool } from './pool.js';
-import { makeFunctions, pixelsOf } from './requests.js';
+import { makeFunctions, pixelsOf, ZoneplateError } from './requests.js';
 
 const bytesAt = async (url) => {
-  const answer = await fetch(url);
-  if (!answer.ok) throw new Error(`${url}: ${answer.status} ${answer.statusText}`);
+  const answer = await fetch(url).catch((error) => { throw new ZoneplateError(`${url}: ${error.message}`, 'input'); });
+  if (!answer.ok) throw new ZoneplateError(`${url}: ${answer.status} ${answer.statusText}`, 'input');
   return answer.arrayBuffer();
 };
 let files; // of the module, which all workers share
@@ -40,7 +40,8 @@ async function toImage(image) {
   throw new TypeError('image: expected a URL, the bytes of a file, or { width, height, data }');
 }
 
-export const { render, info, compare, list, ZoneplateError } = makeFunctions((request) => pool.ask(request), toRequest, toImage);
+export const { render, info, compare, list } = makeFunctions((request) => pool.ask(request), toRequest, toImage);
+export { ZoneplateError };
 
 /// Sets the greatest number of workers, each of which answers one request at a time.
 export function setWorkers(count) {

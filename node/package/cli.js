@@ -24,7 +24,8 @@ const memory = (text, flag) => {
 const word = (text) => text;
 const of = (...names) => (text, flag) => (names.includes(text) ? text : fail(`${flag}: '${text}', expected ${names.join(', ')}; ${elsewhere}`));
 
-// Rows of: names, the option that gets the value, how its text is read; without a reader the option is a flag of that value.
+// Rows of: names, the option that gets the value, how its text is read, and whether it may be repeated: the option is then a
+// list. Without a reader it is a flag of that value.
 const loading = [
   [['--format'], 'format', word], [['--scene'], 'scene', number], [['--variant'], 'variant', word],
   [['--animation-index'], 'animation', (text) => (/^\d+$/.test(text) ? Number(text) : text === 'all' ? -1 : text)], [['--animation-time'], 'time', number],
@@ -56,10 +57,12 @@ function parse(verb, rows, args) {
       continue;
     }
     const row = rows.find(([names]) => names.includes(flag)) ?? fail(`${verb}: no option '${flag}' in this package; ${elsewhere}`);
-    const [, name, read] = row, [owner, member] = name.includes('.') ? name.split('.') : [null, name];
+    const [, name, read, isList] = row, [owner, member] = name.includes('.') ? name.split('.') : [null, name];
     let value = read;
     if (typeof read === 'function') value = read(given ?? args[++i] ?? fail(`${flag}: requires a value`), flag);
-    if (owner) (options[owner] ??= {})[member] = value;
+    else if (given !== undefined) fail(`${flag}: takes no value`);
+    if (isList) (options[member] ??= []).push(value);
+    else if (owner) (options[owner] ??= {})[member] = value;
     else options[member] = value;
   }
   return { operands, options };
@@ -92,9 +95,9 @@ const verbs = {
   },
   async metrics(args) {
     const { operands, options } = parse('metrics', [[['--metric'], 'metrics', (text) => text.split(/,(?=[a-z_]+(?:[:,]|$))/)],
-      [['--threshold'], 'threshold', number], [['--ignore'], 'ignore', numbers(4)], json, [['-q', '--quiet'], 'quiet', true]], args);
+      [['--threshold'], 'threshold', number], [['--ignore'], 'ignore', numbers(4), true], json, [['-q', '--quiet'], 'quiet', true]], args);
     if (operands.length !== 2) fail('metrics takes a reference and a test image');
-    const found = await compare(operands[0], operands[1], { metrics: options.metrics, ignore: options.ignore ? [options.ignore] : [] });
+    const found = await compare(operands[0], operands[1], { metrics: options.metrics, ignore: options.ignore });
     const rows = Object.entries(found.metrics);
     if (options.threshold !== undefined && rows.length !== 1) fail('--threshold requires one metric');
     const passes = options.threshold === undefined ? found.identical
@@ -112,7 +115,7 @@ const verbs = {
     for (const [name, summary] of Object.entries(rows)) print(`${name.padEnd(20)} ${summary}\n`);
   },
 };
-const others = ['contact-sheet', 'filter', 'compare', 'dataset', 'fidelity', 'bench', 'demo', 'signal', 'texture', 'sdf', 'completions', 'man'];
+const others = ['contact-sheet', 'plan', 'verify', 'filter', 'compare', 'dataset', 'fidelity', 'bench', 'demo', 'signal', 'texture', 'sdf', 'completions', 'man'];
 
 const help = `Zoneplate renders 3D models to antialiased images, on the CPU. This package has the main verbs of the program.
 

@@ -7,7 +7,7 @@ const path = require('node:path');
 const { fileURLToPath } = require('node:url');
 const { Worker } = require('node:worker_threads');
 const { Pool } = require('./pool.cjs');
-const { makeFunctions, pixelsOf } = require('./requests.cjs');
+const { makeFunctions, pixelsOf, ZoneplateError } = require('./requests.cjs');
 
 let files; // of the module, which all workers share
 function start(listener) {
@@ -64,7 +64,7 @@ function toImage(image) {
   throw new TypeError('image: expected a path, a URL, the bytes of a file, or { width, height, data }');
 }
 
-const { render, info, compare, list, ZoneplateError } = makeFunctions((request) => pool.ask(request), toRequest, toImage);
+const { render, info, compare, list } = makeFunctions((request) => pool.ask(request), toRequest, toImage);
 
 /// Sets the greatest number of workers, each of which answers one request at a time.
 function setWorkers(count) {

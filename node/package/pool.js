@@ -2,7 +2,7 @@
 // Workers that answer one request each at a time. No imports, so that Node's CommonJS modules have it too (pack.mjs).
 
 /// `start(listener)` starts a worker, { post(message), stop(), hold(isBusy) }, which calls listener.answer(reply) once
-/// for each message, and listener.fail(error) when it has ended. There are at most `most` workers; idle ones are kept. A
+/// for each message, and listener.fail(error) when it has ended or no message can have the value. There are at most `most` workers; idle ones are kept. A
 /// worker whose reply has `isSpent` is replaced.
 export class Pool {
   constructor(start, most) {
@@ -23,12 +23,7 @@ export class Pool {
       const worker = this.idle.pop() ?? this.open(), job = this.queue.shift();
       this.busy.set(worker, job);
       worker.hold(true);
-      try {
-        worker.post(job.message);
-      } catch (error) { // a value that no message can have
-        this.release(worker);
-        job.fail(error);
-      }
+      worker.post(job.message);
     }
   }
 

@@ -3,17 +3,17 @@
 
 const statuses = ['', 'failed', 'usage', 'input', 'output', 'memory'];
 
+/// An error of the renderer: `code` is 'usage', 'input', 'output', 'memory' or 'failed'.
+export class ZoneplateError extends Error {
+  constructor(message, code) {
+    super(message);
+    this.name = 'ZoneplateError', this.code = code;
+  }
+}
+
 /// `ask` sends a request to a worker; `toRequest(model, files)` describes a model by { model, files, folder }, and
 /// `toImage(image)` an image.
 export function makeFunctions(ask, toRequest, toImage) {
-  /// An error of the renderer: `code` is 'usage', 'input', 'output', 'memory' or 'failed'.
-  class ZoneplateError extends Error {
-    constructor(message, code) {
-      super(message);
-      this.name = 'ZoneplateError', this.code = code;
-    }
-  }
-
   async function send(request) {
     const { error, status, isSpent, ...reply } = await ask(request);
     if (error !== undefined) throw new ZoneplateError(error, statuses[status]);
@@ -61,7 +61,7 @@ export function makeFunctions(ask, toRequest, toImage) {
   }
 
   const list = () => send({ verb: 'list', files: {} });
-  return { render, info, compare, list, ZoneplateError };
+  return { render, info, compare, list };
 }
 
 /// The pixels of an image { width, height, data }, or nothing.

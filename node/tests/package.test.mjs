@@ -151,6 +151,8 @@ test('an error is one line with the file and the cause, and others still work', 
   await rejects(zoneplate.render('apart/alone.gltf'), 'input', /square\.bin/);
   fs.writeFileSync(at('outside.gltf'), fs.readFileSync(at('square.gltf'), 'utf8').replace('square.bin', '../../../../../etc/passwd'));
   await rejects(zoneplate.render('outside.gltf'), 'input', /passwd/);
+  execFileSync(program, ['render', 'teapot', '-o', 'film.apng', '--size', '16', '--turntable', '2', '--quiet'], { cwd: folder });
+  await rejects(zoneplate.compare('film.apng', 'film.apng'), 'input', /^film\.apng: is an animation/);
   await assert.rejects(zoneplate.render(42), TypeError);
   await assert.rejects(zoneplate.render('wave.glb', { files: {} }), /files: has no 'wave\.glb'/);
   const { width } = await zoneplate.render('teapot', { size: [8, 8] });
@@ -220,9 +222,15 @@ test('npx zoneplate', () => {
   const differ = run('metrics', 'made.png', 'native.png', '--metric', 'psnr,flip:ppd=30', '--json');
   assert.equal(differ.status, 1);
   assert.deepEqual(Object.keys(JSON.parse(differ.stdout).metrics), ['psnr', 'flip']);
+  const halves = run('metrics', 'made.png', 'native.png', '--metric', 'mae', '--ignore', '0,0,80,120', '--ignore=80,0,80,120', '--json');
+  const half = run('metrics', 'made.png', 'native.png', '--metric', 'mae', '--ignore', '0,0,80,120', '--json');
+  assert.notDeepEqual(JSON.parse(halves.stdout).metrics, JSON.parse(half.stdout).metrics);
+  for (const verb of execFileSync(program, ['--help'], { encoding: 'utf8' }).matchAll(/^  zoneplate ([a-z-]+) /gm))
+    if (!['render', 'info', 'metrics', 'list'].includes(verb[1])) assert.match(run(verb[1], 'a').stderr, /no verb of this package/, verb[1]);
   assert.match(run('list', 'methods').stdout.toString(), /^smaa /m);
   for (const [args, status, text] of [[['compare', 'teapot'], 2, /compare: no verb of this package; the native program zoneplate has it/],
     [['teapot', '-o', 'a.png', '--turntable', '4'], 2, /no option '--turntable' in this package/], [['none.glb', '-o', 'a.png'], 3, /none\.glb: no such file/],
+    [['teapot', '-o', 'a.png', '--no-background=0'], 2, /--no-background: takes no value/],
     [['teapot', '-o', 'none/a.png'], 4, /none\/a\.png/], [['teapot', '-o', 'a.gif'], 2, /a\.gif/]]) {
     const found = run(...args);
     assert.equal(found.status, status, found.stderr);

@@ -101,11 +101,11 @@ class Image:
         return self._native.array("color").__dlpack_device__()
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes "color" by the extension: .png, .jpg, .webp; float32: .exr, .pfm. The file is whole or not there."""
+        """Writes "color" by the extension: .png, .jpg, .webp, .avif, .jxl; float32: .exr, .pfm; whole or not at all."""
         self._native.save(os.fspath(path))
 
     def encode(self, format: str = "png") -> bytes:
-        """ "color" as the bytes of a file: "png", "jpg" or "webp"; float32: "exr" or "pfm"."""
+        """ "color" as the bytes of a file: "png", "jpg", "webp", "avif", "jxl"; float32: "exr", "pfm"."""
         return self._native.encode(format)
 
     def _repr_png_(self) -> bytes:
@@ -117,7 +117,8 @@ class Image:
 
 
 def load_image(path: str | os.PathLike[str]) -> Image:
-    """Reads a PNG, JPEG, WebP, BMP, TGA, HDR, EXR or PFM file. The last three are linear light (float32).
+    """Reads a PNG, JPEG, WebP, GIF, TIFF, AVIF, JPEG XL, BMP, TGA, HDR, EXR or PFM file. The last three, and TIFF of
+    floats, are linear light (float32); of an animation the first frame is read.
 
     Colour profiles are converted to sRGB, light to Rec.709 primaries; the image is turned as its Exif data says.
     """

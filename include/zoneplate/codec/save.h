@@ -45,6 +45,11 @@ std::vector<std::uint8_t> encode_image(const std::string& path, const LinearImag
                                        const ColorProfile& profile = {});
 ///@}
 
+/// The bytes of a display-referred image in the format of an ending, as extension_of returns it; `has_alpha` says
+/// whether alpha is stored, and `name` is for errors, which are those of save_image.
+std::vector<std::uint8_t> encode_codes(const Rgba8Image& image, bool has_alpha, std::string_view extension,
+                                       const std::string& name, const ColorProfile& profile = {});
+
 /// True if the format of an ending, as extension_of returns it, can state the profile: PNG all but OpenEXR's
 /// chromaticities, JPEG and WebP an ICC profile, of RGB pixels in each case, and OpenEXR chromaticities.
 bool can_hold(std::string_view extension, const ColorProfile& profile);

@@ -6,11 +6,9 @@
 #include "zoneplate/capi/arrays.h"
 #include "zoneplate/capi/handles.h"
 #include "zoneplate/codec/exr/exr_encode.h"
-#include "zoneplate/codec/jpeg_encode.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/save.h"
-#include "zoneplate/codec/webp_still.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/metrics/file/picture_file.h"
 #include "zoneplate/os/file.h"
@@ -39,11 +37,7 @@ std::vector<std::uint8_t> encode(const LinearImage& image, bool has_alpha, const
 }
 std::vector<std::uint8_t> encode(const Rgba8Image& image, bool has_alpha, const std::string& format,
                                  const std::string& name) {
-  if (has_alpha) check_alpha('.' + format, name);
-  if (format == "jpg" || format == "jpeg") return encode_jpeg(image);
-  if (format == "webp") return encode_webp(image, has_alpha);
-  if (format != "png") refuse_format(format, "png, jpg and webp");
-  return encode_png(image, {.has_alpha = has_alpha});
+  return encode_codes(image, has_alpha, '.' + format, name);
 }
 std::vector<std::uint8_t> encode(const Rgba16Image& image, bool has_alpha, const std::string& format,
                                  const std::string&) {

@@ -110,30 +110,26 @@ std::vector<float4> colors_of(const zoneplate_array& array, std::size_t count) {
   return out;
 }
 
-/// The positions of a mesh relative to `centre`, which is not 0 if those that it uses lie far from their own origin.
-std::vector<float3> centered_positions(const zoneplate_mesh& mesh, double3& centre) {
-  const zoneplate_array& given = mesh.positions;
-  std::vector<float3> out = vectors_of<float3>(given, "positions", 0);
+/// Makes the positions of a mesh relative to the centre that is returned, which is not 0 if those that it uses lie far
+/// from their own origin. `given` are the positions in the caller's type.
+double3 center_positions(const zoneplate_array& given, Mesh& mesh) {
   OriginChoice choice;
-  if (is_given(mesh.indices))
-    choice.add_used(indices_of(mesh.indices, "indices", out.size()), [&](std::uint32_t vertex) { return out[vertex]; });
-  else
-    choice.add(out);
-  centre = choice.origin();
-  if (centre == double3{}) return out;
+  choice.add_used(mesh.index, [&](std::uint32_t vertex) { return mesh.position[vertex]; });
+  const double3 centre = choice.origin();
+  if (centre == double3{}) return centre;
   const std::vector<double> places = doubles_of(given, "positions", 3);
-  for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = narrowed(double3{places[3 * i], places[3 * i + 1], places[3 * i + 2]} - centre);
-  return out;
+  for (std::size_t i = 0; i < mesh.position.size(); ++i)
+    mesh.position[i] = narrowed(double3{places[3 * i], places[3 * i + 1], places[3 * i + 2]} - centre);
+  return centre;
 }
 
-/// The mesh with these positions in place of the given ones.
-Mesh mesh_of(const zoneplate_mesh& m, std::vector<float3> positions, const Scene& scene) {
+/// The mesh, with positions relative to `centre`.
+Mesh mesh_of(const zoneplate_mesh& m, const Scene& scene, double3& centre) {
   constexpr Topology topologies[] = {Topology::Triangles, Topology::Lines, Topology::Points};
   Mesh out;
   out.name = text_of(m.name);
   out.topology = at(topologies, m.topology, "topology");
-  out.position = std::move(positions);
+  out.position = vectors_of<float3>(m.positions, "positions", 0);
   const std::size_t count = out.position.size();
   if (count == 0) refuse("positions: is empty");
   if (is_given(m.normals)) out.normal = vectors_of<float3>(m.normals, "normals", count);
@@ -151,6 +147,7 @@ Mesh mesh_of(const zoneplate_mesh& m, std::vector<float3> positions, const Scene
                      static_cast<std::size_t>(out.vertices_per_primitive()));
     std::iota(out.index.begin(), out.index.end(), 0u);
   }
+  centre = center_positions(m.positions, out);
   if (m.material != 0 && (m.material < 0 || static_cast<std::size_t>(m.material) >= scene.materials.size()))
     refuse(fmt::format("mesh: material {} does not exist, there are {}", m.material, scene.materials.size()));
   out.material = m.material;
@@ -322,7 +319,7 @@ zoneplate_status zoneplate_scene_add_mesh(zoneplate_scene* scene, const zoneplat
     required(scene, "scene").change([&](Scene& s) {
       const auto given = completed(&required(mesh, "mesh"), "zoneplate_mesh");
       double3 centre;
-      Mesh added = mesh_of(given, centered_positions(given, centre), s);
+      Mesh added = mesh_of(given, s, centre);
       if (centre != double3{}) scene->mesh_centres.emplace(static_cast<std::int32_t>(s.meshes.size()), centre);
       const NotFinite lost = drop_not_finite(added);
       if (lost.dropped > 0)

@@ -42,16 +42,20 @@ void check_alpha(std::string_view extension, const std::string& name) {
 }
 
 std::vector<std::uint8_t> encode_image(const std::string& path, const Rgba8Image& image, const ColorProfile& profile) {
-  const std::string extension = extension_of(path);
   const bool has_alpha = std::ranges::any_of(image.values(), [](Rgba8 c) { return c.a != 255; });
-  if (has_alpha) check_alpha(extension, path);
+  return encode_codes(image, has_alpha, extension_of(path), path, profile);
+}
+
+std::vector<std::uint8_t> encode_codes(const Rgba8Image& image, bool has_alpha, std::string_view extension,
+                                       const std::string& name, const ColorProfile& profile) {
+  if (has_alpha) check_alpha(extension, name);
   if (extension == ".png") return encode_png(image, {.has_alpha = has_alpha, .profile = profile});
   if (extension == ".jpg" || extension == ".jpeg") return encode_jpeg(image, usual_jpeg_quality, profile.icc);
   if (extension == ".webp") return encode_webp(image, has_alpha, std::nullopt, profile.icc);
   if (extension == ".avif") return encode_avif(image, has_alpha);
   if (extension == ".jxl") return encode_jxl(image, has_alpha);
   throw Error(ErrorKind::Usage,
-              path + ": display-referred images are saved as .png, .jpg, .jpeg, .webp, .avif or .jxl");
+              name + ": display-referred images are saved as .png, .jpg, .jpeg, .webp, .avif or .jxl");
 }
 
 std::vector<std::uint8_t> encode_image(const std::string& path, const LinearImage& image, const ColorProfile& profile) {
