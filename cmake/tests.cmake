@@ -7,8 +7,8 @@ include(GoogleTest)
 file(GLOB appetite_sources CONFIGURE_DEPENDS fuzz/appetite*.cpp)
 add_executable(fuzz_appetite ${appetite_sources})
 target_link_libraries(fuzz_appetite PRIVATE zoneplate_flags ${fmt} z)
-target_compile_options(fuzz_appetite PRIVATE ${built_quickly})
-set_target_properties(fuzz_appetite PROPERTIES UNITY_BUILD OFF) # each source has functions of its own to append bytes
+target_compile_options(fuzz_appetite PRIVATE -O0)
+compile_folders_together(fuzz_appetite)
 
 add_executable(zoneplate_tests ${test_sources} ${whole_tests})
 find_library(meshoptimizer_library meshoptimizer REQUIRED) # packs what tests unpack
@@ -71,9 +71,12 @@ foreach(test EveryInputStaysWithinTheLimits EveryInputStaysWithinTheLimitsOfEver
 endforeach()
 
 # The 20-line program of README.md, built against an installed package as a user would.
-add_test(NAME consumer COMMAND ${CMAKE_COMMAND} -D build=${CMAKE_CURRENT_BINARY_DIR} -D source=${CMAKE_CURRENT_SOURCE_DIR}
-         -D compiler=${CMAKE_CXX_COMPILER} -D flags=${CMAKE_CXX_FLAGS} -P ${CMAKE_CURRENT_SOURCE_DIR}/tests/consumer/run.cmake)
+set(consumer ${CMAKE_COMMAND} -D build=${CMAKE_CURRENT_BINARY_DIR} -D source=${CMAKE_CURRENT_SOURCE_DIR}
+             -D compiler=${CMAKE_CXX_COMPILER} -D flags=${CMAKE_CXX_FLAGS})
+set(consumer_script -P ${CMAKE_CURRENT_SOURCE_DIR}/tests/consumer/run.cmake)
+add_test(NAME consumer COMMAND ${consumer} ${consumer_script})
 set_tests_properties(consumer PROPERTIES COST 1000) # the longest begins first
+add_test(NAME installed_headers CONFIGURATIONS Long COMMAND ${consumer} -D headers=_headers ${consumer_script})
 
 if(TARGET zoneplate_shared AND NOT ZONEPLATE_SANITIZED)
   add_test(NAME shared_library COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/shared_library.sh $<TARGET_FILE:zoneplate_shared>)

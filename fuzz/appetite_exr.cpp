@@ -10,7 +10,7 @@ namespace zoneplate::appetite {
 namespace {
 
 template <class T>
-void append(Bytes& out, T value) {
+void append_value(Bytes& out, T value) {
   const std::size_t at = out.size();
   out.resize(at + sizeof value);
   std::memcpy(out.data() + at, &value, sizeof value);
@@ -23,7 +23,7 @@ void append_text(Bytes& out, std::string_view text) {
 
 void append_attribute(Bytes& out, std::string_view name, std::string_view type, const Bytes& value) {
   append_text(out, name), append_text(out, type);
-  append(out, static_cast<std::uint32_t>(value.size()));
+  append_value(out, static_cast<std::uint32_t>(value.size()));
   out.insert(out.end(), value.begin(), value.end());
 }
 
@@ -34,7 +34,7 @@ Bytes channels(const std::vector<std::string>& names) {
   Bytes out;
   for (const std::string& name : names) {
     append_text(out, name);
-    for (const std::int32_t word : {1, 0, 1, 1}) append(out, word);  // half, not linear, each pixel
+    for (const std::int32_t word : {1, 0, 1, 1}) append_value(out, word);  // half, not linear, each pixel
   }
   out.push_back(0);
   return out;
@@ -45,7 +45,7 @@ enum Flags : std::uint32_t { Tiled = 0x200, Deep = 0x800, Parts = 0x1000 };
 
 Bytes begin_exr(std::uint32_t flags) {
   Bytes out;
-  append(out, std::uint32_t{20000630}), append(out, 2 | flags);
+  append_value(out, std::uint32_t{20000630}), append_value(out, 2 | flags);
   return out;
 }
 
@@ -55,12 +55,12 @@ void append_header(Bytes& out, std::int32_t width, std::int32_t height, Compress
   append_attribute(out, "channels", "chlist", channel_list);
   append_attribute(out, "compression", "compression", {compression});
   Bytes window;
-  for (const std::int32_t v : {0, 0, width - 1, height - 1}) append(window, v);
+  for (const std::int32_t v : {0, 0, width - 1, height - 1}) append_value(window, v);
   append_attribute(out, "dataWindow", "box2i", window);
   append_attribute(out, "displayWindow", "box2i", window);
   append_attribute(out, "lineOrder", "lineOrder", {0});
   Bytes one, centre;
-  append(one, 1.0f), append(centre, 0.0f), append(centre, 0.0f);
+  append_value(one, 1.0f), append_value(centre, 0.0f), append_value(centre, 0.0f);
   append_attribute(out, "pixelAspectRatio", "float", one);
   append_attribute(out, "screenWindowCenter", "v2f", centre);
   append_attribute(out, "screenWindowWidth", "float", one);
@@ -80,9 +80,9 @@ Bytes zero_exr(std::int32_t side) {
   packed.resize(size);
   const auto blocks = static_cast<std::uint64_t>(side / rows);
   const std::uint64_t first = out.size() + blocks * 8;
-  for (std::uint64_t i = 0; i < blocks; ++i) append(out, first + i * (8 + size));
+  for (std::uint64_t i = 0; i < blocks; ++i) append_value(out, first + i * (8 + size));
   for (std::int32_t y = 0; y < side; y += rows) {
-    append(out, y), append(out, static_cast<std::uint32_t>(size));
+    append_value(out, y), append_value(out, static_cast<std::uint32_t>(size));
     out.insert(out.end(), packed.begin(), packed.end());
   }
   return out;
@@ -98,7 +98,7 @@ Bytes claimed_exr(std::int32_t width, std::int32_t height) {
 Bytes tiled_exr(std::int32_t side) {
   Bytes out = begin_exr(Tiled), tiles;
   append_header(out, side, side, None, channels({"R"}));
-  append(tiles, 1u), append(tiles, 1u), tiles.push_back(0);
+  append_value(tiles, 1u), append_value(tiles, 1u), tiles.push_back(0);
   append_attribute(out, "tiles", "tiledesc", tiles);
   out.push_back(0);
   out.resize(out.size() + 4096);
@@ -107,7 +107,7 @@ Bytes tiled_exr(std::int32_t side) {
 
 Bytes parted_exr(int parts) {
   Bytes out = begin_exr(Parts), chunks;
-  append(chunks, std::int32_t{4096});
+  append_value(chunks, std::int32_t{4096});
   for (int i = 0; i < parts; ++i) {
     append_header(out, 4096, 4096, None, channels({"R"}));
     append_attribute(out, "name", "string", text(std::to_string(i)));
@@ -122,14 +122,14 @@ Bytes parted_exr(int parts) {
 Bytes deep_exr() {
   Bytes out = begin_exr(Deep), chunks, samples;
   append_header(out, 8192, 8192, None, channels({"A", "R", "Z"}));
-  append(chunks, std::int32_t{8192}), append(samples, std::int32_t{0x7fffffff});
+  append_value(chunks, std::int32_t{8192}), append_value(samples, std::int32_t{0x7fffffff});
   append_attribute(out, "name", "string", text("deep"));
   append_attribute(out, "type", "string", text("deepscanline"));
   append_attribute(out, "version", "int", {1, 0, 0, 0});
   append_attribute(out, "maxSamplesPerPixel", "int", samples);
   append_attribute(out, "chunkCount", "int", chunks);
   out.push_back(0);
-  for (std::uint64_t y = 0; y < 8192; ++y) append(out, out.size() + 8);
+  for (std::uint64_t y = 0; y < 8192; ++y) append_value(out, out.size() + 8);
   return out;
 }
 

@@ -34,7 +34,7 @@ std::string numbered(int count, const Make& make) {
   return text;
 }
 
-void add_instances(Collection& out) {
+void add_3mf(Collection& out) {
   const auto add = [&](const char* name, const Bytes& bytes) { out.add("3mf", name, bytes, within_limits); };
   add("3mf-components.3mf", nested(triangle, 9, 10));
   add("3mf-components-4.3mf", nested(triangle, 5, 10));
@@ -128,7 +128,7 @@ void add_amf(Collection& out) {
 }  // namespace
 
 void add_printed(Collection& out) {
-  add_instances(out);
+  add_3mf(out);
   add_bombs(out);
   add_properties(out);
   add_archives(out);

@@ -230,7 +230,7 @@ TEST_F(Appetite, OneOfEachKindStaysWithinTheLimitsOfOneVerb) {
 
 TEST_F(Appetite, JobsBesideThemAreDone) {
   std::vector<Input> few = one_of_each_kind();
-  few.resize(12);
+  few.resize(6);
   expect_others_are_done(quick_limits(), few);
 }
 

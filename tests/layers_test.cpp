@@ -188,24 +188,28 @@ TEST(Layers, NoFolderIsCrowded) {
 /// namespaces.
 std::vector<std::string> types_of(const fs::path& file) {
   const std::string code = code_of(file);
-  static const std::regex token(
-      R"(\bnamespace\s*([\w:]*)\s*\{|\b(?:class|struct|enum(?:\s+class)?)\s+(?:alignas\([^)]*\)\s*)?(\w+(?:::\w+)*)(?:\s+final)?\s*(?::[^;{(]*)?\{|\{|\})");
+  static const std::regex opening(
+      R"(namespace\s*([\w:]*)\s*\{|(?:class|struct|enum(?:\s+class)?)\s+(?:alignas\([^)]*\)\s*)?(\w+(?:::\w+)*)(?:\s+final)?\s*(?::[^;{(]*)?\{)");
+  const auto is_of_word = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '_'; };
   std::vector<std::string> scopes, out;  // a scope that defines nothing is "(body)"
-  for (std::sregex_iterator i(code.begin(), code.end(), token), end; i != end; ++i) {
-    const std::string found = i->str();
-    if (found == "}") {
-      if (!scopes.empty()) scopes.pop_back();
-    } else if (found == "{") {
-      scopes.push_back("(body)");
-    } else if (found.starts_with("namespace")) {
-      scopes.push_back((*i)[1].str().empty() ? "(unnamed)" : (*i)[1].str());
-    } else {
-      std::string name;
-      bool is_shared = true;
-      for (const std::string& scope : scopes) name += scope + "::", is_shared &= scope[0] != '(';
-      scopes.push_back((*i)[2]);
-      if (is_shared) out.push_back(name + (*i)[2].str());
+  for (auto at = code.begin(); at != code.end(); ++at) {
+    if (*at == '}' && !scopes.empty()) scopes.pop_back();
+    if (*at == '{') scopes.push_back("(body)");
+    // The expression is tried only where a keyword may begin.
+    if (std::string_view("nsce").find(*at) == std::string_view::npos || (at != code.begin() && is_of_word(at[-1])))
+      continue;
+    std::smatch found;
+    if (!std::regex_search(at, code.end(), found, opening, std::regex_constants::match_continuous)) continue;
+    at = found[0].second - 1;
+    if (!found[2].matched) {
+      scopes.push_back(found[1].length() == 0 ? "(unnamed)" : found[1].str());
+      continue;
     }
+    std::string name;
+    bool is_shared = true;
+    for (const std::string& scope : scopes) name += scope + "::", is_shared &= scope[0] != '(';
+    scopes.push_back(found[2]);
+    if (is_shared) out.push_back(name + found[2].str());
   }
   EXPECT_TRUE(scopes.empty()) << file << ": braces that do not match";
   return out;

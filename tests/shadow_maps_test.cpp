@@ -14,7 +14,7 @@ namespace zoneplate {
 namespace {
 
 constexpr int size = 256;
-constexpr float height = 0.5f, half_side = 0.6f;  // of the sheet
+constexpr float sheet_height = 0.5f, half_side = 0.6f;  // of the sheet
 
 /// A floor of 4 × 4 units in the plane y = 0, under a square sheet.
 PreparedScene sheet_scene() {
@@ -22,7 +22,7 @@ PreparedScene sheet_scene() {
   Mesh floor, sheet;
   add_quad(floor, {{-2, 0, 2}, {2, 0, 2}, {2, 0, -2}, {-2, 0, -2}});
   constexpr float s = half_side;
-  add_quad(sheet, {{-s, height, s}, {s, height, s}, {s, height, -s}, {-s, height, -s}});
+  add_quad(sheet, {{-s, sheet_height, s}, {s, sheet_height, s}, {s, sheet_height, -s}, {-s, sheet_height, -s}});
   add_part(scene, unlit("floor", {1, 1, 1}), std::move(floor));
   add_part(scene, unlit("sheet", {1, 1, 1}), std::move(sheet));
   return PreparedScene(std::move(scene));
@@ -31,10 +31,10 @@ PreparedScene sheet_scene() {
 /// Where a point of the floor lies relative to the edge of the shadow: positive inside, in world units.
 float inside_shadow(float3 point, const Light& light) {
   const float3 to_light = light.kind == LightKind::Directional ? -light.direction : light.position - point;
-  const float t = height / to_light.y;
+  const float t = sheet_height / to_light.y;
   const float x = point.x + to_light.x * t, z = point.z + to_light.z * t;
-  // On the floor the shadow of a light at y = p is p / (p - height) times as large as the sheet.
-  const float scale = light.kind == LightKind::Directional ? 1 : light.position.y / (light.position.y - height);
+  // On the floor the shadow of a light at y = p is p / (p - sheet_height) times as large as the sheet.
+  const float scale = light.kind == LightKind::Directional ? 1 : light.position.y / (light.position.y - sheet_height);
   return (half_side - std::max(std::abs(x), std::abs(z))) * scale;
 }
 

@@ -14,22 +14,23 @@
 namespace zoneplate {
 namespace {
 
-constexpr int width = 96, height = 72, first_row = 28;  // below the horizon
+constexpr int floor_width = 96, floor_height = 72, first_row = 28;  // below the horizon
 
 LinearImage render_board(const std::string& method, const TextureFilter& filter) {
   Scene scene = make_builtin_scene("checkerboard").value();
   scene.instances.at(0).world_from_object = rotation({0, 1, 0}, 0.78539816f);
   const Camera camera = scene.cameras.at(0);
   Renderer renderer(PreparedScene(std::move(scene)), make_resolver(antialias::methods(), method));
-  const RenderOptions options{.width = width, .height = height, .texture_filter = filter};
+  const RenderOptions options{.width = floor_width, .height = floor_height, .texture_filter = filter};
   return std::move(renderer.render(camera, {.options = options, .form = ImageForm::Linear}).linear);
 }
 
 double rms(const LinearImage& a, const LinearImage& b) {
   double sum = 0;
-  for (int y = first_row; y < height; ++y)
-    for (int x = 0; x < width; ++x) sum += std::pow(static_cast<double>(a(x, y).g) - static_cast<double>(b(x, y).g), 2);
-  return std::sqrt(sum / (width * (height - first_row)));
+  for (int y = first_row; y < floor_height; ++y)
+    for (int x = 0; x < floor_width; ++x)
+      sum += std::pow(static_cast<double>(a(x, y).g) - static_cast<double>(b(x, y).g), 2);
+  return std::sqrt(sum / (floor_width * (floor_height - first_row)));
 }
 
 TEST(TextureFilters, AreOrderedByTheirErrorOnATurnedCheckerboard) {

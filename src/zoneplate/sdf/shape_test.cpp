@@ -65,6 +65,9 @@ class Boundary {
   std::vector<Point> ends_;
 };
 
+/// How many distances are compared with those of a Boundary, each of which takes thousands of its points.
+constexpr int searched_points = 30'000;
+
 /// The distance to the sides of a polygon, and whether the point is inside, by angles.
 double polygon_distance(std::span<const Point> corners, Point p) {
   double best = 1e300, angle = 0;
@@ -77,10 +80,9 @@ double polygon_distance(std::span<const Point> corners, Point p) {
   return std::abs(angle) > std::numbers::pi ? -best : best;
 }
 
-/// Compares 10^5 distances with `expected`.
+/// Compares `count` distances with `expected`.
 template <class Expected>
-void expect_distances(const ShapePtr& shape, double reach, const Expected& expected) {
-  constexpr int count = 100'000;
+void expect_distances(const ShapePtr& shape, double reach, const Expected& expected, int count = 100'000) {
   std::vector<Point> points;
   for (int i = 0; i < count; ++i) points.push_back(rounded(random_point(static_cast<std::uint32_t>(i), reach)));
   // Neighbours in a batch are close together, as pixels are.
@@ -117,10 +119,13 @@ TEST(SdfShape, EllipseIsExact) {
       return Point{r.x * std::cos(2 * std::numbers::pi * t), r.y * std::sin(2 * std::numbers::pi * t)};
     };
     const Boundary edge(at, 256, 1);
-    expect_distances(ellipse(r.x, r.y), 1.5, [&](Point p) {
-      const double d = edge.distance(p);
-      return p.x * p.x / (r.x * r.x) + p.y * p.y / (r.y * r.y) < 1 ? -d : d;
-    });
+    expect_distances(
+        ellipse(r.x, r.y), 1.5,
+        [&](Point p) {
+          const double d = edge.distance(p);
+          return p.x * p.x / (r.x * r.x) + p.y * p.y / (r.y * r.y) < 1 ? -d : d;
+        },
+        searched_points);
   }
 }
 
@@ -228,21 +233,24 @@ TEST(SdfShape, CurvesAreExact) {
     return contour[i].at(u - static_cast<double>(i));
   };
   const Boundary edge(at, 500, static_cast<int>(contour.size()));
-  expect_distances(region(outline), 1.5, [&](Point p) {
-    const double d = edge.distance(p);
-    double angle = 0;
-    for (std::size_t i = 0; i < fine.size(); i += 64)
-      angle += std::atan2(cross(fine[i] - p, fine[(i + 64) % fine.size()] - p),
-                          dot(fine[i] - p, fine[(i + 64) % fine.size()] - p));
-    // Near the boundary, the sign of the chords' polygon is not that of the curves.
-    if (d < 1e-3) {
-      angle = 0;
-      for (std::size_t i = 0; i < fine.size(); ++i)
-        angle += std::atan2(cross(fine[i] - p, fine[(i + 1) % fine.size()] - p),
-                            dot(fine[i] - p, fine[(i + 1) % fine.size()] - p));
-    }
-    return std::abs(angle) > std::numbers::pi ? -d : d;
-  });
+  expect_distances(
+      region(outline), 1.5,
+      [&](Point p) {
+        const double d = edge.distance(p);
+        double angle = 0;
+        for (std::size_t i = 0; i < fine.size(); i += 64)
+          angle += std::atan2(cross(fine[i] - p, fine[(i + 64) % fine.size()] - p),
+                              dot(fine[i] - p, fine[(i + 64) % fine.size()] - p));
+        // Near the boundary, the sign of the chords' polygon is not that of the curves.
+        if (d < 1e-3) {
+          angle = 0;
+          for (std::size_t i = 0; i < fine.size(); ++i)
+            angle += std::atan2(cross(fine[i] - p, fine[(i + 1) % fine.size()] - p),
+                                dot(fine[i] - p, fine[(i + 1) % fine.size()] - p));
+        }
+        return std::abs(angle) > std::numbers::pi ? -d : d;
+      },
+      searched_points);
 }
 
 TEST(SdfShape, OperationsAreThoseOfTheDistances) {

@@ -11,6 +11,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/codec/system/boxes.h"
 #include "zoneplate/codec/system/in_child.h"
+#include "zoneplate/codec/system/owned.h"
 
 namespace zoneplate {
 namespace {
@@ -38,12 +39,6 @@ struct AvifLibrary {
 
   explicit AvifLibrary(const std::string& place) : library(Library::Avif, place) {}
 };
-
-template <class T, class Free>
-std::unique_ptr<T, Free> owned(T* object, Free free) {
-  if (!object) throw std::bad_alloc();
-  return {object, free};
-}
 
 /// The orientation of Exif that a rotation, anticlockwise in quarter turns, and a mirror after it stand for.
 ///

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/codec/system/jxl.h"
+#include "zoneplate/codec/system/owned.h"
 
 #include <fmt/format.h>
 #include <jxl/decode.h>
@@ -54,12 +55,6 @@ struct JxlLibrary {
 
   explicit JxlLibrary(const std::string& place) : library(Library::Jxl, place) {}
 };
-
-template <class T, class Free>
-std::unique_ptr<T, Free> owned(T* object, Free free) {
-  if (!object) throw std::bad_alloc();
-  return {object, free};
-}
 
 class JxlReader {
  public:
