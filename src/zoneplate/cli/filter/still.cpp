@@ -9,7 +9,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/filter/color.h"
 #include "zoneplate/cli/process/exr_layer.h"
-#include "zoneplate/codec/animated/animation_reader.h"
+#include "zoneplate/codec/inspect/several_images.h"
 #include "zoneplate/image/rgb_space.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/vec.h"
@@ -89,14 +89,13 @@ class Fill {
 
 Still load_still(const std::string& path, const ExrChoice& exr, Delivery& out) {
   Still still;
-  std::size_t frames = 0;
+  std::string several;
   out.read(path, [&] {
     still.file = metrics::open_image(path);
     still.file.exr = exr;
-    frames = count_frames(still.file.bytes);
+    several = several_images(still.file.bytes);
   });
-  if (frames > 1)
-    out.warn(fmt::format("{}: is an animation of {} frames, of which the first is filtered", path, frames));
+  if (!several.empty()) out.warn(fmt::format("{}: {}, of which the first is filtered", path, several));
   still.picture = load_still(still.file, out);
   return still;
 }

@@ -12,12 +12,12 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/filter/still.h"
 #include "zoneplate/cli/process/exr_layer.h"
-#include "zoneplate/codec/animated/animation_reader.h"
 #include "zoneplate/codec/exr/exr.h"
 #include "zoneplate/codec/exr/exr_layer.h"
 #include "zoneplate/codec/exr/exr_replace.h"
 #include "zoneplate/codec/hdr.h"
 #include "zoneplate/codec/inspect/color_space.h"
+#include "zoneplate/codec/inspect/several_images.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/save.h"
@@ -123,8 +123,8 @@ enum class ImageContent { Colors, Data };
 struct Loaded {
   Signal signal;
   std::string flaw = {}, color_flaw = {};
-  std::size_t filled = 0;  ///< pixels that were not finite
-  std::size_t frames = 1;  ///< of which it is the first
+  std::size_t filled = 0;    ///< pixels that were not finite
+  std::string several = {};  ///< as several_images, of which it is the first
 };
 
 Loaded load_file(const std::string& operand, const SignalChoice& choice, ImageContent content,
@@ -134,7 +134,7 @@ Loaded load_file(const std::string& operand, const SignalChoice& choice, ImageCo
   ImageColor color =
       content == ImageContent::Data ? ImageColor{.space = nullptr} : read_image_color(file.bytes, operand, file.exr);
   const bool is_png = !file.bytes.empty() && file.bytes[0] == 0x89;
-  Loaded out{.signal = {}, .frames = count_frames(file.bytes)};
+  Loaded out{.signal = {}, .several = several_images(file.bytes)};
   if (is_light(file.bytes)) {
     LinearImage light = decode_light(file, most_pixels);
     out.filled = fill_not_finite(light, operand);
@@ -182,7 +182,7 @@ Signal load(const std::string& operand, const SignalChoice& choice, ImageContent
   tell_layer(loaded.signal.origin.file, out);
   out.warn_of_flaw(loaded.flaw), out.warn_of_flaw(loaded.color_flaw);
   warn_of_filled(operand, loaded.filled, out);
-  warn_of_frames(operand, loaded.frames, out);
+  warn_of_others(operand, loaded.several, out);
   return std::move(loaded.signal);
 }
 
@@ -199,9 +199,8 @@ ExrWindow display_window(const Signal& signal) {
 
 }  // namespace
 
-void warn_of_frames(const std::string& operand, std::size_t frames, Delivery& out) {
-  if (frames > 1)
-    out.warn(fmt::format("{}: is an animation of {} frames, of which the first is taken", operand, frames));
+void warn_of_others(const std::string& operand, const std::string& several, Delivery& out) {
+  if (!several.empty()) out.warn(fmt::format("{}: {}, of which the first is taken", operand, several));
 }
 
 LinearImage load_signal(const std::string& operand, bool uses_codes, std::uint64_t most_pixels) {

@@ -40,8 +40,8 @@ struct Signal {
 ///           pattern's parameters.
 LinearImage load_signal(const std::string& operand, bool uses_codes, std::uint64_t most_pixels = LoadLimits().pixels);
 
-/// Warns that the first of several frames is taken.
-void warn_of_frames(const std::string& operand, std::size_t frames, Delivery& out);
+/// Warns that the first of several images is taken, which several_images (codec/inspect) names.
+void warn_of_others(const std::string& operand, const std::string& several, Delivery& out);
 
 /// How an image is loaded.
 struct SignalChoice {

@@ -14,7 +14,7 @@
 #include "zoneplate/cli/signal/show.h"
 #include "zoneplate/cli/texture/texture.h"
 #include "zoneplate/cli/values.h"
-#include "zoneplate/codec/animated/animation_reader.h"
+#include "zoneplate/codec/inspect/several_images.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/formats/import/image_file.h"
 #include "zoneplate/image/half.h"
@@ -35,10 +35,10 @@ struct LevelsArgs : SignalArgs {
   bool weights_by_alpha = true, shows_ripmap = false;
 };
 
-/// Texels of an image, which is the first of `frames`.
+/// Texels of an image, which may be the first of several (several_images).
 struct LoadedTexels {
   DecodedImage image;
-  std::size_t frames = 1;
+  std::string several = {};
 };
 
 LoadedTexels load_texels(const std::string& operand, const std::string& layer, Delivery& out) {
@@ -58,9 +58,9 @@ LoadedTexels load_texels(const std::string& operand, const std::string& layer, D
     image = decode_image(file.bytes, operand, out.limits().pixels, layer);
   }
   tell_layer(file, out);
-  const std::size_t frames = count_frames(file.bytes);
+  std::string several = several_images(file.bytes);
   watch.check(operand);
-  return {std::move(image), frames};
+  return {std::move(image), std::move(several)};
 }
 
 /// Texels of any format as display codes.
@@ -243,7 +243,7 @@ void run_texture_levels(std::span<const std::string> arguments) {
     out.read(input, [&] {
       LoadedTexels loaded = load_texels(input, args.layer, out);
       out.warn_of_flaw(loaded.image.flaw);
-      warn_of_frames(input, loaded.frames, out);
+      warn_of_others(input, loaded.several, out);
       texels = std::move(loaded.image.texels);
     });
     const bool is_color = args.meaning == TexelMeaning::Color;

@@ -102,6 +102,7 @@ StoredImage decode(View bytes, const std::string& name, std::uint64_t max_pixels
 /// What the properties of items, and the descriptions of tracks, state.
 struct Properties {
   int2 greatest{0, 0};
+  std::size_t frames = 0;
   ColorTags colors;
 
   void take_size(std::uint64_t width, std::uint64_t height) {
@@ -128,6 +129,9 @@ void read_properties(View bytes, Properties& out, int depth = 6) {
       read_properties(box, out, depth - 1);
     if (name == "colr" && box.size() >= 4) out.take_colors(box);
     if (name == "ispe" && box.size() >= 12) out.take_size(big_endian(box, 4, 4), big_endian(box, 8, 4));
+    // The sizes of the samples of a track, which are its frames.
+    if (name == "stsz" && box.size() >= 12)
+      out.frames = std::max(out.frames, static_cast<std::size_t>(big_endian(box, 8, 4)));
     // The sample description, whose first entry states the size of its images.
     if (name == "stsd" && box.size() >= 8 + 8 + 28)
       out.take_size(big_endian(box, 8 + 8 + 24, 2), big_endian(box, 8 + 8 + 26, 2));
@@ -156,6 +160,12 @@ std::optional<int2> find_avif_size(View bytes) {
   Properties properties;
   read_properties(bytes, properties);
   return properties.greatest.x > 0 ? std::optional(properties.greatest) : std::nullopt;
+}
+
+std::size_t count_avif_frames(View bytes) {
+  Properties properties;
+  if (is_avif(bytes)) read_properties(bytes, properties);
+  return properties.frames;
 }
 
 ColorTags find_avif_colors(View bytes) {

@@ -20,6 +20,9 @@ bool is_avif(std::span<const std::uint8_t> bytes);
 /// is a grid.
 std::optional<int2> find_avif_size(std::span<const std::uint8_t> bytes);
 
+/// The frames of the longest track; 0 of an image without tracks.
+std::size_t count_avif_frames(std::span<const std::uint8_t> bytes);
+
 /// The first ICC profile and the first code points (nclx) in the properties of an AVIF file.
 ColorTags find_avif_colors(std::span<const std::uint8_t> bytes);
 

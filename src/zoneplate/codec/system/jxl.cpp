@@ -178,6 +178,58 @@ View codestream_of(View bytes) {
   return found;
 }
 
+/// The bits of the headers of a codestream, from its signature on.
+///
+/// Source    JPEG XL, ISO/IEC 18181-1, annex D: SizeHeader, ImageMetadata.
+class HeaderBits {
+ public:
+  explicit HeaderBits(View stream) : stream_(stream) {}
+
+  std::optional<int2> read_size() {
+    const bool is_small = take(1) == 1;
+    const auto side = [&] {
+      if (is_small) return 8 * (take(5) + 1);
+      constexpr std::array<int, 4> sizes = {9, 13, 18, 30};
+      return take(sizes[static_cast<std::size_t>(take(2))]) + 1;
+    };
+    const std::uint64_t height = side(), ratio = take(3);
+    constexpr std::array<std::uint64_t, 8> above = {0, 1, 12, 4, 3, 16, 5, 2}, below = {1, 1, 10, 3, 2, 9, 4, 1};
+    const std::uint64_t width = ratio == 0 ? side() : height * above[ratio] / below[ratio];
+    if (at_ > 8 * stream_.size() || width == 0 || width > 0x7fffffff) return std::nullopt;
+    return int2{static_cast<int>(width), static_cast<int>(height)};
+  }
+
+  /// The image's metadata, which follow its size, up to whether it is an animation.
+  bool read_is_animated() {
+    const bool is_default = take(1) == 1;
+    if (is_default || take(1) == 0) return false;      // no further fields
+    take(3);                                           // orientation
+    if (take(1) == 1) static_cast<void>(read_size());  // as which it is to be displayed
+    if (take(1) == 1) read_preview_size();
+    return take(1) == 1;
+  }
+
+ private:
+  void read_preview_size() {
+    const bool is_div8 = take(1) == 1;
+    const auto side = [&] {
+      constexpr std::array<int, 4> sizes = {0, 0, 5, 9}, sizes_of_pixels = {6, 8, 10, 12};
+      take((is_div8 ? sizes : sizes_of_pixels)[static_cast<std::size_t>(take(2))]);
+    };
+    side();
+    if (take(3) == 0) side();
+  }
+  std::uint64_t take(int count) {
+    std::uint64_t value = 0;
+    for (int i = 0; i < count; ++i, ++at_)
+      if (at_ / 8 < stream_.size()) value |= std::uint64_t{stream_[at_ / 8] >> (at_ % 8) & 1u} << i;
+    return value;
+  }
+
+  View stream_;
+  std::size_t at_ = 16;  // behind the signature
+};
+
 }  // namespace
 
 bool is_jxl(View bytes) {
@@ -186,29 +238,14 @@ bool is_jxl(View bytes) {
          container;
 }
 
-/// Source    JPEG XL, ISO/IEC 18181-1, annex D.2: SizeHeader.
 std::optional<int2> find_jxl_size(View bytes) {
-  if (!is_jxl(bytes)) return std::nullopt;
-  const View stream = codestream_of(bytes);
-  constexpr std::size_t signature_bits = 16;
-  std::size_t at = signature_bits;
-  const auto bits = [&](int count) {
-    std::uint64_t value = 0;
-    for (int i = 0; i < count; ++i, ++at)
-      if (at / 8 < stream.size()) value |= std::uint64_t{stream[at / 8] >> (at % 8) & 1u} << i;
-    return value;
-  };
-  const bool is_small = bits(1) == 1;
-  const auto side = [&] {
-    if (is_small) return 8 * (bits(5) + 1);
-    constexpr std::array<int, 4> sizes = {9, 13, 18, 30};
-    return bits(sizes[static_cast<std::size_t>(bits(2))]) + 1;
-  };
-  const std::uint64_t height = side(), ratio = bits(3);
-  constexpr std::array<std::uint64_t, 8> above = {0, 1, 12, 4, 3, 16, 5, 2}, below = {1, 1, 10, 3, 2, 9, 4, 1};
-  const std::uint64_t width = ratio == 0 ? side() : height * above[ratio] / below[ratio];
-  if (at > 8 * stream.size() || width == 0 || width > 0x7fffffff) return std::nullopt;
-  return int2{static_cast<int>(width), static_cast<int>(height)};
+  return is_jxl(bytes) ? HeaderBits(codestream_of(bytes)).read_size() : std::nullopt;
+}
+
+bool is_animated_jxl(View bytes) {
+  if (!is_jxl(bytes)) return false;
+  HeaderBits header(codestream_of(bytes));
+  return header.read_size() && header.read_is_animated();
 }
 
 StoredImage decode_jxl(View bytes, const std::string& name, std::uint64_t max_pixels) {

@@ -18,6 +18,9 @@ bool is_jxl(std::span<const std::uint8_t> bytes);
 /// Width and height that the codestream states, before its orientation.
 std::optional<int2> find_jxl_size(std::span<const std::uint8_t> bytes);
 
+/// Whether the header of a JPEG XL file states an animation.
+bool is_animated_jxl(std::span<const std::uint8_t> bytes);
+
 /// Decodes a JPEG XL image, or the first frame of an animation, by libjxl.
 ///
 /// Units     codes of 8 bits, or of more bits widened to 16; linear floats are scene-linear light, and others codes of 16

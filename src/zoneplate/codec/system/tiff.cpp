@@ -11,6 +11,7 @@
 #include <cstring>
 #include <limits>
 #include <memory>
+#include <set>
 #include <type_traits>
 
 #include "zoneplate/base/deadline.h"
@@ -352,18 +353,21 @@ class TiffReader {
   bool has_deep_palette_ = false;
 };
 
-/// The numbers of the first directory.
+/// The numbers of a directory, at first of the first one.
 class Directory {
  public:
   explicit Directory(View bytes) : bytes_(bytes), is_big_endian_(bytes[0] == 'M') {
-    const bool is_big_tiff = number(2, 2) == 43;
-    word_ = is_big_tiff ? 8 : 4;
-    const std::uint64_t at = number(is_big_tiff ? 8 : 4, word_), count_bytes = is_big_tiff ? 8 : 2;
-    entry_ = 4 + 2 * word_;
-    if (at > bytes.size() || bytes.size() - at < count_bytes) return;
-    first_ = at + count_bytes;
-    entries_ = std::min(number(at, count_bytes), (bytes.size() - first_) / entry_);
+    if (number(2, 2) == 43) word_ = 8, count_bytes_ = 8, entry_ = 20;
+    go_to(number(word_, word_));
   }
+
+  /// Goes to the directory behind this one; false if there is none.
+  bool go_on() {
+    const std::uint64_t next = number(first_ + entries_ * entry_, word_);
+    return next != 0 && go_to(next);
+  }
+
+  std::uint64_t place() const { return first_; }
 
   /// The first number of a field; nothing if there is no such field.
   std::optional<std::uint64_t> find(std::uint64_t tag) const {
@@ -391,6 +395,14 @@ class Directory {
   }
 
  private:
+  bool go_to(std::uint64_t at) {
+    first_ = entries_ = 0;
+    if (at > bytes_.size() || bytes_.size() - at < count_bytes_) return false;
+    first_ = at + count_bytes_;
+    entries_ = std::min(number(at, count_bytes_), (bytes_.size() - first_) / entry_);
+    return true;
+  }
+
   std::optional<std::uint64_t> entry_of(std::uint64_t tag) const {
     for (std::uint64_t i = 0; i < entries_; ++i)
       if (const std::uint64_t at = first_ + i * entry_; number(at, 2) == tag) return at;
@@ -407,7 +419,7 @@ class Directory {
 
   View bytes_;
   bool is_big_endian_;
-  std::uint64_t word_ = 4, entry_ = 12, first_ = 0, entries_ = 0;
+  std::uint64_t word_ = 4, count_bytes_ = 2, entry_ = 12, first_ = 0, entries_ = 0;
 };
 
 }  // namespace
@@ -428,6 +440,18 @@ std::optional<int2> find_tiff_size(View bytes) {
                       height = directory.find(TIFFTAG_IMAGELENGTH).value_or(0);
   if (width == 0 || height == 0 || width > most || height > most) return std::nullopt;
   return int2{static_cast<int>(width), static_cast<int>(height)};
+}
+
+std::size_t count_tiff_pages(View bytes) {
+  if (!is_tiff(bytes)) return 0;
+  constexpr std::size_t most = 1'000'000;
+  std::size_t pages = 0;
+  std::set<std::uint64_t> seen;  // a damaged file may point back
+  Directory directory(bytes);
+  do pages += (directory.find(TIFFTAG_SUBFILETYPE).value_or(0) & FILETYPE_REDUCEDIMAGE) == 0;
+  while (seen.insert(directory.place()).second && seen.size() < most && directory.go_on() &&
+         !seen.contains(directory.place()));
+  return pages;
 }
 
 ColorTags find_tiff_colors(View bytes) {

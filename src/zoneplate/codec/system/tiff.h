@@ -19,6 +19,9 @@ bool is_tiff(std::span<const std::uint8_t> bytes);
 /// Width and height of the first image of a TIFF file, as stored, before its orientation.
 std::optional<int2> find_tiff_size(std::span<const std::uint8_t> bytes);
 
+/// The images of a TIFF file that are no reduced copies of another, at most 1,000,000.
+std::size_t count_tiff_pages(std::span<const std::uint8_t> bytes);
+
 /// The ICC profile of the first image of a TIFF file.
 ColorTags find_tiff_colors(std::span<const std::uint8_t> bytes);
 

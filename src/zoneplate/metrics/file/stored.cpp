@@ -11,11 +11,11 @@
 #include <optional>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/codec/animated/animation_reader.h"
 #include "zoneplate/codec/exr/exr.h"
 #include "zoneplate/codec/exr/exr_header.h"
 #include "zoneplate/codec/exr/exr_layer.h"
 #include "zoneplate/codec/inspect/color_space.h"
+#include "zoneplate/codec/inspect/several_images.h"
 #include "zoneplate/image/rgb_space.h"
 
 namespace zoneplate::metrics {
@@ -102,8 +102,8 @@ class StoredComparison {
     compare_meanings(reference, test);
     for (std::size_t side = 0; side < 2; ++side) {
       if (files_[side]->decode_frame) continue;
-      if (const std::size_t frames = count_frames(files_[side]->bytes); frames > 1)
-        differ(fmt::format("{} is an animation of {} frames, of which the first is compared", names[side], frames));
+      if (const std::string several = several_images(files_[side]->bytes); !several.empty())
+        differ(fmt::format("{} {}, of which the first is compared", names[side], several));
     }
     return std::move(out_);
   }
