@@ -95,8 +95,8 @@ Still load_still(const std::string& path, const ExrChoice& exr, Delivery& out) {
     still.file.exr = exr;
     several = several_images(still.file.bytes);
   });
+  still.picture = load_still(still.file, out);  // first, since a run begins anew where it needs a library
   if (!several.empty()) out.warn(fmt::format("{}: {}, of which the first is filtered", path, several));
-  still.picture = load_still(still.file, out);
   return still;
 }
 
