@@ -58,10 +58,13 @@ add_test(NAME environment_error CONFIGURATIONS Long
          COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=EnvironmentError.*)
 set_tests_properties(environment_error PROPERTIES TIMEOUT 3600 FAIL_REGULAR_EXPRESSION "Running 0 tests")
 
-# The images of README.md and docs/, made again.
-add_test(NAME document_images CONFIGURATIONS Long
-         COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=DocumentImages.*)
-set_tests_properties(document_images PROPERTIES TIMEOUT 3600 FAIL_REGULAR_EXPRESSION "Running 0 tests")
+# The images of README.md and docs/, made again, and the marked figures of their tables, measured again.
+foreach(kind Images Figures)
+  string(TOLOWER document_${kind} name)
+  add_test(NAME ${name} CONFIGURATIONS Long
+           COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=Document${kind}.*)
+  set_tests_properties(${name} PROPERTIES TIMEOUT 3600 FAIL_REGULAR_EXPRESSION "Running 0 tests")
+endforeach()
 
 # Every input of fuzz_appetite takes minutes: only for `ctest -C Long`.
 foreach(test EveryInputStaysWithinTheLimits EveryInputStaysWithinTheLimitsOfEveryVerb JobsBesideAllOfThemAreDone)

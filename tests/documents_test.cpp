@@ -4,9 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <map>
+#include <numeric>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,6 +20,7 @@
 #include "zoneplate/cli/demo/demo.h"
 #include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/cli/verbs.h"
+#include "zoneplate/report/json_for_test.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace {
@@ -150,6 +155,124 @@ TEST_F(DocumentImages, DISABLED_AreThoseOfTheCommandsOfTheDocuments) {
     ++images;
   }
   EXPECT_GE(images, 15);
+}
+
+/// A marked table of a document: an HTML comment above it names the metrics of its figures.
+///   <!-- figures psnr -->            a column for each scene of the last `compare` command before it
+///   <!-- figures mean psnr flip*1000 -->  a column for each metric: the mean over the scenes
+struct FigureTable {
+  fs::path document;
+  std::size_t line = 0;  ///< of its head
+  std::string command;   ///< the arguments of the program
+  bool is_mean = false;
+  std::vector<std::pair<std::string, double>> metrics;  ///< and their factors
+  std::vector<std::vector<std::string>> rows;           ///< the head and the rows, without emphasis
+};
+
+std::vector<std::string> trimmed_cells(const std::string& row) {
+  std::vector<std::string> cells;
+  const std::regex cell("\\|([^|]*)(?=\\|)");
+  for (std::sregex_iterator at(row.begin(), row.end(), cell), end; at != end; ++at)
+    cells.push_back(std::regex_replace((*at)[1].str(), std::regex("^ +| +$|\\*\\*"), ""));
+  return cells;
+}
+
+std::vector<FigureTable> figure_tables() {
+  std::vector<FigureTable> tables;
+  for (const fs::path& document : documents()) {
+    const std::vector<std::string> lines = lines_of(zoneplate::text_of(document));
+    std::string command;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (lines[i].starts_with("./zoneplate compare ")) {
+        command = lines[i].substr(std::string_view("./zoneplate ").size());
+        for (; command.ends_with('\\'); ++i) command = command.substr(0, command.size() - 1) + lines[i + 1];
+      }
+      std::smatch marker;
+      if (!std::regex_match(lines[i], marker, std::regex("<!-- figures (mean )?(.*) -->"))) continue;
+      FigureTable table{document, i + 1, command, marker[1].matched, {}, {}};
+      std::istringstream words(marker[2].str());
+      for (std::string word; words >> word;) {
+        const std::size_t star = word.find('*');
+        table.metrics.emplace_back(word.substr(0, star), star == word.npos ? 1 : std::stod(word.substr(star + 1)));
+      }
+      for (std::size_t k = i + 1; k < lines.size() && lines[k].starts_with('|'); ++k)
+        if (k != i + 2) table.rows.push_back(trimmed_cells(lines[k]));
+      tables.push_back(std::move(table));
+    }
+  }
+  return tables;
+}
+
+/// The name of a method without the scale of its upscaler, which tables leave out.
+std::string without_scale(const std::string& method) {
+  return std::regex_replace(std::regex_replace(method, std::regex("scale=2,"), ""), std::regex(":scale=2$"), "");
+}
+
+/// What `compare` measured: figures by metric, scene and method.
+class Comparison {
+ public:
+  explicit Comparison(const nlohmann::json& report) : report_(report) {}
+
+  std::vector<double> figures(const std::string& metric, const std::string& method) const {
+    std::vector<double> out;
+    for (const auto& scene : report_["scenes"])
+      for (const auto& row : scene["methods"])
+        if (without_scale(row["method"]) == method) out.push_back(row["metrics"][metric]["value"]);
+    return out;
+  }
+  /// The index of a scene whose name is in a head, as "`wires`, dB"; else of the column.
+  std::size_t scene_of(const std::string& head, std::size_t column) const {
+    for (std::size_t i = 0; i < report_["scenes"].size(); ++i)
+      if (head.find('`' + report_["scenes"][i]["scene"].get<std::string>() + '`') != head.npos) return i;
+    return column;
+  }
+
+ private:
+  nlohmann::json report_;
+};
+
+/// Compares a printed figure with a value, to the digits that are printed.
+void expect_printed(const std::string& text, double value, const std::string& where) {
+  ASSERT_TRUE(std::regex_match(text, std::regex("(−)?[0-9]+(\\.[0-9]+)?"))) << where << ": " << text;
+  const std::string digits = std::regex_replace(text, std::regex("−"), "-");
+  const std::size_t point = digits.find('.');
+  const double half_step = 0.5 * std::pow(0.1, point == digits.npos ? 0 : digits.size() - 1 - point);
+  EXPECT_NEAR(std::stod(digits), value, half_step * 1.001) << where;
+}
+
+using DocumentFigures = zoneplate::ProgramTest;
+
+// A marked figure is what its command gives.
+TEST_F(DocumentFigures, DISABLED_AreThoseOfTheCommandsOfTheDocuments) {
+  std::map<std::string, Comparison> comparisons;
+  std::size_t figures = 0;
+  for (const FigureTable& table : figure_tables()) {
+    ASSERT_FALSE(table.command.empty()) << table.document << ':' << table.line << ": no command is above the table";
+    if (!comparisons.contains(table.command)) {
+      const std::string folder = std::to_string(comparisons.size());
+      const std::string command = std::regex_replace(table.command, std::regex(" -o [^ ]+"), " -o " + folder);
+      const zoneplate::ProgramAnswer answer = run(command);
+      ASSERT_EQ(answer.code, 0) << command << '\n' << answer.out;
+      comparisons.emplace(table.command,
+                          Comparison(zoneplate::parsed_json(zoneplate::text_of(place / folder / "compare.json"))));
+    }
+    const Comparison& found = comparisons.at(table.command);
+    for (std::size_t r = 1; r < table.rows.size(); ++r) {
+      const std::vector<std::string>& row = table.rows[r];
+      const std::string method = std::regex_replace(row[0], std::regex("`"), "");
+      for (std::size_t column = 1; column < row.size(); ++column, ++figures) {
+        const auto& [metric, factor] = table.metrics.at(table.is_mean ? column - 1 : 0);
+        const std::vector<double> values = found.figures(metric, method);
+        const std::string where = table.document.filename().string() + ": " + method + ", " + table.rows[0][column];
+        ASSERT_FALSE(values.empty()) << where << ": the command has no such method";
+        const double value =
+            table.is_mean ? std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size())
+                          : values.at(found.scene_of(table.rows[0][column], column - 1));
+        expect_printed(row[column], factor * value, where);
+      }
+    }
+  }
+  EXPECT_GT(figures, 100u);
 }
 
 TEST(Documents, EveryImageIsDisplayed) {

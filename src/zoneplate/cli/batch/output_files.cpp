@@ -175,10 +175,14 @@ std::vector<OutputFiles::Pattern> OutputFiles::patterns() const {
 
 std::span<const OutputFiles::Pattern> OutputFiles::with_name(std::span<const Pattern> all, std::uint32_t folder,
                                                              std::string_view before, std::string_view after) {
-  return std::ranges::equal_range(all, std::tuple(folder, before, after), {}, [](const Pattern& pattern) {
+  const auto key = [](const Pattern& pattern) {
     const Files& files = pattern.front();
     return std::tuple(files.folder, std::string_view(files.before), std::string_view(files.after));
-  });
+  };
+  const std::tuple wanted(folder, before, after);
+  const auto begin = std::ranges::lower_bound(all, wanted, {}, key),
+             end = std::ranges::upper_bound(all, wanted, {}, key);
+  return {begin, end};
 }
 
 std::optional<OutputFiles::Collision> OutputFiles::of_patterns(std::span<const Pattern> all) const {

@@ -29,7 +29,7 @@ void add(OutputFiles& files, const Frames& frames, std::uint64_t item) {
 // In both orders.
 bool meet(const Frames& a, const Frames& b) {
   bool found[2] = {};
-  for (const std::uint64_t order : {0, 1}) {
+  for (const int order : {0, 1}) {
     OutputFiles files;
     add(files, order == 0 ? a : b, 0);
     add(files, order == 0 ? b : a, 1);

@@ -62,7 +62,8 @@ std::vector<metrics::PicturePair> with_failed(std::vector<metrics::PicturePair> 
   const auto without_extension = [](const std::string& name) {
     return std::filesystem::path(name).replace_extension().string();
   };
-  for (const auto& [name, cause] : failed) {
+  for (const auto& render : failed) {
+    const std::string& name = render.first;
     const auto pair = std::ranges::find_if(pairs, [&](const metrics::PicturePair& p) {
       return p.name == name || (!p.test && without_extension(p.name) == without_extension(name));
     });

@@ -171,7 +171,7 @@ TEST(ExrReplace, WindowsAreKeptAndGrowWithTheLight) {
   for (const char* const name : {"B", "G", "R", "Z"}) maker.add(name, ExrType::Float);
   const Bytes overscan = maker.file();
   const auto whole = decode_exr_as_stored(overscan, "a.exr", 1000, {.area = ExrArea::Whole});
-  EXPECT_EQ(int2(whole.width(), whole.height()), int2(13, 11));
+  EXPECT_EQ((int2{whole.width(), whole.height()}), (int2{13, 11}));
   const Bytes out = replace_exr_layer(overscan, "a.exr", {.area = ExrArea::Whole}, whole).bytes;
   const ExrPart part = *read_exr_part(out);
   EXPECT_EQ(part.data.left, -3);

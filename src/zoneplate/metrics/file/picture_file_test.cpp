@@ -98,7 +98,7 @@ TEST_F(PictureFile, DirectoriesListPicturesInTheOrderOfNumbers) {
     save(name);
   EXPECT_EQ(names(list_pictures(at("d")).paths), (std::vector<std::string>{"e.png", "f9.PNG", "f10.png", "f011.jpg"}));
   fs::create_directories(at("empty"));
-  EXPECT_THROW(list_pictures(at("empty")).paths, Error);
+  EXPECT_THROW(static_cast<void>(list_pictures(at("empty"))), Error);
   for (const char* name : {"all/a.webp", "all/b.pfm", "all/c.hdr"}) save(name);
   EXPECT_EQ(list_pictures(at("all")).paths.size(), 3u);
 }
@@ -113,7 +113,7 @@ TEST_F(PictureFile, PatternsFindFrames) {
   EXPECT_TRUE(are_frames(list_pictures(at("f.####.png")).paths));
   EXPECT_FALSE(are_frames({"a1.png", "b1.png"}));
   EXPECT_FALSE(are_frames({"a1.png"}));
-  EXPECT_THROW(list_pictures(at("h.####.png")).paths, Error);
+  EXPECT_THROW(static_cast<void>(list_pictures(at("h.####.png"))), Error);
   EXPECT_EQ(list_pictures(at("missing.png")).paths.size(), 1u);
   EXPECT_THROW(load_picture(at("missing.png")), Error);
 }
