@@ -81,7 +81,8 @@ function(add_kernels sources)
     add_library(zoneplate_${isa} OBJECT ${sources})
     set_target_properties(zoneplate_${isa} PROPERTIES UNITY_BUILD OFF) # each names its kernels alike
     target_compile_options(zoneplate_${isa} PRIVATE ${flags_${isa}} $<$<NOT:$<BOOL:${ZONEPLATE_SANITIZED}>>:-O3>) # sanitized, -O3 takes minutes a source
-    target_compile_definitions(zoneplate_${isa} PRIVATE HWY_COMPILE_ONLY_STATIC HWY_DISABLE_PCLMUL_AES)
+    target_compile_definitions(zoneplate_${isa} PRIVATE HWY_COMPILE_ONLY_STATIC HWY_DISABLE_PCLMUL_AES
+                               $<$<BOOL:${ZONEPLATE_SANITIZED}>:HWY_IS_DEBUG_BUILD=0>) # its assertions need its library
     target_link_libraries(zoneplate_${isa} PRIVATE zoneplate_flags)
     # Reading Highway's header is more than half of a kernel's compilation. GCC takes what is precompiled for the project's
     # own, and then warns of the compiler's vector headers.

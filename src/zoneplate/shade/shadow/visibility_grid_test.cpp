@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <functional>
 #include <numeric>
@@ -189,7 +190,7 @@ TEST(VisibilityGrid, ReachesTheBordersOfEverySize) {
 // Whoever requests first, and whatever else is requested.
 TEST(VisibilityGridBits, DoNotDependOnTheOrder) {
   const Surface surface = plane_with([](float x, float y) {
-    const auto noise = unit_float(hash(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 9));
+    const auto noise = unit_float(hash(std::bit_cast<std::uint32_t>(x), std::bit_cast<std::uint32_t>(y), 9));
     return std::clamp(0.4f + 0.2f * std::sin(0.1f * x) + 0.02f * noise, 0.0f, 1.0f);
   });
   std::vector<float2> places = random_places(3000);

@@ -103,9 +103,10 @@ inline std::unique_ptr<Outcome> shade(const Scene& scene, const ViewUniforms& su
   // What lies behind the points within a vector means nothing.
   const int end = hand.batch.padded(),
             whole = (end + FragmentBatch::max_lanes - 1) / FragmentBatch::max_lanes * FragmentBatch::max_lanes;
+  auto* const arrays = reinterpret_cast<float*>(&shaded);
   for (std::size_t a = 0; a < sizeof shaded / (FragmentBatch::padded_capacity * sizeof(float)); ++a)
-    std::fill(shaded.r + a * FragmentBatch::padded_capacity + end,
-              shaded.r + a * FragmentBatch::padded_capacity + whole, 0.0f);
+    std::fill(arrays + a * FragmentBatch::padded_capacity + end, arrays + a * FragmentBatch::padded_capacity + whole,
+              0.0f);
   return outcome;
 }
 
