@@ -14,7 +14,7 @@ list(FILTER readers EXCLUDE REGEX "_test\\.cpp$|/(draco|image_file|scene_bytes)\
 # The lessons of `zoneplate demo`. Functions of these sources that need more are not linked, since nothing calls them;
 # figures.cpp and truetype.cpp take the place of those that draw texts and plots.
 set(figures ${all_sources})
-list(FILTER figures INCLUDE REGEX "^src/zoneplate/(cli/demo/|cli/false_color|cli/sdf/(atlas_file|show_field|text_error)|formats/font/text_outline|report/(figure|page_table|plot_labels|plot_palette)\\.cpp|metrics/(mse|flip/magma))")
+list(FILTER figures INCLUDE REGEX "^src/zoneplate/(cli/demo/|job/output/false_color|cli/sdf/(atlas_file|show_field|text_error)|formats/font/text_outline|report/(figure|page_table|plot_labels|plot_palette)\\.cpp|metrics/(mse|flip/magma))")
 list(FILTER figures EXCLUDE REGEX "_test\\.cpp$|_simd\\.cpp$|/demo/demo\\.cpp$")
 make_table(figures cli/demo demos cli/demo/demo.h Demo zoneplate::cli demos demo_)
 # Compiled alone, since they define the same names as others of their folders.

@@ -12,7 +12,7 @@
 #include "zoneplate/cli/completions.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/man_page.h"
-#include "zoneplate/cli/values.h"
+#include "zoneplate/job/values.h"
 
 namespace zoneplate::cli {
 

@@ -10,8 +10,8 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/log.h"
-#include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
+#include "zoneplate/job/values.h"
 
 namespace zoneplate::cli {
 namespace {

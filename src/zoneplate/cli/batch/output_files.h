@@ -9,7 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "zoneplate/cli/batch/frame_name.h"
+#include "zoneplate/job/output/frame_name.h"
 
 namespace zoneplate::cli {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "zoneplate/cli/batch/frame_name.h"
+#include "zoneplate/job/output/frame_name.h"
 
 namespace zoneplate::cli {
 

@@ -13,8 +13,8 @@
 #include "zoneplate/cli/bench/limits.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/report_version.h"
-#include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/report/json.h"
 #include "zoneplate/version.h"
 

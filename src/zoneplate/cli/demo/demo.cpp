@@ -15,11 +15,11 @@
 #include "zoneplate/cli/args.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/output_paths.h"
-#include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/codec/apng.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/webp.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/report/figure_vector.h"
 

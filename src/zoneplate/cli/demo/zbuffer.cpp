@@ -7,7 +7,7 @@
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/cli/demo/demo.h"
 #include "zoneplate/cli/demo/picture.h"
-#include "zoneplate/cli/false_color.h"
+#include "zoneplate/job/output/false_color.h"
 #include "zoneplate/render/renderer.h"
 
 namespace zoneplate::cli {

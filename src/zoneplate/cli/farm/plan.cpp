@@ -25,8 +25,8 @@
 #include "zoneplate/cli/render/item_files.h"
 #include "zoneplate/cli/render/job.h"
 #include "zoneplate/cli/report_version.h"
-#include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
+#include "zoneplate/job/values.h"
 
 namespace zoneplate::cli {
 namespace {

@@ -9,12 +9,12 @@
 #include <utility>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/cli/batch/frame_name.h"
-#include "zoneplate/cli/render/film.h"
-#include "zoneplate/cli/values.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/save.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/job/output/film.h"
+#include "zoneplate/job/output/frame_name.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/os/file.h"
 
 namespace zoneplate::cli {

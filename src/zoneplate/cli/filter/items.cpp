@@ -11,10 +11,10 @@
 #include <set>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/cli/batch/frame_name.h"
 #include "zoneplate/cli/batch/output_files.h"
-#include "zoneplate/cli/values.h"
 #include "zoneplate/codec/save.h"
+#include "zoneplate/job/output/frame_name.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/metrics/file/picture_file.h"
 
 namespace zoneplate::cli {

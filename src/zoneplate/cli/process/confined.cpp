@@ -12,9 +12,9 @@
 #include "zoneplate/cli/packed.h"
 #include "zoneplate/cli/process/item_process.h"
 #include "zoneplate/cli/process/packed_plots.h"
-#include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/formats/font/font.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/library.h"
 

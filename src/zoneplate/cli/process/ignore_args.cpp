@@ -5,7 +5,7 @@
 #include <filesystem>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/cli/values.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/metrics/file/picture_file.h"
 
 namespace zoneplate::cli {

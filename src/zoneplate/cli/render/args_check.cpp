@@ -6,15 +6,15 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/spec.h"
-#include "zoneplate/cli/batch/frame_name.h"
 #include "zoneplate/cli/batch/input_names.h"
 #include "zoneplate/cli/batch/ledger.h"
 #include "zoneplate/cli/batch/output_name.h"
 #include "zoneplate/cli/config/config.h"
 #include "zoneplate/cli/render/args.h"
-#include "zoneplate/cli/render/film.h"
 #include "zoneplate/codec/save.h"
 #include "zoneplate/codec/system/encoder_library.h"
+#include "zoneplate/job/output/film.h"
+#include "zoneplate/job/output/frame_name.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {

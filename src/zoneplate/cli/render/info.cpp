@@ -10,9 +10,9 @@
 #include "zoneplate/cli/process/confined.h"
 #include "zoneplate/cli/process/item_process.h"
 #include "zoneplate/cli/report_version.h"
-#include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/formats/load.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/report/json.h"
 #include "zoneplate/report/scene_contents.h"
 

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "zoneplate/base/clock.h"
-#include "zoneplate/cli/render/film.h"
 #include "zoneplate/cli/render/item_files.h"
 #include "zoneplate/cli/version.h"
+#include "zoneplate/job/output/film.h"
 #include "zoneplate/os/cache_folder.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/shade/environment/prepared_environment.h"

@@ -10,8 +10,8 @@
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/spec.h"
-#include "zoneplate/cli/values.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {

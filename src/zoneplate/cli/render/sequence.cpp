@@ -10,9 +10,9 @@
 #include <optional>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/cli/background.h"
-#include "zoneplate/cli/render/film.h"
 #include "zoneplate/formats/load.h"
+#include "zoneplate/job/output/background.h"
+#include "zoneplate/job/output/film.h"
 #include "zoneplate/render/metering/metering.h"
 #include "zoneplate/render/sequence.h"
 

@@ -9,9 +9,9 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/utf8.h"
-#include "zoneplate/cli/values.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/formats/json/json.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/mapped_file_guard.h"
 

@@ -10,7 +10,7 @@
 #include "zoneplate/cli/sdf/scene_args.h"
 #include "zoneplate/cli/sdf/sdf.h"
 #include "zoneplate/cli/signal/show.h"
-#include "zoneplate/cli/values.h"
+#include "zoneplate/job/values.h"
 
 namespace zoneplate::cli {
 namespace {

@@ -11,7 +11,7 @@
 #include "zoneplate/cli/signal/args.h"
 #include "zoneplate/cli/signal/load.h"
 #include "zoneplate/cli/signal/show.h"
-#include "zoneplate/cli/values.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/sdf/field/distance_transform.h"
 
 namespace zoneplate::cli {

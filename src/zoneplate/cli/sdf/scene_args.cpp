@@ -8,8 +8,8 @@
 #include <memory>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/cli/values.h"
 #include "zoneplate/formats/font/font.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/mapped_file_guard.h"
 

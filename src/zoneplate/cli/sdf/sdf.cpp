@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "zoneplate/cli/log.h"
-#include "zoneplate/cli/values.h"
 #include "zoneplate/cli/verbs.h"
+#include "zoneplate/job/values.h"
 
 namespace zoneplate::cli {
 namespace {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "zoneplate/cli/values.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/metrics/rows.h"
 #include "zoneplate/signal/functions.h"
 

@@ -12,9 +12,9 @@
 #include "zoneplate/cli/sdf/show_field.h"
 #include "zoneplate/cli/sdf/text_error.h"
 #include "zoneplate/cli/signal/args.h"
-#include "zoneplate/cli/values.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/report/table.h"
 

@@ -13,10 +13,10 @@
 #include "zoneplate/cli/process/exr_layer.h"
 #include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/signal/show.h"
-#include "zoneplate/cli/values.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/save.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/signal/pattern/pattern.h"
 
 namespace zoneplate::cli {

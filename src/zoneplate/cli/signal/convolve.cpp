@@ -15,7 +15,7 @@
 #include "zoneplate/cli/signal/load.h"
 #include "zoneplate/cli/signal/show.h"
 #include "zoneplate/cli/signal/signal.h"
-#include "zoneplate/cli/values.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/signal/filter/convolve.h"
 
 namespace zoneplate::cli {

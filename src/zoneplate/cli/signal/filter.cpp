@@ -12,7 +12,7 @@
 #include "zoneplate/cli/signal/load.h"
 #include "zoneplate/cli/signal/show.h"
 #include "zoneplate/cli/signal/signal.h"
-#include "zoneplate/cli/values.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/signal/fourier/frequency_filter.h"
 
 namespace zoneplate::cli {

@@ -12,7 +12,7 @@
 #include "zoneplate/cli/signal/reduce.h"
 #include "zoneplate/cli/signal/show.h"
 #include "zoneplate/cli/signal/signal.h"
-#include "zoneplate/cli/values.h"
+#include "zoneplate/job/values.h"
 
 namespace zoneplate::cli {
 namespace {

@@ -8,7 +8,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/signal/args.h"
 #include "zoneplate/cli/signal/signal.h"
-#include "zoneplate/cli/values.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/signal/fourier/series.h"
 #include "zoneplate/signal/functions.h"
 

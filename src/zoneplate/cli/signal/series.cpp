@@ -10,7 +10,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/signal/args.h"
 #include "zoneplate/cli/signal/signal.h"
-#include "zoneplate/cli/values.h"
+#include "zoneplate/job/values.h"
 
 namespace zoneplate::cli {
 namespace {

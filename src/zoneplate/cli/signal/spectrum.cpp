@@ -12,7 +12,7 @@
 #include "zoneplate/cli/signal/load.h"
 #include "zoneplate/cli/signal/show.h"
 #include "zoneplate/cli/signal/signal.h"
-#include "zoneplate/cli/values.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/signal/fourier/periodic_smooth.h"
 #include "zoneplate/signal/fourier/spectrum.h"
 #include "zoneplate/signal/fourier/window.h"

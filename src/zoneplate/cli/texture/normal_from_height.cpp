@@ -10,8 +10,8 @@
 #include "zoneplate/cli/signal/load.h"
 #include "zoneplate/cli/signal/show.h"
 #include "zoneplate/cli/texture/texture.h"
-#include "zoneplate/cli/values.h"
 #include "zoneplate/codec/png.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/shade/texture/height_normals.h"
 

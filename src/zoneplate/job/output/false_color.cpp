@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/false_color.h"
+#include "zoneplate/job/output/false_color.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include "zoneplate/metrics/flip/magma.h"
 #include "zoneplate/raster/types/batch.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 
 DepthCodes depth_codes(const Plane<float>& depth) {
   DepthCodes out{Plane<std::uint16_t>(depth.width(), depth.height(), 65535), std::numeric_limits<float>::infinity(),
@@ -45,4 +45,4 @@ Rgba8 mip_level_color(float level) {
 
 Rgba8 anisotropy_color(float ratio) { return ratio > 0 ? metrics::magma(log2(ratio) / 4) : Rgba8{0, 0, 0, 0}; }
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

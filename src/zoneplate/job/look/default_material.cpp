@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/look/default_material.h"
+#include "zoneplate/job/look/default_material.h"
 
 #include <algorithm>
 #include <utility>
@@ -11,7 +11,7 @@
 #include "zoneplate/render/lighting.h"
 #include "zoneplate/scene/scene.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 namespace {
 
 TextureImage read_texture(const std::string& path, const LoadLimits& limits, std::vector<std::string>& warnings) {
@@ -59,4 +59,4 @@ void set_default_material(const DefaultMaterial& look, const LoadLimits& limits,
     if (material.is_default) set_look(look, image, material);
 }
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

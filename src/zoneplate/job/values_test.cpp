@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/values.h"
+#include "zoneplate/job/values.h"
 
 #include <gtest/gtest.h>
 
 #include "zoneplate/base/error.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 namespace {
 
 // The message of the usage error that `parse` throws, or "no error".
@@ -85,4 +85,4 @@ TEST(ParseChoice, NamesTheClosest) {
 }
 
 }  // namespace
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/look/shadow_args.h"
+#include "zoneplate/job/look/shadow_args.h"
 
 #include <span>
 #include <string_view>
 
 #include "zoneplate/base/spec.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 namespace {
 
 /// A way to compute visibility, with its parameters.
@@ -77,4 +77,4 @@ OcclusionOptions parse_occlusion(const std::string& text) {
           .spacing = spec.settings.integer("spacing")};
 }
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

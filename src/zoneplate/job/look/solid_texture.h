@@ -7,7 +7,7 @@ namespace zoneplate {
 struct Scene;
 }  // namespace zoneplate
 
-namespace zoneplate::cli {
+namespace zoneplate {
 
 /// The names of the patterns of --solid-texture, with their parameters, for the help.
 std::string solid_texture_names();
@@ -21,4 +21,4 @@ const std::string& check_solid_texture(const std::string& text);
 /// veins or rings along the longest side of the largest mesh.
 void set_solid_texture(const std::string& text, Scene& scene);
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

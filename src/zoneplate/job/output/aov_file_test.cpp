@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/aov.h"
+#include "zoneplate/job/output/aov_file.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 
 #include "zoneplate/codec/png.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 namespace {
 
 // Three pixels: a near one, a far one, and an empty one.
@@ -215,4 +215,4 @@ TEST(Aov, ErrorIsShownAgainstTheGreatestAndTellsIt) {
 }
 
 }  // namespace
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/render/film.h"
+#include "zoneplate/job/output/film.h"
 
 #include <fmt/format.h>
 
@@ -15,7 +15,7 @@
 #include "zoneplate/codec/webp.h"
 #include "zoneplate/os/run_on_file.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 namespace {
 
 using Words = std::vector<std::string>;
@@ -173,4 +173,4 @@ std::vector<std::uint8_t> encode_film(const std::string& output, std::span<const
   return film_of(run_on_file("ffmpeg", words, apng, limits));
 }
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/values.h"
+#include "zoneplate/job/values.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/image/hex_color.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 namespace {
 
 template <class T>
@@ -162,4 +162,4 @@ Isa parse_isa(const std::string& text) {
   return isa;
 }
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace zoneplate::cli {
+namespace zoneplate {
 
 /// The place of the frame number in a name, and the minimum number of its digits.
 struct FramePlace {
@@ -29,4 +29,4 @@ std::string frame_name(const std::string& name, const FramePlace& place, int fra
 /// The frame number that is written as `text` with that minimum of digits; nothing if there is none.
 std::optional<std::int64_t> frame_of(std::string_view text, int digits);
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

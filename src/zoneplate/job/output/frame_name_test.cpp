@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/batch/frame_name.h"
+#include "zoneplate/job/output/frame_name.h"
 
 #include <gtest/gtest.h>
 
-namespace zoneplate::cli {
+namespace zoneplate {
 namespace {
 
 std::string named(const std::string& name, int frame) {
@@ -43,4 +43,4 @@ TEST(FrameName, NumbersAreReadAsTheyAreWritten) {
 }
 
 }  // namespace
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

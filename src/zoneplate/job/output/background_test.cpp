@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/background.h"
+#include "zoneplate/job/output/background.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "zoneplate/base/parallel.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 namespace {
 
 TEST(Background, WorkGoesOnBesideTheCallerAndNoMoreThanThereIsRoomFor) {
@@ -55,4 +55,4 @@ TEST(Background, WhatTheWorkThrowsReachesTheCaller) {
 }
 
 }  // namespace
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

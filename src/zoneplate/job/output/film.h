@@ -11,7 +11,7 @@
 #include "zoneplate/codec/animation.h"
 #include "zoneplate/os/run_program.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 
 /// The format of a film whose frames last 1 / rate seconds.
 ///
@@ -68,4 +68,4 @@ class FfmpegFilm {
   RunningProgram ffmpeg_;
 };
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

@@ -11,7 +11,7 @@ namespace zoneplate {
 struct Scene;
 }  // namespace zoneplate
 
-namespace zoneplate::cli {
+namespace zoneplate {
 
 /// The look of surfaces for which the model's file defines no material: STL, PLY, and the default material of others.
 struct DefaultMaterial {
@@ -27,4 +27,4 @@ struct DefaultMaterial {
 /// Errors    those of reading the texture.
 void set_default_material(const DefaultMaterial& look, const LoadLimits& limits, Scene& scene);
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/background.h"
+#include "zoneplate/job/output/background.h"
 
 #include <cstddef>
 #include <utility>
@@ -7,7 +7,7 @@
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 
 Background::~Background() {
   for (std::future<void>& work : running_) work.wait();
@@ -32,4 +32,4 @@ void Background::wait_for_first() {
   first.get();
 }
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

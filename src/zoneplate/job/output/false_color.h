@@ -6,7 +6,7 @@
 #include "zoneplate/image/plane.h"
 #include "zoneplate/image/rgb.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 
 /// Depths as greys of 16 bits: 0 is the nearest and 65534 the farthest visible distance, linear between; 65535 is
 /// empty.
@@ -27,4 +27,4 @@ Rgba8 mip_level_color(float level);
 /// texture.
 Rgba8 anisotropy_color(float ratio);
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/batch/frame_name.h"
+#include "zoneplate/job/output/frame_name.h"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <cctype>
 #include <cstdlib>
 
-namespace zoneplate::cli {
+namespace zoneplate {
 namespace {
 
 constexpr int most_digits = 20;
@@ -83,4 +83,4 @@ std::optional<std::int64_t> frame_of(std::string_view text, int digits) {
   return is_negative ? -number : number;
 }
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/aov.h"
+#include "zoneplate/job/output/aov_file.h"
 
 #include <fmt/format.h>
 
@@ -8,15 +8,15 @@
 #include <cmath>
 #include <limits>
 
-#include "zoneplate/cli/false_color.h"
 #include "zoneplate/codec/pfm.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/job/output/false_color.h"
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/render/cryptomatte.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 namespace {
 
 constexpr Rgba8 nothing{0, 0, 0, 0};
@@ -238,4 +238,4 @@ std::optional<std::vector<std::uint8_t>> encode_data_pfm(const Aov& aov, const F
   return encode_pfm(color);
 }
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

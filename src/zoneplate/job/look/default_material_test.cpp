@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/look/default_material.h"
+#include "zoneplate/job/look/default_material.h"
 
 #include <gtest/gtest.h>
 
 #include "zoneplate/formats/import/model_folder.h"
 #include "zoneplate/scene/scene.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 namespace {
 
 Scene plain_scene() {
@@ -47,4 +47,4 @@ TEST(DefaultMaterial, WarnsWhereItHasNoEffect) {
 }
 
 }  // namespace
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

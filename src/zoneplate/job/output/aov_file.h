@@ -8,7 +8,7 @@
 #include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/render/aov.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 
 /// A data pass as a PNG image.
 ///
@@ -39,4 +39,4 @@ void add_exr_channels(const DataChannels& data, std::vector<ExrChannel>& out);
 /// The values themselves as a portable float map, of passes with at most three channels; nothing for others.
 std::optional<std::vector<std::uint8_t>> encode_data_pfm(const Aov& aov, const Frame& frame, const Scene& scene);
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/look/solid_texture.h"
+#include "zoneplate/job/look/solid_texture.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "zoneplate/base/spec.h"
 #include "zoneplate/scene/scene.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 namespace {
 
 /// A pattern of --solid-texture, with its colours.
@@ -92,4 +92,4 @@ void set_solid_texture(const std::string& text, Scene& scene) {
   }
 }
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

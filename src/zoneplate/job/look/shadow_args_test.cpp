@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/look/shadow_args.h"
+#include "zoneplate/job/look/shadow_args.h"
 
 #include <gtest/gtest.h>
 
 #include "zoneplate/base/error.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 namespace {
 
 TEST(ShadowArgs, DefaultsAreThoseOfTheLibrary) {
@@ -43,4 +43,4 @@ TEST(ShadowArgs, NameAMethodWithItsParameters) {
 }
 
 }  // namespace
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

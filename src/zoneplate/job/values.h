@@ -11,7 +11,7 @@
 #include "zoneplate/base/isa.h"
 #include "zoneplate/math/vec.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 
 // Conversion of the text of an option to a value. Every error is ErrorKind::Usage and states the found text and the
 // expected values; text after the value, infinities and NaN are errors.
@@ -44,4 +44,4 @@ inline std::size_t parse_choice(const std::string& text, std::initializer_list<s
 /// Parses the name of an instruction set, which this machine must support.
 Isa parse_isa(const std::string& text);
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

@@ -5,7 +5,7 @@
 #include <functional>
 #include <future>
 
-namespace zoneplate::cli {
+namespace zoneplate {
 
 /// Runs work in the background: frames are encoded and written while the next ones are drawn.
 ///
@@ -26,4 +26,4 @@ class Background {
   std::deque<std::future<void>> running_;
 };
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate
