@@ -36,7 +36,7 @@ foreach(format IN LISTS fuzz_formats)
   target_link_libraries(fuzz_${format} PRIVATE zoneplate_fuzzed)
   target_link_options(fuzz_${format} PRIVATE -fsanitize=fuzzer)
 endforeach()
-add_executable(fuzz_item fuzz/item_fuzz.cpp src/zoneplate/cli/process/item_messages.cpp src/zoneplate/cli/render/summary.cpp
+add_executable(fuzz_item fuzz/item_fuzz.cpp src/zoneplate/cli/process/item_messages.cpp src/zoneplate/cli/render/packed_summary.cpp
                src/zoneplate/cli/percents.cpp)
 target_link_libraries(fuzz_item PRIVATE zoneplate_fuzzed)
 target_link_options(fuzz_item PRIVATE -fsanitize=fuzzer)

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "zoneplate/cli/process/item_messages.h"
-#include "zoneplate/cli/render/summary.h"
+#include "zoneplate/cli/render/packed_summary.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace zoneplate;

@@ -16,19 +16,6 @@
 
 namespace zoneplate::cli {
 
-std::vector<std::string> names_of(const Option& option) { return CLI::detail::split_names(option.names); }
-
-Option choice_option(std::string names, std::string value, std::string meaning, std::string group, bool is_basic,
-                     std::vector<std::string_view> choices, std::function<void(std::size_t)> set) {
-  return {.names = std::move(names),
-          .value = std::move(value),
-          .meaning = std::move(meaning),
-          .group = std::move(group),
-          .is_basic = is_basic,
-          .set = [choices, set = std::move(set)](const std::string& text) { set(parse_choice(text, choices)); },
-          .choices = choices};
-}
-
 namespace {
 
 // The names of an option in help, short forms first: "-o, --output FILE".
@@ -286,14 +273,8 @@ bool parse(Syntax& syntax, std::span<const std::string> arguments) {
 }
 
 void set_option(const Syntax& syntax, const std::string& name, const std::optional<std::string>& value) {
-  // A name that is a prefix of another one is excluded by the character after it.
-  const std::string dashed = "--" + name;
-  const auto has_name = [&](const Option& option) {
-    const std::size_t at = option.names.find(dashed), end = at + dashed.size();
-    return at != std::string::npos && (end == option.names.size() || option.names[end] == ',');
-  };
-  const auto option = std::find_if(syntax.options.begin(), syntax.options.end(), has_name);
-  if (option == syntax.options.end()) refuse_unknown(syntax, dashed);
+  const Option* const option = find_option(syntax.options, name);
+  if (option == nullptr) refuse_unknown(syntax, "--" + name);
   if (option->value.empty() && value) refuse_value(*option);
   if (!option->value.empty() && !value) throw Error(ErrorKind::Usage, missing_value(*option));
   set(*option, value.value_or(""));

@@ -1,32 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "zoneplate/job/option.h"
+
 namespace zoneplate::cli {
-
-/// One option of a verb. Parsing and help use the same table.
-struct Option {
-  std::string names;                            ///< all forms, the one for messages first: "--output,-o"
-  std::string value;                            ///< placeholder of the value in help, "FILE"; empty for a switch
-  std::string meaning;                          ///< one sentence, without a full stop
-  std::string group;                            ///< heading in the full help
-  bool is_basic = false;                        ///< included in the short help
-  std::function<void(const std::string&)> set;  ///< takes the value's text (empty for a switch)
-  std::vector<std::string_view> choices{};      ///< values that shells complete
-};
-
-/// An option whose value is one of `choices`; `set` takes the index of the chosen one.
-Option choice_option(std::string names, std::string value, std::string meaning, std::string group, bool is_basic,
-                     std::vector<std::string_view> choices, std::function<void(std::size_t)> set);
-
-/// All forms of an option's name, as in the table.
-std::vector<std::string> names_of(const Option& option);
 
 /// The arguments of a verb, and the texts of its help.
 struct Syntax {

@@ -16,13 +16,14 @@
 #include "zoneplate/cli/percents.h"
 #include "zoneplate/cli/process/confined.h"
 #include "zoneplate/cli/process/exr_layer.h"
-#include "zoneplate/cli/render/environment_file.h"
-#include "zoneplate/cli/render/picture.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/codec/apng.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/formats/load.h"
+#include "zoneplate/job/environment_file.h"
 #include "zoneplate/job/output/film.h"
+#include "zoneplate/job/picture.h"
+#include "zoneplate/job/resolve.h"
 #include "zoneplate/metrics/file/picture_file.h"
 #include "zoneplate/metrics/flip/magma.h"
 #include "zoneplate/os/file.h"
@@ -101,14 +102,11 @@ SceneTrials compare_scene(const CompareArgs& args, const std::string& name, cons
   out.read(name, [&] { scene = load_scene(name, args.render.load); });
   RenderArgs render = args.render;
   render.input = name;
-  const Camera camera = choose_own_camera(render, scene);
-  render.display.mapping = set_look(render, scene);
-  PreparedScene prepared(std::move(scene), render.mips);
-  const std::string dimming = set_light_dimming(render, prepared, "");
-  prepared = dimmed(std::move(prepared), render.light_dimming);
-  if (render.meters_exposure) render.display.exposure = metered_exposure(prepared, camera, render);
-  const RenderSettings settings = settings_of(render, "");
-  TrialSetup setup{prepared, camera, settings, memory, args.frames};
+  convert_materials(render, scene);
+  const LitStill still = light_still(render, PreparedScene(std::move(scene), render.mips), false);
+  const Job& job = still.job;
+  const RenderSettings settings = settings_of(job, "");
+  TrialSetup setup{still.scene, still.camera, settings, memory, args.frames};
   setup.load_reference = [&] {
     metrics::Picture picture;
     out.read(options.reference, [&] {
@@ -125,11 +123,11 @@ SceneTrials compare_scene(const CompareArgs& args, const std::string& name, cons
   if (args.frames > 1) {
     source.emplace(name, args.render.load);
     sequence.emplace(sequence_of(args, *source));
-    const float aspect = static_cast<float>(render.options.width) / static_cast<float>(render.options.height);
-    sequence->set_view(render.view, aspect);
+    const float aspect = static_cast<float>(job.options.width) / static_cast<float>(job.options.height);
+    sequence->set_view(job.view, aspect);
     setup.view = [&](int frame) {
       SceneView view = sequence->view(frame);
-      view.scene = dimmed(std::move(view.scene), render.light_dimming);
+      view.scene = dimmed(std::move(view.scene), job.light_dimming);
       return view;
     };
   }
@@ -138,8 +136,8 @@ SceneTrials compare_scene(const CompareArgs& args, const std::string& name, cons
   if (const BuiltinScene* listed = find_builtin_scene(name))
     trials.failure = listed->failure, trials.complaint = listed->complaint;
   if (render.verbosity != Verbosity::Quiet) {
-    for (const std::string& warning : prepared.scene().warnings) out.warn(warning);
-    if (!dimming.empty()) out.warn(dimming);
+    for (const std::string& warning : still.scene.scene().warnings) out.warn(warning);
+    if (!still.warning.empty()) out.warn(still.warning);
   }
   return trials;
 }

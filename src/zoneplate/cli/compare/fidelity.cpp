@@ -23,6 +23,7 @@
 #include "zoneplate/formats/import/image_file.h"
 #include "zoneplate/formats/json/json.h"
 #include "zoneplate/image/orientation.h"
+#include "zoneplate/job/options.h"
 #include "zoneplate/job/values.h"
 #include "zoneplate/math/angle.h"
 #include "zoneplate/metrics/compare.h"

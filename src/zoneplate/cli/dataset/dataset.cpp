@@ -15,6 +15,7 @@
 #include "zoneplate/cli/process/confined.h"
 #include "zoneplate/cli/progress.h"
 #include "zoneplate/cli/verbs.h"
+#include "zoneplate/job/options.h"
 #include "zoneplate/job/values.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/scene/builtin/builtin.h"

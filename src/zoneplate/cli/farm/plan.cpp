@@ -23,9 +23,9 @@
 #include "zoneplate/cli/render/batch.h"
 #include "zoneplate/cli/render/batch_items.h"
 #include "zoneplate/cli/render/item_files.h"
-#include "zoneplate/cli/render/job.h"
 #include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/verbs.h"
+#include "zoneplate/job/render_job.h"
 #include "zoneplate/job/values.h"
 
 namespace zoneplate::cli {

@@ -17,10 +17,10 @@
 #include "zoneplate/cli/process/confined.h"
 #include "zoneplate/cli/render/batch_items.h"
 #include "zoneplate/cli/render/item_files.h"
-#include "zoneplate/cli/render/picture.h"
 #include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/cli/version.h"
+#include "zoneplate/job/picture.h"
 
 namespace zoneplate::cli {
 namespace {

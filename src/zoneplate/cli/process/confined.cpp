@@ -14,6 +14,8 @@
 #include "zoneplate/cli/process/packed_plots.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/formats/font/font.h"
+#include "zoneplate/job/import_time.h"
+#include "zoneplate/job/options.h"
 #include "zoneplate/job/values.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/library.h"
@@ -78,19 +80,15 @@ std::vector<std::string> with_fonts(std::vector<std::string> readable) {
 
 std::vector<Option> limit_options(LoadLimits& load, double& seconds, bool& is_sandboxed, const std::string& group,
                                   const std::string& subject) {
-  return {{"--max-memory", "BYTES",
-           "Memory limit of " + subject + ", from reading to the encoded output, for example 512M; default 4G", group,
-           false, [&](auto& text) { load.memory = parse_bytes(text); }},
-          {"--max-pixels", "N", "Reject images and textures with more pixels, for example 16M; default 256M", group,
-           false, [&](auto& text) { load.pixels = parse_bytes(text); }},
-          {"--max-import-seconds", "S", "Time limit of reading a model or an image; default 60", group, false,
-           [&](auto& text) { load.seconds = parse_number(text, 0.001, 1e6); }},
-          {"--max-seconds", "S", "Time limit of " + subject + ", including reading; default: no limit", group, false,
-           [&](auto& text) { seconds = parse_number(text, 0.001, 1e9); }},
-          {"--sandbox", "", "Read and compute in a sandboxed process: the default", group, false,
-           [&](auto&) { is_sandboxed = true; }},
-          {"--no-sandbox", "", "Read and compute without a sandbox, with all rights of the user: for trusted files",
-           group, false, [&](auto&) { is_sandboxed = false; }}};
+  std::vector<Option> options = reading_options(load, group, subject);
+  options.push_back({"--max-seconds", "S", "Time limit of " + subject + ", including reading; default: no limit", group,
+                     false, number(0.001, 1e9, [&](double x) { seconds = x; })});
+  options.push_back({"--sandbox", "", "Read and compute in a sandboxed process: the default", group, false,
+                     [&](auto&) { is_sandboxed = true; }});
+  options.push_back({"--no-sandbox", "",
+                     "Read and compute without a sandbox, with all rights of the user: for trusted files", group, false,
+                     [&](auto&) { is_sandboxed = false; }});
+  return options;
 }
 
 ProgramLimits video_limits(const ReadingLimits& limits) {
@@ -98,11 +96,6 @@ ProgramLimits video_limits(const ReadingLimits& limits) {
   out.bytes = static_cast<std::size_t>(std::min<std::uint64_t>(out.bytes, limits.load.memory));
   if (limits.seconds * 1000 < out.milliseconds) out.milliseconds = static_cast<int>(limits.seconds * 1000) + 1;
   return out;
-}
-
-Option allow_path_option(LoadLimits& load, const std::string& group) {
-  return {"--allow-path", "PATH", "Allow models to read this file or folder outside their own; may be repeated",
-          group,          false,  [&](auto& text) { load.allowed_paths.push_back(text); }};
 }
 
 void Delivery::warn(std::string_view message) {

@@ -37,9 +37,6 @@ inline std::vector<Option> limit_options(ReadingLimits& limits, const std::strin
 /// The limits of a program that decodes or encodes a video.
 ProgramLimits video_limits(const ReadingLimits& limits);
 
-/// The option --allow-path of a verb that reads models.
-Option allow_path_option(LoadLimits& load, const std::string& group = "Limits");
-
 /// The way by which the work of a confined process leaves it: the program itself prints and saves, in the same order.
 class Delivery {
  public:

@@ -13,6 +13,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/process/item_error.h"
 #include "zoneplate/image/rgb.h"
+#include "zoneplate/job/job_sink.h"
 #include "zoneplate/os/library.h"
 
 namespace zoneplate::cli {
@@ -24,7 +25,7 @@ namespace zoneplate::cli {
 enum class TextKind : std::uint8_t { Output, Report, Aside, Warning };
 
 /// The sender of messages; thread-safe.
-class ItemSender {
+class ItemSender final : public JobSink {
  public:
   /// Writes the bytes of each message, in order.
   using Write = std::function<void(std::span<const std::uint8_t>)>;
@@ -33,15 +34,15 @@ class ItemSender {
   /// From now on progress is not sent.
   void mute_progress() { sends_progress_ = false; }
   /// Reports that `stage` begins when the fraction `done` of the whole work, in [0, 1], is complete.
-  void progress(std::string_view stage, double done);
+  void progress(std::string_view stage, double done) override;
   /// Reports that reading is complete, so that its time limit no longer applies; or that the next file is read, for
   /// which the limit begins anew. A job begins by reading.
   /// `input` is the file's name in messages about limits from now on; empty: that of the item.
-  void has_read();
-  void begins_to_read(const std::string& input = {});
+  void has_read() override;
+  void begins_to_read(const std::string& input) override;
   /// Sends a whole file. `frame` is its number in a sequence; `layer` is its index among the data passes, or -1
   /// for the image. The receiver determines the file's name from both.
-  void file(int frame, int layer, std::span<const std::uint8_t> bytes);
+  void file(int frame, int layer, std::span<const std::uint8_t> bytes) override;
   /// Sends a whole file by its name, or the plots of one, which the receiver has drawn (packed_plots.h).
   void named_file(const std::string& name, std::span<const std::uint8_t> bytes);
   void plots(const std::string& name, std::span<const std::uint8_t> bytes);
@@ -49,11 +50,11 @@ class ItemSender {
   void text(TextKind kind, std::string_view text);
   /// A function that sends the progress of a stage which begins at `from` and ends at `to`, in whole per cents that
   /// only rise; any thread may call it with the fraction of the stage that is complete.
-  std::function<void(double)> progress_of(std::string stage, double from, double to);
+  std::function<void(double)> progress_of(std::string stage, double from, double to) override;
   /// Sends a frame of a film that the receiver encodes.
-  void film_frame(const Rgba8Image& image);
+  void film_frame(const Rgba8Image& image) override;
   /// A prepared environment for the cache, by its key (environment_file.h).
-  void environment(std::uint64_t key, std::span<const std::uint8_t> bytes);
+  void environment(std::uint64_t key, std::span<const std::uint8_t> bytes) override;
   /// The end of a job: its result, an error, or the library without which it cannot go on.
   void result(std::span<const std::uint8_t> bytes);
   void failure(ErrorKind kind, const std::string& message, ItemCause cause = ItemCause::Other);

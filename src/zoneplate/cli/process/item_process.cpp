@@ -10,6 +10,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/out_of_memory.h"
 #include "zoneplate/cli/log.h"
+#include "zoneplate/job/import_time.h"
 #include "zoneplate/os/library.h"
 #include "zoneplate/os/memory_limit.h"
 #include "zoneplate/os/sandbox.h"
@@ -21,10 +22,6 @@ namespace {
 /// Seconds after the time limit at which a process that has not ended is killed.
 constexpr double grace = 0.5;
 
-std::string late_reading(const std::string& name, const LoadLimits& limits) {
-  return fmt::format("{}: takes longer to load than the limit of {:.6g} s (--max-import-seconds)", name,
-                     limits.seconds);
-}
 /// `limit` is memory_limit_text of the limits.
 std::string out_of_memory(const std::string& name, const ItemLimits& limits, const std::string& limit,
                           const std::bad_alloc& error, bool has_read) {
@@ -155,10 +152,6 @@ std::vector<std::uint8_t> ItemProcess::next(ItemEvents events) {
     child_.reset();
     throw;
   }
-}
-
-void within_import_time(const std::string& name, const LoadLimits& limits, const std::function<void()>& read) {
-  with_deadline(limits.seconds, ErrorKind::Input, late_reading(name, limits), read);
 }
 
 bool uses_sandbox(bool is_requested) {

@@ -79,11 +79,6 @@ class ItemProcess {
 /// The message about an item that takes longer than its time limit.
 std::string late_item(const std::string& name, double seconds);
 
-/// Reads a model with the limit of import time. Called in an item's process.
-///
-/// Errors    ErrorKind::Input naming the model and the option if the time is exceeded; exceptions of `read`.
-void within_import_time(const std::string& name, const LoadLimits& limits, const std::function<void()>& read);
-
 /// Whether items are sandboxed. Warns, once per process, if they are and a part of the sandbox is missing here.
 bool uses_sandbox(bool is_requested);
 

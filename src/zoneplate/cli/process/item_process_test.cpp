@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/cli/process/item_process.h"
+#include "zoneplate/job/import_time.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -167,11 +168,11 @@ TEST(ItemProcess, TimeIsKeptWithAndWithoutItsHelp) {
   // The limit of reading counts neither what happens between files nor the file before.
   hurried.load.seconds = 1;
   const auto between_files = [](ItemSender& sender) {
-    sleep_seconds(0.9), sender.has_read(), sleep_seconds(1), sender.begins_to_read(), sleep_seconds(0.1);
+    sleep_seconds(0.9), sender.has_read(), sleep_seconds(1), sender.begins_to_read(""), sleep_seconds(0.1);
     throw Error(ErrorKind::Input, "read");
   };
   EXPECT_EQ(ending_of(between_files, hurried), (Ending{ErrorKind::Input, "read"}));
-  const auto late_second = [](ItemSender& sender) { sender.has_read(), sender.begins_to_read(), sleep_seconds(100); };
+  const auto late_second = [](ItemSender& sender) { sender.has_read(), sender.begins_to_read(""), sleep_seconds(100); };
   hurried.load.seconds = 0.05;
   EXPECT_EQ(ending_of(late_second, hurried), late);
 

@@ -15,70 +15,32 @@
 #include "zoneplate/codec/system/encoder_library.h"
 #include "zoneplate/job/output/film.h"
 #include "zoneplate/job/output/frame_name.h"
+#include "zoneplate/job/picture.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {
 namespace {
 
-/// Appends the upscaler to the method. A temporal one jitters its own samples: it follows `none`.
-void append_upscaler(RenderArgs& args) {
-  if (args.upscaler.empty()) {
-    if (args.render_scale) throw Error(ErrorKind::Usage, "--render-scale requires --upscale, for example fsr1");
-    return;
-  }
-  const Upscaler* const row = find_row(upscale::upscalers(), args.upscaler);
-  if (row != nullptr && row->make_temporal && !args.has_method) args.method = "none";
-  args.method += '+' + args.upscaler;
-  if (args.render_scale)
-    args.method +=
-        fmt::format("{}scale={}", args.upscaler.find(':') == std::string::npos ? ':' : ',', *args.render_scale);
-  args.upscaler.clear(), args.render_scale.reset();
-}
-
 bool is_one_of(const std::string& word, std::initializer_list<const char*> words) {
   return std::find(words.begin(), words.end(), word) != words.end();
 }
 
-void check_output(RenderArgs& args) {
+void check_output(const RenderArgs& args) {
   if (args.output.empty()) throw Error(ErrorKind::Usage, "no output: give -o OUT.png, or -o - for stdout");
-  const bool is_film = extension_of(args.output) == ".apng" || is_encoded_by_ffmpeg(args.output);
-  args.sequence.is_film = is_film || args.frame_place;
   if (args.output == "-") {
     if (!args.aovs.empty() && args.stdout_format != "exr")
       throw Error(ErrorKind::Usage, "--aov writes files next to OUT, which cannot be -; an .exr contains the passes");
-    if (args.sequence.is_sequence()) throw Error(ErrorKind::Usage, "several frames cannot be written to -");
+    if (args.sequence.requests_frames()) throw Error(ErrorKind::Usage, "several frames cannot be written to -");
     return;
   }
+  if (args.stdout_format != "png")
+    throw Error(ErrorKind::Usage, "--output-format requires -o -: otherwise the extension of OUT selects the format");
   std::error_code ignored;
   if (std::filesystem::is_directory(args.output, ignored))
     throw Error(ErrorKind::Output, args.output + ": is a directory; write into it with a / at its end");
-  if (!is_film) check_picture_ending(args.output);
+  if (!is_video(args.output)) check_picture_ending(args.output);
   open_encoder_library(extension_of(args.output), args.output);
-}
-
-// Refuses options of the command line that change nothing for this kind of output. Those of the configuration are for
-// all kinds.
-void check_effects(const RenderArgs& args, const std::string& ending) {
-  const auto refuse = [](const std::string& cause) { throw Error(ErrorKind::Usage, cause); };
-  const SequenceArgs& sequence = args.sequence;
-  const bool is_linear = ending == ".exr" || ending == ".pfm";
-  const bool is_frame = !sequence.is_sequence() || args.frame_place;
-  if (args.file.jpeg_quality && ending != ".jpg" && ending != ".jpeg")
-    refuse("--jpeg-quality is for .jpg; --webp-quality is for .webp, and --png-compression for .png");
-  if (args.file.webp_quality && (ending != ".webp" || !is_frame)) refuse("--webp-quality is for .webp with one image");
-  if (args.file.is_small_png && ending != ".png") refuse("--png-compression is for .png");
-  if (args.file.exr_compression && ending != ".exr") refuse("--exr-compression is for .exr");
-  if (args.tone_mapping.value_or(ToneMapping::None) != ToneMapping::None && is_linear)
-    refuse("--tone-mapping: .exr and .pfm contain linear light, before tone mapping");
-  if (args.tone_mapping.value_or(ToneMapping::None) != ToneMapping::None && args.display.raw)
-    refuse("--tone-mapping does not go with --color-management raw");
-  if ((args.default_material.metallic || args.default_material.roughness) &&
-      args.shading_model.value_or(ShadingModel::MetallicRoughness) != ShadingModel::MetallicRoughness)
-    refuse("--metallic and --roughness are those of --shading-model pbr");
-  if (!sequence.is_sequence() && sequence.rate != SequenceArgs{}.rate)
-    refuse("--frame-rate requires a sequence: --frames, --frame-start, --frame-end or --turntable");
-  if (!sequence.shutter && sequence.shutter_samples != SequenceArgs{}.shutter_samples)
-    refuse("--shutter-samples requires --shutter");
 }
 
 // A single operand that is a list of jobs is the manifest.
@@ -115,94 +77,15 @@ Shard shard_of(const RenderArgs& args) {
 
 }  // namespace
 
-bool is_picture_ending(const std::string& extension) {
-  return is_one_of(extension, {".png", ".jpg", ".jpeg", ".webp", ".avif", ".jxl", ".pfm", ".exr", ".rgba"});
-}
-
-void check_picture_ending(const std::string& output) {
-  if (output != "-" && !is_picture_ending(extension_of(output)))
-    throw Error(
-        ErrorKind::Usage,
-        fmt::format(
-            "--output: {} is not a format that can be written (images: .png, .jpg, .webp, .avif, .jxl, .exr, .pfm, "
-            ".rgba; videos: .apng, .webp, .gif, .mp4, .mov, .mkv, .webm)",
-            output));
-}
-
-void check_environment(RenderArgs& args) {
-  if (args.options.background) {
-    if (args.display.is_transparent)
-      throw Error(ErrorKind::Usage, "--background environment is opaque: it does not go with --no-background");
-    args.options.background->blur = args.background_blur;
-  } else if (args.background_blur > 0) {
-    throw Error(ErrorKind::Usage, "--background-blur requires --background environment");
-  }
-  if (args.environment_color) args.lighting.environment = Environment{.color = *args.environment_color};
-  if (args.is_in_studio) args.lighting.environment = Environment{.color = {1, 1, 1}, .is_in_camera_space = true};
-  if (args.hdri_file.empty()) {
-    if (args.hdri_rotation != 0 || args.hdri_intensity != 1 || args.hdri_layout)
-      throw Error(ErrorKind::Usage, "--hdri-rotation, --hdri-intensity and --hdri-layout require --hdri-file");
-    return;
-  }
-  if (args.environment_color || args.is_in_studio)
-    throw Error(ErrorKind::Usage, "--environment and --hdri-file both name an environment: give one of them");
-  args.lighting.environment =
-      Environment{.color = {1, 1, 1}, .rotation = args.hdri_rotation, .strength = args.hdri_intensity};
-}
-
-std::optional<std::int64_t> SequenceArgs::last_frame() const {
-  if (last) return *last;
-  if (count) return first_frame() + std::int64_t{*count - 1} * jump;
-  if (turntable) return std::int64_t{*turntable} - 1;
-  return std::nullopt;
-}
-
 void set_output(RenderArgs& args, const std::string& pattern, std::uint64_t index) {
   OutputName name = output_name(pattern, args.input, index, args.sequence.requests_frames());
   args.output = std::move(name.text), args.frame_place = name.frame;
 }
 
 void check_args(RenderArgs& args) {
-  append_upscaler(args);
   check_output(args);
-  check_environment(args);
-  const std::string ending = extension_of(args.named_output());
-  if (ending == ".exr" && !args.background && !args.options.background) args.display.is_transparent = true;
-  if (args.options.opaque_glass && !args.display.is_transparent)
-    throw Error(ErrorKind::Usage, "--opaque-glass requires a transparent background (--no-background)");
-  if (args.output != "-" && args.stdout_format != "png")
-    throw Error(ErrorKind::Usage, "--output-format requires -o -: otherwise the extension of OUT selects the format");
-  if (args.options.ground == GroundKind::Shadow && !has_visibility(args.options))
-    throw Error(ErrorKind::Usage, "--ground shadow requires --shadows or --ambient-occlusion");
-  if (args.bit_depth == 16 && ending != ".png" && ending != ".rgba")
-    throw Error(ErrorKind::Usage, "--bit-depth: only .png and .rgba have 16 bits");
-  if (args.display.is_transparent || (args.background && args.background->w < 1))
-    check_alpha(ending, args.named_output());
-  if (args.dithers && (args.bit_depth == 16 || ending == ".pfm" || ending == ".exr"))
-    throw Error(ErrorKind::Usage, "--dither is for 8 bits a channel");
-  if (args.sequence.jump != 1 && !args.sequence.is_sequence())
-    throw Error(ErrorKind::Usage,
-                "--frame-jump requires a sequence: --frames, --frame-start, --frame-end or --turntable");
-  if (args.sequence.shutter && !args.sequence.is_sequence())
-    throw Error(ErrorKind::Usage, "--shutter requires a sequence: --frames, --frame-start, --frame-end or --turntable");
-  if (args.sequence.shutter && (!args.aovs.empty() || args.options.crop))
-    throw Error(ErrorKind::Usage, "--shutter goes with neither --aov nor --crop");
-  if (args.sequence.shutter_filter != ShutterFilter::Box && !args.sequence.shutter)
-    throw Error(ErrorKind::Usage, "--shutter-filter requires --shutter");
-  for (const Aov* aov : args.aovs) {
-    if ((aov->plane == &Planes::motion || aov->plane == &Planes::flow) && !args.sequence.is_sequence())
-      throw Error(ErrorKind::Usage,
-                  fmt::format("--aov {} requires a sequence, or a frame of one: -s 5 -e 5", aov->name));
-    if (aov->plane == &Planes::sample_triangles && ending == ".pfm")
-      throw Error(ErrorKind::Usage,
-                  fmt::format("--aov {} requires an .exr, or an image format such as .png", aov->name));
-  }
-  const bool has_animation = args.load.choice.animation || !args.load.choice.animation_name.empty();
-  if (args.has_animation_time && !has_animation && !args.sequence.is_sequence()) args.load.choice.animation = 0;
-  if (const auto& crop = args.options.crop)
-    if (crop->x + crop->width > args.options.width || crop->y + crop->height > args.options.height)
-      throw Error(ErrorKind::Usage, fmt::format("--crop: the rectangle is not inside the image of {}x{}",
-                                                args.options.width, args.options.height));
+  args.sequence.skips_finished = args.skip_existing;
+  check_job(args);
 }
 
 std::optional<RenderArgs> parse_render_args(std::span<const std::string> arguments,
@@ -234,7 +117,7 @@ std::optional<RenderArgs> parse_render_args(std::span<const std::string> argumen
   RenderArgs item = args;
   set_output(item, args.output, 0);
   first.output = item.output, first.frame_place = item.frame_place;
-  check_effects(first, extension_of(item.named_output()));
+  check_effects(first);
   if (!args.is_batch() && (first.grace > 0 || first.retries > 0))
     throw Error(ErrorKind::Usage,
                 "--grace and --retries are for batches: give several inputs, a manifest or a --ledger");

@@ -23,8 +23,10 @@
 #include "zoneplate/cli/process/item_error.h"
 #include "zoneplate/cli/render/item_files.h"
 #include "zoneplate/cli/render/items.h"
+#include "zoneplate/cli/render/job_report.h"
 #include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/verbs.h"
+#include "zoneplate/job/render_job.h"
 #include "zoneplate/os/memory_limit.h"
 
 namespace zoneplate::cli {

@@ -6,7 +6,7 @@
 
 #include "zoneplate/cli/render/args.h"
 #include "zoneplate/cli/render/batch_items.h"
-#include "zoneplate/cli/render/summary.h"
+#include "zoneplate/job/summary.h"
 
 namespace zoneplate::cli {
 

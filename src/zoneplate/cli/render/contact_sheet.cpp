@@ -13,12 +13,16 @@
 #include "zoneplate/base/size_text.h"
 #include "zoneplate/cli/batch/input_names.h"
 #include "zoneplate/cli/process/item_process.h"
-#include "zoneplate/cli/render/environment_file.h"
+#include "zoneplate/cli/render/environment_cache.h"
 #include "zoneplate/cli/render/item_files.h"
-#include "zoneplate/cli/render/picture.h"
 #include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/verbs.h"
+#include "zoneplate/codec/save.h"
 #include "zoneplate/formats/load.h"
+#include "zoneplate/job/environment_file.h"
+#include "zoneplate/job/import_time.h"
+#include "zoneplate/job/picture.h"
+#include "zoneplate/job/resolve.h"
 #include "zoneplate/job/values.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/render/metering/metering.h"
@@ -69,14 +73,11 @@ std::vector<std::uint8_t> render_cell(RenderArgs render, ItemSender& sender) {
   if (!render.hdri_file.empty()) complete_environments(environments, render, {}, sender);
   within_import_time(render.input, render.load.limits, [&] { scene = load_scene(render.input, render.load); });
   sender.has_read();
-  const Camera camera = choose_own_camera(render, scene);
-  render.display.mapping = set_look(render, scene);
-  Renderer renderer(PreparedScene(std::move(scene)), upscale::make_method(render.method));
-  const std::string dimming = set_light_dimming(render, renderer.scene(), "");
-  if (!dimming.empty()) sender.text(TextKind::Warning, dimming);
-  renderer.set_scene(dimmed(renderer.scene(), render.light_dimming));
-  if (render.meters_exposure) render.display.exposure = metered_exposure(renderer.scene(), camera, render);
-  const Rgba8Image picture = renderer.render_still(camera, settings_of(render, "")).display;
+  convert_materials(render, scene);
+  const LitStill still = light_still(render, PreparedScene(std::move(scene), render.mips), false);
+  if (!still.warning.empty()) sender.text(TextKind::Warning, still.warning);
+  Renderer renderer(still.scene, upscale::make_method(render.method));
+  const Rgba8Image picture = renderer.render_still(still.camera, settings_of(still.job, "")).display;
   const auto* first = reinterpret_cast<const std::uint8_t*>(picture.values().data());
   return {first, first + picture.values().size_bytes()};
 }

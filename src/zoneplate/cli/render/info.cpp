@@ -12,6 +12,8 @@
 #include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/formats/load.h"
+#include "zoneplate/job/import_time.h"
+#include "zoneplate/job/options.h"
 #include "zoneplate/job/values.h"
 #include "zoneplate/report/json.h"
 #include "zoneplate/report/scene_contents.h"

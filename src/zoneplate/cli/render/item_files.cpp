@@ -2,6 +2,7 @@
 #include "zoneplate/cli/render/item_files.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -10,8 +11,8 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/sha256.h"
 #include "zoneplate/cli/batch/whole_file.h"
-#include "zoneplate/cli/render/environment_file.h"
-#include "zoneplate/cli/render/picture.h"
+#include "zoneplate/job/environment_file.h"
+#include "zoneplate/job/picture.h"
 #include "zoneplate/os/file.h"
 
 namespace zoneplate::cli {
@@ -72,6 +73,14 @@ void check_own_files(const RenderArgs& args) {
   if (const auto collision = files.find_collision())
     throw Error(ErrorKind::Usage,
                 fmt::format("{} would be written to {}, which is read as well", args.input, collision->path));
+}
+
+void check_outputs(const RenderArgs& args) {
+  if (args.output == "-" && ::isatty(STDOUT_FILENO) == 1)
+    throw Error(ErrorKind::Usage, "an image will not be written to a terminal");
+  const int frame = args.sequence.first.value_or(0);
+  for (int layer = -1; layer < static_cast<int>(args.aovs.size()); ++layer)
+    check_savable(output_path(args, frame, layer));
 }
 
 std::string job_digest(const RenderArgs& args) {

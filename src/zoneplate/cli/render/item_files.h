@@ -13,6 +13,11 @@ namespace zoneplate::cli {
 /// Adds all files that an item writes, and those that it reads and that an image could replace. `item` is its number.
 void add_files(const RenderArgs& args, std::uint64_t item, OutputFiles& files);
 
+/// Fails early, and not after a long rendering, if one of the item's files cannot be written.
+///
+/// Errors    ErrorKind::Output; ErrorKind::Usage for a terminal.
+void check_outputs(const RenderArgs& args);
+
 /// Errors    ErrorKind::Usage if the item would write a file that it reads.
 void check_own_files(const RenderArgs& args);
 

@@ -9,8 +9,12 @@
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/cli/render/item_files.h"
+#include "zoneplate/cli/render/packed_summary.h"
+#include "zoneplate/cli/usage.h"
 #include "zoneplate/cli/version.h"
+#include "zoneplate/job/environment_file.h"
 #include "zoneplate/job/output/film.h"
+#include "zoneplate/job/picture.h"
 #include "zoneplate/os/cache_folder.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/shade/environment/prepared_environment.h"
@@ -64,7 +68,9 @@ RenderItems::RenderItems(std::vector<RenderArgs> items, LimitedChildren* sibling
       process_(limits_of(items_, siblings), items_.size(),
                [this, jobs = std::make_shared<RenderJobs>()](std::size_t i, ItemSender& sender) {
                  if (progress_of(items_[i]) == ProgressKind::None) sender.mute_progress();
-                 return pack_summary(jobs->run(items_[i], sender));
+                 Summary summary = jobs->run(items_[i], sender);
+                 summary.peak_memory = peak_memory();
+                 return pack_summary(summary);
                }) {}
 
 /// A file that has its name now.

@@ -6,7 +6,8 @@
 #include "zoneplate/base/sha256.h"
 #include "zoneplate/cli/batch/ledger.h"
 #include "zoneplate/cli/process/item_process.h"
-#include "zoneplate/cli/render/job.h"
+#include "zoneplate/cli/render/args.h"
+#include "zoneplate/job/render_job.h"
 
 namespace zoneplate::cli {
 

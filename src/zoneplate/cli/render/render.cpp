@@ -7,6 +7,7 @@
 #include "zoneplate/cli/render/batch.h"
 #include "zoneplate/cli/render/item_files.h"
 #include "zoneplate/cli/render/items.h"
+#include "zoneplate/cli/render/job_report.h"
 #include "zoneplate/cli/usage.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/upscale/upscaler.h"

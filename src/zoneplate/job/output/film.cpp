@@ -97,6 +97,8 @@ AnimationFormat film_format(double rate) {
 
 bool is_encoded_by_ffmpeg(const std::string& output) { return find_codec(output) != nullptr; }
 
+bool is_video(const std::string& output) { return extension_of(output) == ".apng" || is_encoded_by_ffmpeg(output); }
+
 bool has_even_sides(const std::string& output) {
   const Codec* const codec = find_codec(output);
   return codec != nullptr && codec->has_even_sides;

@@ -21,6 +21,9 @@ AnimationFormat film_format(double rate);
 /// True for the name of a video that the program ffmpeg encodes: .mp4, .mov, .mkv, .webm or .gif.
 bool is_encoded_by_ffmpeg(const std::string& output);
 
+/// True for the name of a video, which is never a still image: .apng, or is_encoded_by_ffmpeg.
+bool is_video(const std::string& output);
+
 /// True if such a video has sides of even numbers of pixels: .mp4, .mov and .mkv.
 bool has_even_sides(const std::string& output);
 

@@ -3,11 +3,11 @@
 
 #include <optional>
 
-#include "zoneplate/cli/render/args.h"
 #include "zoneplate/codec/exr/exr_encode.h"
+#include "zoneplate/job/job.h"
 #include "zoneplate/scene/camera.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 
 /// The standard attributes of an image in OpenEXR: software, chromaticities, worldToCamera, worldToNDC, the distances
 /// of the clip planes (cameraNearClip, cameraFarClip, as V-Ray writes them) and, of a frame of a sequence,
@@ -18,6 +18,6 @@ namespace zoneplate::cli {
 ///           top-left and (1, 1) at the bottom-right corner of the image, or of the crop. The world is that of the
 ///           file: `origin` is Scene::origin.
 /// Source    OpenEXR, Standard Attributes, openexr.com.
-ExrAttributes exr_header(const RenderArgs& args, const Camera& camera, double3 origin, std::optional<int> frame);
+ExrAttributes exr_header(const Job& job, const Camera& camera, double3 origin, std::optional<int> frame);
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/render/exr_header.h"
+#include "zoneplate/job/exr_header.h"
 
 #include <cmath>
 
 #include "zoneplate/math/mat.h"
 #include "zoneplate/version.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 namespace {
 
 // A matrix that multiplies row vectors has our columns as its rows.
@@ -64,23 +64,23 @@ ExrTimeCode time_code(int frame, int per_second) {
 
 }  // namespace
 
-ExrAttributes exr_header(const RenderArgs& args, const Camera& camera, double3 origin, std::optional<int> frame) {
+ExrAttributes exr_header(const Job& job, const Camera& camera, double3 origin, std::optional<int> frame) {
   const float4x4 camera_from_world = inverse(camera.world_from_camera);
-  const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
+  const float aspect = static_cast<float>(job.options.width) / static_cast<float>(job.options.height);
   ExrAttributes out;
   out.emplace_back("software", std::string("Zoneplate ") + version);
-  if (!args.display.raw) out.emplace_back("chromaticities", rec709_chromaticities);
+  if (!job.display.raw) out.emplace_back("chromaticities", rec709_chromaticities);
   out.emplace_back("worldToCamera", exr_matrix(from_file(mirrored_z * camera_from_world, origin)));
-  const float4x4 ndc_from_world = ndc_from_clip(args.options) * camera.clip_from_camera(aspect) * camera_from_world;
+  const float4x4 ndc_from_world = ndc_from_clip(job.options) * camera.clip_from_camera(aspect) * camera_from_world;
   out.emplace_back("worldToNDC", exr_matrix(from_file(ndc_from_world, origin)));
   out.emplace_back("cameraNearClip", camera.near);
   out.emplace_back("cameraFarClip", camera.far);
-  if (!args.sequence.is_sequence()) return out;
-  out.emplace_back("framesPerSecond", rational(args.sequence.rate));
-  const double nominal = std::round(args.sequence.rate);
+  if (!job.sequence.is_sequence()) return out;
+  out.emplace_back("framesPerSecond", rational(job.sequence.rate));
+  const double nominal = std::round(job.sequence.rate);
   if (frame && *frame >= 0 && nominal >= 1 && nominal <= 30)
     out.emplace_back("timeCode", time_code(*frame, static_cast<int>(nominal)));
   return out;
 }
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/render/option_values.h"
+#include "zoneplate/job/option_values.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 #include "zoneplate/job/values.h"
 #include "zoneplate/upscale/upscaler.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 namespace {
 
 struct MipFilterRow {
@@ -141,4 +141,4 @@ ShutterFilter parse_shutter_filter(const std::string& text) {
   throw Error(ErrorKind::Usage, fmt::format("'{}' is not box, triangle or gaussian", text));
 }
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

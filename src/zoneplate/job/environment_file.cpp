@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/render/environment_file.h"
+#include "zoneplate/job/environment_file.h"
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <new>
 #include <optional>
 #include <string_view>
@@ -12,9 +11,9 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/out_of_memory.h"
-#include "zoneplate/cli/process/item_process.h"
 #include "zoneplate/formats/import/image_file.h"
 #include "zoneplate/formats/import/import_budget.h"
+#include "zoneplate/job/import_time.h"
 #include "zoneplate/os/cache_folder.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/mapped_file_guard.h"
@@ -23,17 +22,12 @@
 #include "zoneplate/shade/environment/prepared_environment.h"
 #include "zoneplate/shade/environment/studio.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 namespace {
 
 using Map = std::shared_ptr<const PreparedEnvironment>;
 
 constexpr std::string_view environment_extension = ".env";
-
-std::string absolute_variable(const char* name) {
-  const char* const value = std::getenv(name);
-  return value != nullptr && value[0] == '/' ? value : "";
-}
 
 /// The environment of a file of the cache; null where there is none, or a damaged one.
 Map read_cached(const std::string& cache, std::uint64_t key) {
@@ -57,12 +51,6 @@ Map find_or_make(const std::string& cache, std::uint64_t key, const Environments
 
 }  // namespace
 
-std::string environment_cache() {
-  if (const std::string cache = absolute_variable("XDG_CACHE_HOME"); !cache.empty()) return cache + "/zoneplate";
-  const std::string home = absolute_variable("HOME");
-  return home.empty() ? "" : home + "/.cache/zoneplate";
-}
-
 std::string environment_name(std::uint64_t key) { return fmt::format("{:016x}{}", key, environment_extension); }
 
 void store_environment(const std::string& cache, std::uint64_t key, std::span<const std::uint8_t> bytes) {
@@ -72,9 +60,9 @@ void store_environment(const std::string& cache, std::uint64_t key, std::span<co
   folder->trim(environment_extension, most_cache_bytes);
 }
 
-std::vector<std::string> environment_files(const RenderArgs& args) {
+std::vector<std::string> environment_files(const Job& job) {
   constexpr std::string_view face = "{face}";
-  const std::string& name = args.hdri_file;
+  const std::string& name = job.hdri_file;
   if (name.empty()) return {};
   const std::size_t at = name.find(face);
   if (at == name.npos) return {name};
@@ -110,19 +98,19 @@ struct EnvironmentSource {
   std::vector<std::string> names;
   std::vector<FileBytes> files;
 
-  EnvironmentSource(const RenderArgs& args) : names(environment_files(args)) {
-    for (const std::string& name : names) files.emplace_back(name, args.load.limits.memory);
+  EnvironmentSource(const Job& job) : names(environment_files(job)) {
+    for (const std::string& name : names) files.emplace_back(name, job.load.limits.memory);
   }
 
   /// The number of the prepared environment.
-  std::uint64_t key(const RenderArgs& args) const {
-    std::vector<std::uint64_t> parts = {args.hdri_layout ? 1 + static_cast<std::uint64_t>(*args.hdri_layout) : 0};
+  std::uint64_t key(const Job& job) const {
+    std::vector<std::uint64_t> parts = {job.hdri_layout ? 1 + static_cast<std::uint64_t>(*job.hdri_layout) : 0};
     for (const FileBytes& file : files) parts.push_back(content_hash(file.bytes()));
     return content_hash({reinterpret_cast<const std::uint8_t*>(parts.data()), parts.size() * sizeof parts[0]});
   }
 
-  CubeImage cube(const RenderArgs& args) const {
-    const LoadLimits& limits = args.load.limits;
+  CubeImage cube(const Job& job) const {
+    const LoadLimits& limits = job.load.limits;
     std::uint64_t need = 0;
     for (const FileBytes& file : files) need += decoded_image_memory(file.bytes()) + image_working_memory(file.bytes());
     ImportBudget(names.front(), limits).take(need);
@@ -131,62 +119,61 @@ struct EnvironmentSource {
       images.push_back(decode_image(files[k].bytes(), names[k], limits.pixels).whole());
     if (images.size() > 1) return cube_of(strip_of(images, names), EnvironmentLayout::Strip);
     const TexelImage& image = images.front();
-    return cube_of(image, args.hdri_layout.value_or(layout_of(image.width(), image.height())));
+    return cube_of(image, job.hdri_layout.value_or(layout_of(image.width(), image.height())));
   }
 };
 
 /// Calls `read` within the limit of time. Errors about limits name the image, not the model that it lights.
-void read_environment(const RenderArgs& args, const std::function<void()>& read) {
+void read_environment(const Job& job, const std::function<void()>& read) {
   try {
-    within_import_time("--hdri-file " + args.hdri_file, args.load.limits, read);
+    within_import_time("--hdri-file " + job.hdri_file, job.load.limits, read);
   } catch (const std::bad_alloc&) {
     throw Error(ErrorKind::Input,
-                fmt::format("--hdri-file {}: reading it needs more memory than the limit of {}", args.hdri_file,
-                            memory_limit_text(args.load.limits.memory, "--max-memory")));
+                fmt::format("--hdri-file {}: reading it needs more memory than the limit of {}", job.hdri_file,
+                            memory_limit_text(job.load.limits.memory, "--max-memory")));
   }
 }
 
 }  // namespace
 
-Map Environments::load(const RenderArgs& args, const Store& store, const Progress& progress) const {
+Map Environments::load(const Job& job, const Store& store, const Progress& progress) const {
   const MappedFileWatch watch;
   std::optional<EnvironmentSource> source;
-  read_environment(args, [&] { source.emplace(args); });
-  const Map map = find_or_make(args.cache, source->key(args), store, [&] {
+  read_environment(job, [&] { source.emplace(job); });
+  const Map map = find_or_make(job.cache, source->key(job), store, [&] {
     CubeImage cube;
-    read_environment(args, [&] { cube = source->cube(args); });
+    read_environment(job, [&] { cube = source->cube(job); });
     return PreparedEnvironment(cube, progress);
   });
-  watch.check(args.hdri_file);
+  watch.check(job.hdri_file);
   return map;
 }
 
-void Environments::complete(RenderArgs& args, const Store& store, const Progress& progress) {
-  args.lighting.studio = [this, cache = args.cache, store] {
+void Environments::complete(Job& job, const Store& store, const Progress& progress) {
+  job.lighting.studio = [this, cache = job.cache, store] {
     if (!studio_) studio_ = find_or_make(cache, studio_key_number(), store, prepare_studio);
     return studio_;
   };
-  if (args.is_in_studio) args.lighting.environment->map = args.lighting.studio();
-  if (args.hdri_file.empty()) return;
+  if (job.is_in_studio) job.lighting.environment->map = job.lighting.studio();
+  if (job.hdri_file.empty()) return;
   const std::string key =
-      fmt::format("{} {}", args.hdri_layout ? static_cast<int>(*args.hdri_layout) : -1, args.hdri_file);
+      fmt::format("{} {}", job.hdri_layout ? static_cast<int>(*job.hdri_layout) : -1, job.hdri_file);
   if (key != key_) {
-    map_ = load(args, store, progress);
+    map_ = load(job, store, progress);
     key_ = key;
   }
-  args.lighting.environment->map = map_;
+  job.lighting.environment->map = map_;
 }
 
-void complete_environments(Environments& environments, RenderArgs& args, const Environments::Store& store,
-                           ItemSender& sender) {
+void complete_environments(Environments& environments, Job& job, const Environments::Store& store, JobSink& sink) {
   bool is_filtering = false;
-  if (!args.hdri_file.empty()) sender.begins_to_read("--hdri-file " + args.hdri_file);
-  const auto report = sender.progress_of("environment", 0, 0.1);
-  environments.complete(args, store, [&](double done) {
-    if (!is_filtering) sender.has_read(), is_filtering = true;
-    report(done);
+  if (!job.hdri_file.empty()) sink.begins_to_read("--hdri-file " + job.hdri_file);
+  const auto report = sink.progress_of("environment", 0, 0.1);
+  environments.complete(job, store, [&](double done) {
+    if (!is_filtering) sink.has_read(), is_filtering = true;
+    if (report) report(done);
   });
-  if (is_filtering || !args.hdri_file.empty()) sender.begins_to_read();
+  if (is_filtering || !job.hdri_file.empty()) sink.begins_to_read("");
 }
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

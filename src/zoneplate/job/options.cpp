@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/render/args.h"
+#include "zoneplate/job/options.h"
 
 #include <fmt/format.h>
 
@@ -10,72 +10,20 @@
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/spec.h"
-#include "zoneplate/cli/process/confined.h"
-#include "zoneplate/cli/render/environment_file.h"
-#include "zoneplate/cli/render/option_values.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/job/look/shadow_args.h"
 #include "zoneplate/job/look/solid_texture.h"
+#include "zoneplate/job/option_values.h"
 #include "zoneplate/job/values.h"
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/upscale/upscaler.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 namespace {
 
-constexpr const char* examples =
-    "  zoneplate teapot -o teapot.png\n"
-    "  zoneplate render chair.glb -o chair.png --size 1024x768 --aa ssaa:n=4\n"
-    "  zoneplate render chair.glb -o chair.png --camera-azimuth-angle 120 --no-background\n"
-    "  zoneplate render chair.obj -o - --quiet | display\n"
-    "  zoneplate render chair.glb -o chair.png --aov depth,normal --json\n";
-
-constexpr const char* notes =
-    "IN is a model file (.gltf, .glb, .obj, .ply, .stl or others: zoneplate list formats), - for stdin, or a built-in\n"
-    "scene (zoneplate list scenes). Data passes are written next to OUT: chair.png, chair.depth.png.\n"
-    "\n"
-    "Camera: without camera options the whole scene is in view, three-quarter from above (azimuth 30, elevation 20\n"
-    "degrees, view angle 30), or from behind or below where single-sided surfaces would show their backs alone, which\n"
-    "are not drawn; built-in scenes that have a camera use it. Cameras of a file are used with --camera-index only.\n"
-    "Azimuth and elevation set the direction of the whole-scene view, 0 and 0 being the front;\n"
-    "with a position or an index they turn that camera about its focal point.\n"
-    "\n"
-    "Light: a scene without lights gets a studio made in code, which turns with the camera: soft boxes, which metals\n"
-    "reflect, and a key light, displayed by the Neutral tone curve. (Blinn-)Phong materials get a key, a fill and a\n"
-    "back light instead. --hdri-file and --environment replace them. A glTF file with lights of its own has\n"
-    "the studio's environment at 0.15 without these options, so that nothing is black, and is dimmed if it would be\n"
-    "white; --lights file is its light alone, --lights default ignores its lights, --lights both adds the studio, and\n"
-    "--exposure auto adapts to lights of any strength.\n"
-    "\n"
-    "Sequences: frame F has the time F / rate seconds of the animation. OUT contains the frame number, as\n"
-    "chair.####.png, chair.@@@@.png, chair.$F4.png, chair%04d.png or chair_{frame:04}.png, or is a video. GIF, MP4 and "
-    "WebM require the program\n"
-    "ffmpeg; their colours are BT.709, and tagged so.\n"
-    "\n"
-    ".exr and .pfm: linear light without tone mapping. An .exr is transparent unless --background is given; its "
-    "header\n"
-    "has the camera, worldToCamera and worldToNDC, and the frame rate of a sequence.\n"
-    "\n"
-    "Batches: several IN require a folder as OUT, as thumbs/, or a name with placeholders: {model} and {ext} (file "
-    "name\n"
-    "and extension of IN), {dir} (its folder), {index} or {index:4} (its number). Each item prints one line, which is\n"
-    "JSON if stdout is not a terminal. Two items never write the same file. A folder as IN stands for all models in "
-    "it\n"
-    "and in its folders; the folders of outputs are created.\n"
-    "\n"
-    "Configuration: lines of the form `size = 512` or `no-background` are options of every run; those after a line\n"
-    "[NAME] belong to --preset NAME. Options of the command line take precedence.\n"
-    "\n"
-    "Colours are sRGB: red, #f80, #ff8800, #ff880080 or 1,0.5,0.\n"
-    "\n"
-    "Exit codes: 0 success, 1 rendering failed, 2 wrong usage, 3 input missing, corrupt or unsupported,\n"
-    "4 output or reports cannot be written, 5 some of several items failed, 128+n terminated by signal n. No partial "
-    "files\n"
-    "remain.\n";
-
 /// The options of a level of --quality: 0 fast, 1 default, 2 best.
-void set_quality(RenderArgs& a, int level) {
-  const RenderArgs usual;
+void set_quality(Job& a, int level) {
+  const Job usual;
   a.method = level == 0 ? "msaa:n=4" : level == 1 ? usual.method : "msaa:n=16,alpha=samples";
   if (level == 1) a.anisotropy.reset();
   if (level != 1) a.anisotropy = level == 0 ? 1 : 16;
@@ -84,13 +32,13 @@ void set_quality(RenderArgs& a, int level) {
   a.options.ground = level == 2 ? GroundKind::Shadow : usual.options.ground;
 }
 
-std::vector<Option> input_options(RenderArgs& a) {
+std::vector<Option> input_options(Job& a) {
   const std::string group = "Input";
   return {
       {"--format", "NAME", "Read IN as this format, for example stl or glb; required if IN is -", group, false,
        [&](auto& text) { a.load.format = text; }},
       {"--scene", "N", "Index of the scene of a glTF file, from 0; default: the file's default scene", group, false,
-       [&](auto& text) { a.load.choice.scene = parse_whole(text, 0, 1 << 20); }},
+       whole(0, 1 << 20, [&](int n) { a.load.choice.scene = n; })},
       {"--variant", "NAME", "Material variant of a glTF file, by name (KHR_materials_variants)", group, false,
        [&](auto& text) { a.load.choice.variant = text; }},
       {"--animation-index", "N",
@@ -105,77 +53,45 @@ std::vector<Option> input_options(RenderArgs& a) {
                                             : std::nullopt;
        }},
       {"--animation-time", "S", "Time in the animation, in seconds; for a sequence, the time of frame 0", group, false,
-       [&](auto& text) {
-         a.load.choice.time = parse_number(text, 0, 1e6);
-         a.has_animation_time = true;
-       }},
+       number(0, 1e6,
+              [&](double x) {
+                a.load.choice.time = x;
+                a.has_animation_time = true;
+              })},
   };
 }
 
-std::vector<Option> sequence_options(RenderArgs& a) {
+std::vector<Option> sequence_options(Job& a) {
   const std::string group = "Sequences";
   return {
       {"--turntable", "N", "Render N frames while the camera makes one turn around the scene", group, false,
-       [&](auto& text) { a.sequence.turntable = parse_whole(text, 1, 100'000); }},
+       whole(1, 100'000, [&](int n) { a.sequence.turntable = n; })},
       {"--frames", "N", "Number of frames; default: to the end of the animation or turn", group, false,
-       [&](auto& text) { a.sequence.count = parse_whole(text, 1, 100'000); }},
+       whole(1, 100'000, [&](int n) { a.sequence.count = n; })},
       {"--frame-start,-s", "F", "First frame; default 0", group, false,
-       [&](auto& text) { a.sequence.first = parse_whole(text, -1'000'000, 1'000'000); }},
+       whole(-1'000'000, 1'000'000, [&](int n) { a.sequence.first = n; })},
       {"--frame-end,-e", "F", "Last frame", group, false,
-       [&](auto& text) { a.sequence.last = parse_whole(text, -1'000'000, 1'000'000); }},
+       whole(-1'000'000, 1'000'000, [&](int n) { a.sequence.last = n; })},
       {"--frame-jump,-j", "N", "Step between frames; default 1", group, false,
-       [&](auto& text) { a.sequence.jump = parse_whole(text, 1, 1'000'000); }},
+       whole(1, 1'000'000, [&](int n) { a.sequence.jump = n; })},
       {"--frame-rate", "FPS", "Frames per second; default 24", group, false,
-       [&](auto& text) { a.sequence.rate = parse_number(text, 0.001, 65535); }},
+       number(0.001, 65535, [&](double x) { a.sequence.rate = x; })},
       {"--shutter", "DEG", "Motion blur: shutter angle in degrees; 360 is the whole frame interval", group, false,
-       [&](auto& text) { a.sequence.shutter = parse_number(text, 0.001, 360); }},
+       number(0.001, 360, [&](double x) { a.sequence.shutter = x; })},
       {"--shutter-samples", "N", "Motion blur: number of samples in time; default 16", group, false,
-       [&](auto& text) { a.sequence.shutter_samples = parse_whole(text, 1, 1024); }},
+       whole(1, 1024, [&](int n) { a.sequence.shutter_samples = n; })},
       {"--shutter-filter", "FILTER",
        "Motion blur: weight of the moments: box, triangle or gaussian, of the shutter's width at half their height",
        group, false, [&](auto& text) { a.sequence.shutter_filter = parse_shutter_filter(text); }},
       {"--warm-up", "N",
        "Frames before the first that are rendered but not written, for methods that average frames; default 0", group,
-       false, [&](auto& text) { a.sequence.warm_up = parse_whole(text, 0, 100'000); }},
+       false, whole(0, 100'000, [&](int n) { a.sequence.warm_up = n; })},
   };
 }
 
-std::vector<Option> batch_options(RenderArgs& a) {
-  const std::string group = "Batches";
-  return {
-      {"--manifest", "FILE", "File of jobs, one JSON object per line: input, output, and options by their names", group,
-       false, [&](auto& text) { a.manifest = text; }},
-      {"--shard", "I/N",
-       "Run only every Nth job, from job I (0 to N-1); auto/N: I is the index of the task in an array of Slurm, "
-       "Kubernetes, AWS Batch, Cloud Run, Google Batch, PBS, Grid Engine or LSF; auto: N too, where the ledger or the "
-       "engine gives it",
-       group, false, [&](auto& text) { a.shard_text = text; }},
-      {"--skip-existing", "", "Skip jobs, and frames, whose files exist and are whole: the image and its data passes",
-       group, false, [&](auto&) { a.skip_existing = true; }},
-      {"--ledger", "DIR",
-       "Record results, and the digests of files, for zoneplate verify, and pin the number of shards; files that are "
-       "recorded and unchanged are skipped, others made anew",
-       group, false, [&](auto& text) { a.ledger = text; }},
-      {"--retries", "N",
-       "Try a job again whose process was killed or took too long, or whose output could not be written; default 0",
-       group, false, [&](auto& text) { a.retries = parse_whole(text, 0, 100); }},
-      {"--grace", "S",
-       "After SIGTERM, finish the job at hand if that takes at most S seconds, then end with exit code 143; "
-       "default 0",
-       group, false, [&](auto& text) { a.grace = parse_number(text, 0, 1e6); }},
-  };
-}
-
-std::vector<Option> picture_options(RenderArgs& a) {
+std::vector<Option> picture_options(Job& a) {
   const std::string group = "Image";
   return {
-      {"--output,-o", "OUT",
-       "Image to write: .png, .jpg, .webp, .exr, .pfm or .rgba, or - for stdout; or a video: .apng, .webp, .gif, "
-       ".mp4, .mov, .mkv, .webm",
-       group, true, [&](auto& text) { a.output = text; }},
-      choice_option("--output-format", "FORMAT",
-                    "Image format on stdout: png, jpg, webp, exr, pfm or rgba; default png", group, false,
-                    stdout_formats(), [&](std::size_t i) { a.stdout_format = stdout_formats()[i]; }),
       {"--resolution,--size", "W,H", "Size in pixels, 800,600 or 800x600, or 512 for a square; default 800,600", group,
        true,
        [&](auto& text) {
@@ -209,7 +125,7 @@ std::vector<Option> picture_options(RenderArgs& a) {
            a.background = parse_color(text);
        }},
       {"--background-blur", "AMOUNT", "Blur of --background environment, from 0 to 1; default 0", group, false,
-       [&](auto& text) { a.background_blur = static_cast<float>(parse_number(text, 0, 1)); }},
+       number(0, 1, [&](double x) { a.background_blur = static_cast<float>(x); })},
       {"--no-background", "", "Transparent background: the default of .exr", group, true,
        [&](auto&) { a.display.is_transparent = true; }},
       {"--opaque-glass", "",
@@ -239,9 +155,9 @@ std::vector<Option> picture_options(RenderArgs& a) {
       choice_option("--bit-depth", "BITS", "Bits per channel of .png and .rgba: 8 or 16; default 8", group, false,
                     {"8", "16"}, [&](std::size_t i) { a.bit_depth = i == 1 ? 16 : 8; }),
       {"--jpeg-quality", "N", "Quality of .jpg, 1 to 100: smaller files below, fewer artifacts above; default 92",
-       group, false, [&](auto& text) { a.file.jpeg_quality = parse_whole(text, 1, 100); }},
+       group, false, whole(1, 100, [&](int n) { a.file.jpeg_quality = n; })},
       {"--webp-quality", "N", "Quality of .webp, 0 to 100, with loss; default: lossless", group, false,
-       [&](auto& text) { a.file.webp_quality = parse_whole(text, 0, 100); }},
+       whole(0, 100, [&](int n) { a.file.webp_quality = n; })},
       choice_option("--png-compression", "KIND",
                     "Compression of .png: fast, or small: some 30 % smaller, several "
                     "times slower; default fast",
@@ -270,13 +186,13 @@ std::vector<Option> picture_options(RenderArgs& a) {
   };
 }
 
-std::vector<Option> camera_options(RenderArgs& a) {
+std::vector<Option> camera_options(Job& a) {
   const std::string group = "Camera";
   return {
       {"--camera-azimuth-angle", "DEG", "Angle about the up axis, from the front to the right; default 30", group, true,
-       [&](auto& text) { a.view.azimuth = radians(text, -360, 360); }},
+       angle(-360, 360, [&](float x) { a.view.azimuth = x; })},
       {"--camera-elevation-angle", "DEG", "Angle above the horizon; default 20", group, true,
-       [&](auto& text) { a.view.elevation = radians(text, -90, 90); }},
+       angle(-90, 90, [&](float x) { a.view.elevation = x; })},
       {"--camera-position", "X,Y,Z", "Position of the camera", group, false,
        [&](auto& text) { a.view.position = parse_triple(text); }},
       {"--camera-focal-point", "X,Y,Z", "Point at which the camera looks; default: the centre of the scene", group,
@@ -284,17 +200,17 @@ std::vector<Option> camera_options(RenderArgs& a) {
       {"--camera-view-up", "X,Y,Z", "Upward direction of the image; default: the up axis", group, false,
        [&](auto& text) { a.view.view_up = narrowed(parse_triple(text)); }},
       {"--camera-view-angle", "DEG", "Vertical angle of view; default 30", group, false,
-       [&](auto& text) { a.view.view_angle = radians(text, 0.01, 179); }},
+       angle(0.01, 179, [&](float x) { a.view.view_angle = x; })},
       {"--camera-orthographic", "", "Orthographic projection", group, false,
        [&](auto&) { a.view.is_orthographic = true; }},
       {"--camera-index", "N", "Index of a camera of the scene, from 0", group, false,
-       [&](auto& text) { a.view.index = parse_whole(text, 0, 1 << 20); }},
+       whole(0, 1 << 20, [&](int n) { a.view.index = n; })},
       {"--up", "AXIS", "Up axis of the scene: +Y, +Z, ...; default +Z for STL, 3MF and AMF, else +Y or the file's",
        group, false, [&](auto& text) { a.up = parse_up(text); }},
   };
 }
 
-std::vector<Option> scene_options(RenderArgs& a) {
+std::vector<Option> scene_options(Job& a) {
   const std::string group = "Materials and lights";
   return {
       {"--color", "COLOR", "Colour of surfaces without a material, as in STL files; multiplies colours of vertices",
@@ -307,9 +223,9 @@ std::vector<Option> scene_options(RenderArgs& a) {
        "Image for surfaces without a material: .png, .jpg, .webp, .hdr, .exr or .ktx2; times --color, if given", group,
        false, [&](auto& text) { a.default_material.texture = text; }},
       {"--metallic", "M", "Metalness of surfaces without a material, from 0, a dielectric, to 1, a metal", group, false,
-       [&](auto& text) { a.default_material.metallic = static_cast<float>(parse_number(text, 0, 1)); }},
+       number(0, 1, [&](double x) { a.default_material.metallic = static_cast<float>(x); })},
       {"--roughness", "R", "Roughness of surfaces without a material, from 0, a mirror, to 1", group, false,
-       [&](auto& text) { a.default_material.roughness = static_cast<float>(parse_number(text, 0, 1)); }},
+       number(0, 1, [&](double x) { a.default_material.roughness = static_cast<float>(x); })},
       choice_option("--shading-model", "MODEL", "Shading model of all materials: blinn-phong, phong, pbr or unlit",
                     group, false, {"blinn-phong", "phong", "pbr", "unlit"},
                     [&](std::size_t i) {
@@ -320,7 +236,7 @@ std::vector<Option> scene_options(RenderArgs& a) {
       {"--displacement", "TOLERANCE",
        "Turn height textures into geometry instead of bumps: refine meshes until they are this near to the heights,\n"
        "relative to their longest side, for example 0.001",
-       group, false, [&](auto& text) { a.displacement = static_cast<float>(parse_number(text, 1e-6, 1)); }},
+       group, false, number(1e-6, 1, [&](double x) { a.displacement = static_cast<float>(x); })},
       {"--solid-texture", "PATTERN",
        "Procedural texture of all materials, for example marble:scale=6: " + solid_texture_names(), group, false,
        [&](auto& text) { a.solid_texture = check_solid_texture(text); }},
@@ -334,10 +250,11 @@ std::vector<Option> scene_options(RenderArgs& a) {
                       a.lighting.source = sources[i];
                     }),
       {"--light-intensity", "FACTOR", "Factor of all lights; default 1", group, false,
-       [&](auto& text) {
-         a.lighting.intensity = static_cast<float>(parse_number(text, 0, 1e6));
-         a.has_own_brightness = true;
-       }},
+       number(0, 1e6,
+              [&](double x) {
+                a.lighting.intensity = static_cast<float>(x);
+                a.has_own_brightness = true;
+              })},
       {"--environment", "COLOR",
        "Constant environment light of this colour, instead of the default lights; or studio: the boxes of the default "
        "light, also for files with lights of their own",
@@ -362,9 +279,9 @@ std::vector<Option> scene_options(RenderArgs& a) {
                       a.hdri_layout = layouts[i];
                     }),
       {"--hdri-rotation", "DEG", "Turn of the image about the up axis, counter-clockwise from above; default 0", group,
-       false, [&](auto& text) { a.hdri_rotation = radians(text, -360, 360); }},
+       false, angle(-360, 360, [&](float x) { a.hdri_rotation = x; })},
       {"--hdri-intensity", "FACTOR", "Factor of the image's light; default 1", group, false,
-       [&](auto& text) { a.hdri_intensity = static_cast<float>(parse_number(text, 0, 1e6)); }},
+       number(0, 1e6, [&](double x) { a.hdri_intensity = static_cast<float>(x); })},
       {"--shadows", "METHOD",
        "Shadows of the lights: none; hard, one ray from each fragment to each light; soft:samples=N,angle=DEG, N rays "
        "to a light of this angular radius, default 32 and 3; or map:filter=F,size=N, depth images from the lights with "
@@ -386,10 +303,10 @@ std::vector<Option> scene_options(RenderArgs& a) {
       {"--point-size", "PX",
        "Size of points, which are drawn as squares; default: the size with which all points would cover a sixteenth of "
        "the image, from 1 to a hundredth of its height",
-       group, false, [&](auto& text) { a.point_size = static_cast<float>(parse_number(text, 0.01, 1024)); }},
+       group, false, number(0.01, 1024, [&](double x) { a.point_size = static_cast<float>(x); })},
       {"--anisotropy", "N",
        "Maximum anisotropy of texture filtering, 1 to 16; default 4, or the own value of a built-in scene", group,
-       false, [&](auto& text) { a.anisotropy = parse_whole(text, 1, 16); }},
+       false, whole(1, 16, [&](int n) { a.anisotropy = n; })},
       {"--texture-filter", "FILTER",
        "Filter of all textures, in place of the scene's own: " + texture_filter_names() +
            "; for example ewa:anisotropy=16 (zoneplate list texture-filters)",
@@ -406,11 +323,11 @@ std::vector<Option> scene_options(RenderArgs& a) {
           group, false, {"none", "geometric", "toksvig", "lean", "full"},
           [&](std::size_t i) { a.options.specular_aa = static_cast<SpecularAntialiasing>(i); }),
       {"--line-width", "PX", "Width of lines; default 1", group, false,
-       [&](auto& text) { a.options.line_width = static_cast<float>(parse_number(text, 0.01, 1024)); }},
+       number(0.01, 1024, [&](double x) { a.options.line_width = static_cast<float>(x); })},
   };
 }
 
-std::vector<Option> teaching_options(RenderArgs& a) {
+std::vector<Option> teaching_options(Job& a) {
   const std::string group = "Teaching";
   return {
       choice_option("--edge-rule", "RULE",
@@ -435,73 +352,44 @@ std::vector<Option> teaching_options(RenderArgs& a) {
   };
 }
 
-std::vector<Option> run_options(RenderArgs& a) {
+std::vector<Option> run_options(Job& a) {
   const std::string group = "Running";
-  std::vector<Option> options = {
-      {"--threads,-t", "N", "Maximum number of threads; default 0: all that affinity and CPU quota allow", group, false,
-       [&](auto& text) { a.threads = parse_whole(text, 0, 1024); }},
-      {"--isa", "SET",
-       "Instruction set: scalar, sse4, avx2 or avx512, all with the same bits; default: the best available", group,
-       false, [&](auto& text) { a.isa = parse_isa(text); }, Choices{"scalar", "sse4", "avx2", "avx512"}},
-      {"--dry-run", "", "Check options, inputs and outputs, and print the items without rendering them", group, false,
-       [&](auto&) { a.is_dry_run = true; }},
-      {"--preset", "NAME",
-       "Apply a preset of the configuration, $XDG_CONFIG_HOME/zoneplate/config or ~/.config/zoneplate/config", group,
-       false, [&](auto& text) { a.preset = text; }},
-      {"--no-config", "", "Ignore the configuration", group, false, [&](auto&) { a.reads_config = false; }},
-      {"--json", "", "Print a report as one line of JSON (to stderr if OUT is -)", group, false,
-       [&](auto&) { a.prints_json = true; }},
-      {"--progress", "KIND", "Progress on stderr: auto (a bar on a terminal), bar, json or none; default auto", group,
-       false, [&](auto& text) { a.progress = parse_progress(text); }, Choices{"auto", "bar", "json", "none"}},
-      {"--quiet,-q", "", "Print errors only", group, false, [&](auto&) { a.verbosity = Verbosity::Quiet; }},
-      {"--verbose,-v", "", "Print a summary with times", group, false,
-       [&](auto&) { a.verbosity = Verbosity::Verbose; }},
-      {"--strict", "",
-       "A texture that is missing, or an invalid part of the model, is an error; otherwise it is left out with a "
-       "warning",
-       group, false, [&](auto&) { a.load.limits.is_strict = true; }},
-      {"--no-cache", "",
-       "Neither read nor write filtered environments in $XDG_CACHE_HOME/zoneplate or ~/.cache/zoneplate", group, false,
-       [&](auto&) { a.cache.clear(); }},
-      allow_path_option(a.load.limits, group)};
-  for (Option& option : limit_options(a.load.limits, a.max_seconds, a.is_sandboxed, group, "an item"))
-    options.push_back(std::move(option));
-  return options;
-}
-
-/// Whether the bytes of images depend on the option. They do not depend on how a run is divided, limited and reported;
-/// where a file goes is its name. --strict and --allow-path are in job_digest (item_files.h).
-bool determines_image(const Option& option) {
-  return option.group != "Batches" && option.group != "Running" && names_of(option).front() != "--output";
-}
-
-/// Sets an option as before, and notes it in `args.given` in place of an earlier value.
-std::function<void(const std::string&)> noting(RenderArgs& args, const Option& option) {
-  return [&args, set = option.set, name = names_of(option).front()](const std::string& text) {
-    set(text);
-    const std::size_t begin = ('\n' + args.given).find('\n' + name + '=');
-    if (begin != std::string::npos) args.given.erase(begin, args.given.find('\n', begin) + 1 - begin);
-    std::string line = text;
-    std::ranges::replace(line, '\n', ' ');
-    args.given += name + '=' + line + '\n';
-  };
+  LoadLimits& limits = a.load.limits;
+  return {{"--threads,-t", "N", "Maximum number of threads; default 0: all that affinity and CPU quota allow", group,
+           false, whole(0, 1024, [&](int n) { a.threads = n; })},
+          {"--isa", "SET",
+           "Instruction set: scalar, sse4, avx2 or avx512, all with the same bits; default: the best available", group,
+           false, [&](auto& text) { a.isa = parse_isa(text); }, Choices{"scalar", "sse4", "avx2", "avx512"}},
+          {"--strict", "",
+           "A texture that is missing, or an invalid part of the model, is an error; otherwise it is left out with a "
+           "warning",
+           group, false, [&](auto&) { limits.is_strict = true; }},
+          allow_path_option(limits, group)};
 }
 
 }  // namespace
 
-Syntax render_syntax(RenderArgs& args) {
-  args.cache = environment_cache();
-  Syntax syntax{.verb = "render",
-                .summary = "Render a model or a built-in scene to an image",
-                .operands = "IN -o OUT",
-                .examples = examples,
-                .notes = notes};
-  for (const auto table : {picture_options, input_options, sequence_options, batch_options, camera_options,
-                           scene_options, teaching_options, run_options})
-    for (Option& option : table(args)) syntax.options.push_back(std::move(option));
-  for (Option& option : syntax.options)
-    if (determines_image(option)) option.set = noting(args, option);
-  return syntax;
+std::vector<Option> reading_options(LoadLimits& limits, const std::string& group, const std::string& subject) {
+  return {{"--max-memory", "BYTES",
+           "Memory limit of " + subject + ", from reading to the encoded output, for example 512M; default 4G", group,
+           false, [&](auto& text) { limits.memory = parse_bytes(text); }},
+          {"--max-pixels", "N", "Reject images and textures with more pixels, for example 16M; default 256M", group,
+           false, [&](auto& text) { limits.pixels = parse_bytes(text); }},
+          {"--max-import-seconds", "S", "Time limit of reading a model or an image; default 60", group, false,
+           number(0.001, 1e6, [&](double x) { limits.seconds = x; })}};
 }
 
-}  // namespace zoneplate::cli
+Option allow_path_option(LoadLimits& limits, const std::string& group) {
+  return {"--allow-path", "PATH", "Allow models to read this file or folder outside their own; may be repeated",
+          group,          false,  [&](auto& text) { limits.allowed_paths.push_back(text); }};
+}
+
+std::vector<Option> job_options(Job& job) {
+  std::vector<Option> out;
+  for (const auto table :
+       {picture_options, input_options, sequence_options, camera_options, scene_options, teaching_options, run_options})
+    for (Option& option : table(job)) out.push_back(std::move(option));
+  return out;
+}
+
+}  // namespace zoneplate

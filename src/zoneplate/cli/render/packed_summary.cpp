@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/render/summary.h"
-
-#include <algorithm>
+#include "zoneplate/cli/render/packed_summary.h"
 
 #include "zoneplate/cli/packed.h"
 
 namespace zoneplate::cli {
-
-double Summary::total_ms() const {
-  const auto total = std::ranges::find(times, "total", &std::pair<std::string, double>::first);
-  return total == times.end() ? 0 : total->second;
-}
 
 std::vector<std::uint8_t> pack_summary(const Summary& summary) {
   Packer out;

@@ -2,16 +2,15 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "zoneplate/render/render.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 
-/// The report of a run. Times are in milliseconds, in the order of the work.
+/// The report of a job. Times are in milliseconds, in the order of the work.
 struct Summary {
   int width = 0, height = 0, threads = 0;
   RenderCounts counts;
@@ -26,10 +25,4 @@ struct Summary {
   double total_ms() const;
 };
 
-/// Serializes the summary for the parent process.
-std::vector<std::uint8_t> pack_summary(const Summary& summary);
-
-/// Errors    ErrorKind::Failed if the bytes end early.
-Summary unpack_summary(std::span<const std::uint8_t> bytes);
-
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

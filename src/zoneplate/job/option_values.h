@@ -6,12 +6,11 @@
 #include <string_view>
 #include <vector>
 
-#include "zoneplate/cli/render/args.h"
+#include "zoneplate/job/job.h"
+#include "zoneplate/job/option.h"
 
-namespace zoneplate::cli {
+namespace zoneplate {
 
-/// Names of which an option takes one, or a list.
-using Choices = std::vector<std::string_view>;
 Choices stdout_formats();
 Choices method_names();
 Choices upscaler_names();
@@ -39,4 +38,4 @@ ShutterFilter parse_shutter_filter(const std::string& text);
 /// "box", "kaiser" or "lanczos", with its parameters.
 void set_mip_filter(const std::string& text, MipOptions& mips);
 
-}  // namespace zoneplate::cli
+}  // namespace zoneplate

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace zoneplate {
+
+/// Names of which an option takes one, or a list.
+using Choices = std::vector<std::string_view>;
+
+/// What the text of an option is.
+enum class ValueKind { Switch, Number, Whole, Choice, Text };
+
+/// Sets a value by its text: any callable that takes a text, or one of the functions below, which state a range.
+struct OptionSetter {
+  std::function<void(const std::string&)> set;
+  ValueKind kind = ValueKind::Text;
+  double low = 0, high = 0;  ///< of Number and Whole
+
+  OptionSetter() = default;
+  OptionSetter(std::function<void(const std::string&)> set, ValueKind kind, double low = 0, double high = 0)
+      : set(std::move(set)), kind(kind), low(low), high(high) {}
+  template <class Set>
+  requires std::is_invocable_v<const Set&, const std::string&> OptionSetter(Set set) : set(std::move(set)) {}
+  void operator()(const std::string& text) const { set(text); }
+};
+
+/// A number in [low, high], a whole number, and an angle in degrees that `set` takes in radians.
+OptionSetter number(double low, double high, std::function<void(double)> set);
+OptionSetter whole(int low, int high, std::function<void(int)> set);
+OptionSetter angle(double low, double high, std::function<void(float)> set);
+
+/// One option of a job or of a verb. Parsing, help and the interfaces for other languages use the same table.
+struct Option {
+  std::string names;      ///< all forms, the one for messages first: "--output,-o"
+  std::string value;      ///< placeholder of the value in help, "FILE"; empty for a switch
+  std::string meaning;    ///< one sentence, without a full stop
+  std::string group;      ///< heading in the full help
+  bool is_basic = false;  ///< included in the short help
+  OptionSetter set;       ///< takes the value's text (empty for a switch)
+  Choices choices{};      ///< values that shells complete
+
+  ValueKind kind() const { return value.empty() ? ValueKind::Switch : set.kind; }
+};
+
+/// An option whose value is one of `choices`; `set` takes the index of the chosen one.
+Option choice_option(std::string names, std::string value, std::string meaning, std::string group, bool is_basic,
+                     Choices choices, std::function<void(std::size_t)> set);
+
+/// All forms of an option's name, as in the table.
+std::vector<std::string> names_of(const Option& option);
+
+/// The option of that name without dashes; null if there is none.
+const Option* find_option(const std::vector<Option>& options, std::string_view name);
+
+}  // namespace zoneplate

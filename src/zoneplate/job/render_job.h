@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "zoneplate/job/environment_file.h"
+#include "zoneplate/job/job_sink.h"
+#include "zoneplate/job/picture.h"
+#include "zoneplate/render/prepared_scene.h"
+
+namespace zoneplate {
+
+/// Reads, renders and encodes jobs, one image or one sequence each. The last model is kept for the next job.
+class RenderJobs {
+ public:
+  /// Runs a job that check_job has completed and sends its files to `out`, with the threads of the caller.
+  Summary run(Job job, JobSink& out);
+
+ private:
+  /// Reads the model of the job; nothing if it is already in `scene_`.
+  std::optional<Scene> read(const Job& job);
+
+  std::string key_;  ///< of the model that is loaded
+  Environments environments_;
+  std::optional<PreparedScene> scene_;  ///< the model, with the lights of its file
+};
+
+/// The options that determine the loaded model: jobs with the same key share one.
+std::string model_key(const Job& job);
+
+}  // namespace zoneplate
