@@ -16,7 +16,7 @@ set_source_files_properties(src/zoneplate/codec/exr/exr.cpp src/zoneplate/codec/
 set_source_files_properties(src/zoneplate/shade/environment/prepare_studio.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 
 set(package_sources ${all_sources})
-list(FILTER package_sources INCLUDE REGEX "^src/zoneplate/(capi|codec|formats|metrics)/|report/(json|scene_contents)\\.cpp$")
+list(FILTER package_sources INCLUDE REGEX "^src/zoneplate/(capi|codec|formats|job|metrics)/|report/(json|scene_contents)\\.cpp$")
 list(FILTER package_sources EXCLUDE REGEX "_(simd|test)\\.cpp$|formats/(assimp|font)/|/(draco|in_child)\\.cpp$")
 make_table(package_sources metrics metrics metrics/metrics.h Metric zoneplate::metrics metrics "")
 add_executable(zoneplate_node EXCLUDE_FROM_ALL node/native/module.cpp node/native/libraries.cpp

@@ -154,6 +154,23 @@ TEST(Layers, AllHeaderIncludesEveryPublicHeader) {
         << file;
 }
 
+// What a job leaves to the scene is decided in one place, which every caller uses.
+TEST(Layers, OnlyResolveKnowsDefaultsThatDependOnTheScene) {
+  const std::set<std::string> owners = {"job/resolve.cpp", "scene/usual_options.h", "scene/usual_options.cpp",
+                                        "render/metering/metering.h", "render/metering/metering.cpp"};
+  int uses = 0;
+  for (const fs::path& file : source_files()) {
+    if (is_test(file)) continue;
+    const std::string code = code_of(file);
+    for (const char* name : {"usual_point_size", "usual_anisotropy", "dimming_of"}) {
+      const bool is_used = std::regex_search(code, std::regex(std::string("\\b") + name + "\\b"));
+      EXPECT_TRUE(!is_used || owners.contains(file)) << file << ": " << name << " is for job/resolve.cpp";
+      uses += is_used;
+    }
+  }
+  EXPECT_GE(uses, 6);
+}
+
 // cmake/fmt.cpp defines what static programs need of {fmt}, which is what format.h uses of its library.
 TEST(Layers, OnlyTheFormatHeaderOfFmtIsIncluded) {
   for (const fs::path& file : source_files())

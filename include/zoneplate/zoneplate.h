@@ -21,6 +21,10 @@
 typedef struct zoneplate_scene zoneplate_scene;
 /// The results of a function: arrays with names.
 typedef struct zoneplate_image zoneplate_image;
+/// The description of a rendering by the options of the command `render`.
+typedef struct zoneplate_job zoneplate_job;
+/// The frames of a sequence, which are rendered one after the other.
+typedef struct zoneplate_frames zoneplate_frames;
 
 #pragma GCC visibility push(default)
 #ifdef __cplusplus
@@ -302,6 +306,68 @@ typedef struct zoneplate_render_options {
 /// and "crypto-material" are the arrays "CryptoObject00", "CryptoObject01", ... of their ranks.
 zoneplate_status zoneplate_render(zoneplate_scene* scene, const zoneplate_camera* camera,
                                   const zoneplate_render_options* options, zoneplate_image** image);
+
+/// Makes a job, in which every option has its default. One thread at a time uses a job.
+zoneplate_status zoneplate_job_new(zoneplate_job** job);
+/// Sets an option by the name that the command `render` gives it, without dashes, and a text as on the command line:
+/// "shadows", "soft:samples=64". `value` is null for switches such as "no-background". Angles are in degrees. The last
+/// value of an option counts; "quality" sets several options, which those that are set after it change.
+///
+/// In addition to those of the command, the switch "sandbox" reads models in a child process with limits. Options of
+/// files, batches and reports are the command's alone.
+zoneplate_status zoneplate_job_set(zoneplate_job* job, const char* option, const char* value);
+/// Frees a job; null is allowed.
+void zoneplate_job_free(zoneplate_job* job);
+
+/// Loads a file, or makes the built-in scene of that name, by the job's options of reading, such as "format", "variant"
+/// or "animation-time".
+zoneplate_status zoneplate_job_load(const zoneplate_job* job, const char* name, zoneplate_scene** scene);
+/// Renders a still image: the arrays "color", in this form, and those of the data passes of the option "aov". `camera`
+/// takes the place of the job's view, if it is not null.
+///
+/// Options of materials, such as "color" or "mip-filter", and of reading change the model: if the scene was loaded by
+/// others, its file is read anew. A scene that was made from arrays takes those of materials until it is rendered.
+zoneplate_status zoneplate_job_render(zoneplate_job* job, zoneplate_scene* scene, const zoneplate_camera* camera,
+                                      zoneplate_form form, zoneplate_image** image);
+/// Renders the scene and writes the files that the command writes for this output, with the same bytes: an image with
+/// its data passes, numbered frames as "chair.####.png", or a film such as "chair.webp" or "chair.mp4" (by ffmpeg).
+zoneplate_status zoneplate_job_save(zoneplate_job* job, zoneplate_scene* scene, const char* output);
+
+/// Begins the sequence of the job's options "turntable", "frames", "frame-start" and "frame-end". A model of a file is
+/// read anew for each moment of its animation. The job may be changed or freed afterwards, the scene may be freed.
+zoneplate_status zoneplate_job_frames(zoneplate_job* job, zoneplate_scene* scene, zoneplate_form form,
+                                      zoneplate_frames** frames);
+/// The number of frames of a sequence; 0 for null.
+size_t zoneplate_frames_count(const zoneplate_frames* frames);
+/// Renders the next frame, as zoneplate_job_render does. `number` is that of the command's file names; null is allowed.
+/// After the last frame `image` is null.
+zoneplate_status zoneplate_frames_next(zoneplate_frames* frames, int32_t* number, zoneplate_image** image);
+/// Frees a sequence; null is allowed.
+void zoneplate_frames_free(zoneplate_frames* frames);
+
+/// What the value of an option is.
+typedef enum zoneplate_option_kind {
+  ZONEPLATE_SWITCH = 0,  ///< none
+  ZONEPLATE_NUMBER = 1,  ///< a number in a range
+  ZONEPLATE_WHOLE = 2,   ///< a whole number in a range
+  ZONEPLATE_CHOICE = 3,  ///< one of several names
+  ZONEPLATE_TEXT = 4,    ///< other text
+} zoneplate_option_kind;
+
+/// An option of jobs. Texts stay valid.
+typedef struct zoneplate_option {
+  size_t size;                 ///< sizeof(zoneplate_option), set by the caller
+  const char* name;            ///< as of zoneplate_job_set
+  const char* value;           ///< the form of the value, or its unit: "X,Y,Z", "DEG"; empty for a switch
+  zoneplate_option_kind kind;  ///< what the value is
+  double low, high;            ///< the range of numbers
+  const char* choices;         ///< names that the value may be or begin with, separated by commas
+  const char* group;           ///< "Camera"
+  const char* summary;         ///< one sentence, with the default
+} zoneplate_option;
+
+/// The option of this index, from 0; ZONEPLATE_USAGE past the last one.
+zoneplate_status zoneplate_job_option(size_t index, zoneplate_option* option);
 
 /// The number of arrays.
 size_t zoneplate_image_count(const zoneplate_image* image);

@@ -13,7 +13,9 @@
 
 #include "zoneplate/capi/guard.h"
 #include "zoneplate/image/rgb.h"
+#include "zoneplate/job/job.h"
 #include "zoneplate/render/prepared_scene.h"
+#include "zoneplate/render/renderer.h"
 #include "zoneplate/scene/scene.h"
 #include "zoneplate/zoneplate.h"
 
@@ -40,9 +42,19 @@ struct zoneplate_scene {
   /// Errors    ErrorKind::Usage naming what is invalid in the scene; OutOfMemory.
   zoneplate::PreparedScene prepared();
 
-  bool is_builtin = false;
-  bool uses_own_camera = false;                 ///< a built-in scene with a camera, which is its default view
-  std::optional<zoneplate::float4> background;  ///< of built-in scenes that are defined on one
+  /// The same with the materials of a job, by which the model of a file is read anew if it was loaded otherwise.
+  /// Errors    those of `prepared` and of reading; ErrorKind::Usage if textures are needed that are already prepared.
+  zoneplate::PreparedScene prepared(const zoneplate::Job& job);
+
+  /// A job of this scene: its input, and the options by which it was loaded.
+  zoneplate::Job job() const {
+    zoneplate::Job out;
+    out.input = name, out.load = load;
+    return out;
+  }
+
+  std::string name;             ///< of the file or the built-in scene; empty: made from arrays
+  zoneplate::LoadOptions load;  ///< by which it was loaded
 
   /// What a scene far from the origin of its coordinates needs while it is built (Scene::origin), by their indices: the
   /// centres that the positions of meshes far from their own origin are relative to, and the positions of lights.
@@ -57,6 +69,23 @@ struct zoneplate_scene {
   std::optional<zoneplate::Scene> scene_;
   std::optional<zoneplate::PreparedScene> prepared_;
 };
+
+namespace zoneplate::capi {
+
+/// Loads a file or makes a built-in scene.
+std::unique_ptr<zoneplate_scene> loaded(const std::string& name, const LoadOptions& load);
+
+/// A camera in the coordinates of a scene with this origin.
+/// Errors    ErrorKind::Usage for one that is not rigid, or shows nothing.
+Camera camera_of(const zoneplate_camera* given, double3 origin);
+
+/// An image of a job with its data passes.
+std::unique_ptr<zoneplate_image> image_of(const Job& job, RenderedImage image, const Scene& scene);
+
+/// Renders a still image of a job that check_job has completed, whose output ends in .png or, for linear light, .pfm.
+std::unique_ptr<zoneplate_image> render_image(Job job, const PreparedScene& scene, const zoneplate_camera* camera);
+
+}  // namespace zoneplate::capi
 
 /// Arrays by name, and the memory that they are views of.
 struct zoneplate_image {

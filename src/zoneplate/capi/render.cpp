@@ -9,12 +9,12 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/capi/arrays.h"
 #include "zoneplate/capi/handles.h"
+#include "zoneplate/job/look/shadow_args.h"
+#include "zoneplate/job/picture.h"
+#include "zoneplate/job/resolve.h"
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/render/aov.h"
-#include "zoneplate/render/lighting.h"
-#include "zoneplate/render/metering/metering.h"
 #include "zoneplate/render/view.h"
-#include "zoneplate/scene/usual_options.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::capi {
@@ -40,21 +40,22 @@ struct PlacedCamera {
 
 PlacedCamera find_camera(const zoneplate_scene& scene, const zoneplate_view* given, float aspect) {
   const auto v = completed(given, "zoneplate_view");
-  View view{.index = optional_of<int>(v.index),
-            .position = optional_place(v.position),
-            .focal_point = optional_place(v.focal_point),
-            .view_up = optional_vector(v.view_up),
-            .view_angle = optional_of<float>(v.vertical_fov),
-            .azimuth = optional_of<float>(v.azimuth),
-            .elevation = optional_of<float>(v.elevation),
-            .is_orthographic = v.is_orthographic != 0};
-  if (scene.uses_own_camera && !view.index && !view.position) view.index = 0;
+  Job job = scene.job();
+  job.view = {.index = optional_of<int>(v.index),
+              .position = optional_place(v.position),
+              .focal_point = optional_place(v.focal_point),
+              .view_up = optional_vector(v.view_up),
+              .view_angle = optional_of<float>(v.vertical_fov),
+              .azimuth = optional_of<float>(v.azimuth),
+              .elevation = optional_of<float>(v.elevation),
+              .is_orthographic = v.is_orthographic != 0};
   return scene.read([&](const Scene& s) {
-    view.up = s.up;
-    const Camera camera = choose_camera(s, view, aspect);
+    const Camera camera = choose_camera(s, resolve(job, s, ToneMapping::None).view, aspect);
     return PlacedCamera{camera, s.in_file(xyz(camera.world_from_camera.column[3]))};
   });
 }
+
+}  // namespace
 
 Camera camera_of(const zoneplate_camera* given, double3 origin) {
   const auto c = completed(given, "zoneplate_camera");
@@ -79,6 +80,8 @@ Camera camera_of(const zoneplate_camera* given, double3 origin) {
                 "world_from_camera: its last row is not 0, 0, 0, 1: it is not rigid, or stored by columns");
   return out;
 }
+
+namespace {
 
 std::optional<ToneMapping> tone_mapping_of(const char* name) {
   constexpr std::string_view names[] = {"none", "aces", "neutral", "agx", "filmic"};  // in the order of ToneMapping
@@ -109,11 +112,16 @@ std::vector<const Aov*> passes_of(const char* list) {
   return out;
 }
 
-RenderSettings settings_of(const zoneplate_render_options& o, const zoneplate_scene& scene) {
-  constexpr ImageForm forms[] = {ImageForm::Display8, ImageForm::Display16, ImageForm::Linear};
-  constexpr ShadowMethod shadows[] = {ShadowMethod::None, ShadowMethod::Map, ShadowMethod::Hard, ShadowMethod::Soft};
-  RenderSettings out;
-  RenderOptions& options = out.options;
+/// The job of the options; the scene's textures and materials stay as they are.
+Job job_of(const zoneplate_render_options& o, const zoneplate_scene& scene) {
+  constexpr const char* outputs[] = {"image.png", "image.png", "image.pfm"};
+  constexpr const char* shadows[] = {"none", "map", "hard", "soft"};
+  Job job = scene.job();
+  job.output = at(outputs, o.form, "form");
+  job.bit_depth = o.form == ZONEPLATE_SRGB16 ? 16 : 8;
+  if (o.method != nullptr) job.method = o.method;
+  job.aovs = passes_of(o.passes);
+  RenderOptions& options = job.options;
   options.width = o.width == 0 ? options.width : o.width;
   options.height = o.height == 0 ? options.height : o.height;
   if (o.crop[2] != 0) {
@@ -124,21 +132,23 @@ RenderSettings settings_of(const zoneplate_render_options& o, const zoneplate_sc
                   fmt::format("crop: the rectangle is not inside the image of {}x{}", options.width, options.height));
   }
   options.cull_back_faces = o.keeps_back_faces == 0;
-  options.anisotropy = o.anisotropy != 0 ? std::clamp(o.anisotropy, 1, 16) : scene.is_builtin ? 1 : usual_anisotropy;
+  if (o.anisotropy != 0) job.anisotropy = std::clamp(o.anisotropy, 1, 16);
   if (o.point_size != 0 && !(o.point_size >= 0.01f && o.point_size <= 1024))
     throw Error(ErrorKind::Usage, fmt::format("point_size: {} is not between 0.01 and 1024", o.point_size));
-  options.shadows.method = at(shadows, o.shadows, "shadows");
+  if (o.point_size != 0) job.point_size = o.point_size;
+  options.shadows = parse_shadows(at(shadows, o.shadows, "shadows"));
   options.occlusion.samples = std::clamp(o.occlusion_samples, 0, 4096);
   options.ground = o.has_shadow_ground != 0 ? GroundKind::Shadow : GroundKind::None;
   if (options.ground == GroundKind::Shadow && !has_visibility(options))
     throw Error(ErrorKind::Usage, "a ground for shadows requires shadows or ambient occlusion");
-  DisplayOptions& display = options.display;
-  display.exposure = exp2(std::clamp(o.exposure, -32.0f, 32.0f));
-  display.is_transparent = o.is_transparent != 0;
-  display.background = scene.background.value_or(default_background);
-  if (const float* c = o.background) display.background = {c[0], c[1], c[2], c[3]};
-  out.form = at(forms, o.form, "form");
-  return out;
+  job.tone_mapping = tone_mapping_of(o.tone_mapping);
+  job.display.exposure = exp2(std::clamp(o.exposure, -32.0f, 32.0f));
+  job.display.is_transparent = o.is_transparent != 0;
+  job.has_own_brightness = o.exposure != 0 || o.light_intensity != nullptr;
+  if (const float* c = o.background) job.background = float4{c[0], c[1], c[2], c[3]};
+  if (o.light_intensity != nullptr) job.lighting.intensity = *o.light_intensity;
+  if (const float* c = o.environment) job.lighting.environment = Environment{.color = {c[0], c[1], c[2]}};
+  return job;
 }
 
 /// Adds the arrays of a data pass, which are views of `frame` or of planes that are made from it.
@@ -166,51 +176,37 @@ void add_pass(const Aov& aov, const std::shared_ptr<const Frame>& frame, const S
   }
 }
 
-std::unique_ptr<zoneplate_image> render_image(zoneplate_scene& scene, const zoneplate_camera* camera,
-                                              const zoneplate_render_options& o) {
-  RenderSettings settings = settings_of(o, scene);
-  const RenderOptions& options = settings.options;
-  const std::vector<const Aov*> passes = passes_of(o.passes);
-  for (const Aov* aov : passes) settings.planes.*(aov->plane) = true;
-  std::unique_ptr<Resolver> method = upscale::make_method(o.method == nullptr ? usual_method : o.method);
-  const Request request = method->request({.image = {options.width, options.height, options.crop}});
-  if (settings.form == ImageForm::Linear && request.is_display_referred)
-    throw Error(ErrorKind::Usage, fmt::format("{} works after tone mapping, and the image is linear", o.method));
-  if (settings.planes.error && !request.estimates_error)
-    throw Error(ErrorKind::Usage, "the data pass error requires the method converged or analytic");
+}  // namespace
 
-  LightingOptions lighting;
-  if (o.light_intensity != nullptr) lighting.intensity = *o.light_intensity;
-  if (const float* c = o.environment) lighting.environment = Environment{.color = {c[0], c[1], c[2]}};
-  const std::optional<ToneMapping> tone_mapping = tone_mapping_of(o.tone_mapping);
-  const PreparedScene prepared = scene.prepared();
-  const float aspect = static_cast<float>(options.width) / static_cast<float>(options.height);
-  settings.options.point_size =
-      o.point_size != 0 ? o.point_size : usual_point_size(prepared.scene(), options.width, options.height);
-  const Lighting light = make_lighting(prepared.scene(), lighting);
-  settings.options.display.mapping = tone_mapping.value_or(light.tone_mapping);
-  const Camera view =
-      camera != nullptr ? camera_of(camera, prepared.scene().origin) : find_camera(scene, nullptr, aspect).camera;
-  PreparedScene lit = prepared.lit(light);
-  if (o.light_intensity == nullptr && !lighting.environment && o.exposure == 0 && settings.form != ImageForm::Linear)
-    lit = dimmed(lit, dimming_of(lit, upscale::make_method("none")).factor);
-  Renderer renderer(std::move(lit), std::move(method));
-  RenderedImage image = renderer.render_still(view, settings);
-
-  const bool has_alpha = options.display.is_transparent || options.display.background.w < 1;
+std::unique_ptr<zoneplate_image> image_of(const Job& job, RenderedImage image, const Scene& scene) {
+  const bool has_alpha = job.display.is_transparent || job.display.background.w < 1;
   std::unique_ptr<zoneplate_image> out;
-  if (settings.form == ImageForm::Linear)
-    out = std::make_unique<zoneplate_image>(over_background(std::move(image.linear), options.display), has_alpha);
-  else if (settings.form == ImageForm::Display16)
+  if (is_linear(job.output))
+    out = std::make_unique<zoneplate_image>(over_background(std::move(image.linear), job.display), has_alpha);
+  else if (job.bit_depth == 16)
     out = std::make_unique<zoneplate_image>(std::move(image.display16), has_alpha);
   else
     out = std::make_unique<zoneplate_image>(std::move(image.display), has_alpha);
   const auto frame = std::make_shared<const Frame>(std::move(image.data));
-  for (const Aov* aov : passes) add_pass(*aov, frame, prepared.scene(), *out);
+  for (const Aov* aov : job.aovs) add_pass(*aov, frame, scene, *out);
   return out;
 }
 
-}  // namespace
+std::unique_ptr<zoneplate_image> render_image(Job job, const PreparedScene& scene, const zoneplate_camera* camera) {
+  std::unique_ptr<Resolver> method = upscale::make_method(job.method);
+  const Request request = request_of(job, *method);
+  if (is_linear(job.output) && request.is_display_referred)
+    throw Error(ErrorKind::Usage, fmt::format("{} works after tone mapping, and the image is linear", job.method));
+  check_passes(job, request);
+  std::optional<Camera> given;
+  if (camera != nullptr) given = camera_of(camera, scene.scene().origin);
+  const bool is_light = is_linear(job.output);
+  LitStill still = light_still(std::move(job), scene, is_light, given ? &*given : nullptr);
+  RenderedImage image =
+      Renderer(still.scene, std::move(method)).render_still(still.camera, settings_of(still.job, still.job.output));
+  return image_of(still.job, std::move(image), scene.scene());
+}
+
 }  // namespace zoneplate::capi
 
 using namespace zoneplate;
@@ -244,7 +240,7 @@ zoneplate_status zoneplate_render(zoneplate_scene* scene, const zoneplate_camera
     const auto o = completed(options, "zoneplate_render_options");
     zoneplate_scene& from = required(scene, "scene");
     std::unique_ptr<zoneplate_image> out;
-    with_threads(std::clamp(o.threads, 0, 1024), [&] { out = render_image(from, camera, o); });
+    with_threads(std::clamp(o.threads, 0, 1024), [&] { out = render_image(job_of(o, from), from.prepared(), camera); });
     required(image, "image") = out.release();
   });
 }

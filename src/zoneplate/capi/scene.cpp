@@ -10,6 +10,8 @@
 #include "zoneplate/formats/import/model_folder.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/job/picture.h"
+#include "zoneplate/job/render_job.h"
 #include "zoneplate/scene/geometry/flat_normals.h"
 #include "zoneplate/scene/geometry/origin.h"
 #include "zoneplate/scene/geometry/smooth_normals.h"
@@ -275,16 +277,37 @@ PreparedScene zoneplate_scene::prepared() {
   return *prepared_;
 }
 
+PreparedScene zoneplate_scene::prepared(const Job& job) {
+  if (!name.empty()) {
+    if (model_key(job) == model_key(this->job())) return prepared();
+    Scene model = load_scene(job.input, job.load);
+    convert_materials(job, model);
+    return PreparedScene(std::move(model), job.mips);
+  }
+  Job plain = this->job();
+  plain.load = job.load;
+  if (model_key(job) == model_key(plain)) return prepared();
+  Scene model = read([](const Scene& s) { return s; });
+  const bool has_lost_texels =
+      std::ranges::any_of(model.images, [](const TextureImage& image) { return image.pixels.width() == 0; });
+  if (has_lost_texels) refuse("the scene has been rendered: its textures cannot be prepared for options of materials");
+  complete(model);
+  convert_materials(job, model);
+  return PreparedScene(std::move(model), job.mips);
+}
+
+std::unique_ptr<zoneplate_scene> zoneplate::capi::loaded(const std::string& name, const LoadOptions& load) {
+  auto out = std::make_unique<zoneplate_scene>(load_scene(name, load));
+  out->name = name, out->load = load;
+  return out;
+}
+
 zoneplate_status zoneplate_scene_load(const char* name, const zoneplate_load_options* options,
                                       zoneplate_scene** scene) {
   return guarded([&] {
     const LoadOptions load = load_options_of(options);
     const std::string file = &required(name, "name");
-    auto out = std::make_unique<zoneplate_scene>(load_scene(file, load));
-    out->is_builtin = load.format.empty() && is_builtin_scene(file);
-    out->uses_own_camera = out->is_builtin && out->read([](const Scene& s) { return !s.cameras.empty(); });
-    if (out->is_builtin && file == "triangles") out->background = {0, 0, 0, 1};
-    required(scene, "scene") = out.release();
+    required(scene, "scene") = loaded(file, load).release();
   });
 }
 

@@ -4,10 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/spec.h"
 #include "zoneplate/codec/save.h"
+#include "zoneplate/codec/system/encoder_library.h"
 #include "zoneplate/job/output/film.h"
 #include "zoneplate/upscale/upscaler.h"
 
@@ -67,6 +69,14 @@ void check_environment(Job& job) {
     throw Error(ErrorKind::Usage, "--environment and --hdri-file both name an environment: give one of them");
   job.lighting.environment =
       Environment{.color = {1, 1, 1}, .rotation = job.hdri_rotation, .strength = job.hdri_intensity};
+}
+
+void check_output_name(const std::string& output) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(output, ignored))
+    throw Error(ErrorKind::Output, output + ": is a directory; write into it with a / at its end");
+  if (!is_video(output)) check_picture_ending(output);
+  open_encoder_library(extension_of(output), output);
 }
 
 std::optional<std::int64_t> SequenceArgs::last_frame() const {

@@ -27,6 +27,12 @@ void check_effects(const Job& job);
 /// True for the endings of images that can be written: ".png" and others.
 bool is_picture_ending(const std::string& extension);
 
+/// Checks that a file of this name can be written in principle: that it is no folder, that its ending is that of an
+/// image or a video, and that the library of its format is there.
+///
+/// Errors    ErrorKind::Usage, ErrorKind::Output.
+void check_output_name(const std::string& output);
+
 /// Errors    ErrorKind::Usage for a name whose ending is not that of an image that can be written.
 void check_picture_ending(const std::string& output);
 

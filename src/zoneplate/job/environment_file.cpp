@@ -150,10 +150,12 @@ Map Environments::load(const Job& job, const Store& store, const Progress& progr
 }
 
 void Environments::complete(Job& job, const Store& store, const Progress& progress) {
-  job.lighting.studio = [this, cache = job.cache, store] {
-    if (!studio_) studio_ = find_or_make(cache, studio_key_number(), store, prepare_studio);
-    return studio_;
-  };
+  job.lighting.studio = shared_studio;
+  if (!job.cache.empty())
+    job.lighting.studio = [this, cache = job.cache, store] {
+      if (!studio_) studio_ = find_or_make(cache, studio_key_number(), store, prepare_studio);
+      return studio_;
+    };
   if (job.is_in_studio) job.lighting.environment->map = job.lighting.studio();
   if (job.hdri_file.empty()) return;
   const std::string key =

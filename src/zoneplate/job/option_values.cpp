@@ -25,13 +25,14 @@ struct MipFilterRow {
 
 }  // namespace
 
-float radians(const std::string& text, double low, double high) {
-  return static_cast<float>(parse_number(text, low, high) * 3.14159265358979323846 / 180);
-}
-
 float3 linear_color(const std::string& text) {
   const float4 code = parse_color(text);
   return {decode_srgb(code.x), decode_srgb(code.y), decode_srgb(code.z)};
+}
+
+float3 parse_radiance(const std::string& text) {
+  constexpr std::string_view linear = "linear:";
+  return text.starts_with(linear) ? narrowed(parse_triple(text.substr(linear.size()))) : linear_color(text);
 }
 
 float3 parse_up(const std::string& text) {

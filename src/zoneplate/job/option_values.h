@@ -20,10 +20,10 @@ std::string texture_filter_names();  ///< the same, separated by commas
 
 // The parsers throw ErrorKind::Usage for other texts.
 
-/// An angle in degrees, in [low, high].
-float radians(const std::string& text, double low, double high);
 /// A colour as parse_color reads it, in linear light.
 float3 linear_color(const std::string& text);
+/// A radiance: a colour as parse_color reads it, in linear light, or "linear:R,G,B".
+float3 parse_radiance(const std::string& text);
 /// "+Y", "Y", "-Z" and so on, as a unit vector.
 float3 parse_up(const std::string& text);
 /// "x,y,width,height", in pixels.

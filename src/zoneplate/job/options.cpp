@@ -257,11 +257,11 @@ std::vector<Option> scene_options(Job& a) {
               })},
       {"--environment", "COLOR",
        "Constant environment light of this colour, instead of the default lights; or studio: the boxes of the default "
-       "light, also for files with lights of their own",
+       "light, also for files with lights of their own; linear:R,G,B is a radiance",
        group, false,
        [&](auto& text) {
          a.is_in_studio = text == "studio";
-         a.environment_color = a.is_in_studio ? std::nullopt : std::optional(linear_color(text));
+         a.environment_color = a.is_in_studio ? std::nullopt : std::optional(parse_radiance(text));
        }},
       {"--hdri-file", "FILE",
        "Image-based light, instead of the default lights: .hdr, .exr, .pfm, .png, .jpg or .webp; {face} in the name "

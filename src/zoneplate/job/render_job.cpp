@@ -38,6 +38,39 @@ std::optional<Scene> RenderJobs::read(const Job& job) {
   return scene;
 }
 
+void render_still(Job job, std::unique_ptr<Resolver> method, const PreparedScene& prepared, JobSink& out,
+                  Summary& summary) {
+  const Scene& scene = prepared.scene();
+  summary.warnings = scene.warnings;
+  if (std::string late = lateness(job, end_of_animation(job.load.choice, scene)); !late.empty())
+    summary.warnings.push_back(std::move(late));
+  out.progress("render", 0.1);
+  check_passes(job, request_of(job, *method));
+  LitStill still = light_still(job, prepared, is_linear(job.named_output()));
+  job = still.job;
+  if (!still.warning.empty()) summary.warnings.push_back(std::move(still.warning));
+  RenderSettings settings = settings_of(job, job.named_output());
+  settings.options.progress = out.progress_of("render", 0.1, 0.9);
+  RenderedImage image = Renderer(still.scene, std::move(method)).render_still(still.camera, settings);
+  summary.exposure = job.display.exposure;
+  const Rendered picture = finish_picture(job, std::move(image), scene, still.camera, job.named_output(), summary);
+  const auto metered = [&] { return metered_exposure(still.scene, still.camera, job); };
+  if (std::string warning = clipping(job, picture.image, metered); !warning.empty())
+    summary.warnings.push_back(std::move(warning));
+  if (std::string warning = emptiness(job, summary.counts, picture); !warning.empty())
+    summary.warnings.push_back(std::move(warning));
+
+  out.progress("encode", 0.9);
+  const Stopwatch encode_watch;
+  const std::vector<std::uint8_t> bytes = encode_picture(picture, job.named_output(), job.file);
+  summary.times.emplace_back("encode", encode_watch.ms());
+  out.progress("write", 0.99);
+  const Stopwatch write_watch;
+  for (const LayerFile& file : picture.layers) out.file(-1, file.aov, file.bytes);
+  out.file(-1, -1, bytes);  // last: --skip-existing looks for it
+  summary.times.emplace_back("write", write_watch.ms());
+}
+
 Summary RenderJobs::run(Job job, JobSink& out) {
   const Stopwatch total_watch;
   std::unique_ptr<Resolver> method = upscale::make_method(job.method);
@@ -63,35 +96,7 @@ Summary RenderJobs::run(Job job, JobSink& out) {
     scene_.emplace(std::move(*read_scene), job.mips);
   }
   summary.times.emplace_back("textures", texture_watch.ms());
-  const Scene& scene = scene_->scene();
-  summary.warnings = scene.warnings;
-  if (std::string late = lateness(job, end_of_animation(job.load.choice, scene)); !late.empty())
-    summary.warnings.push_back(std::move(late));
-  out.progress("render", 0.1);
-  check_passes(job, request_of(job, *method));
-  LitStill still = light_still(job, *scene_, is_linear(job.named_output()));
-  job = still.job;
-  if (!still.warning.empty()) summary.warnings.push_back(std::move(still.warning));
-  RenderSettings settings = settings_of(job, job.named_output());
-  settings.options.progress = out.progress_of("render", 0.1, 0.9);
-  RenderedImage image = Renderer(still.scene, std::move(method)).render_still(still.camera, settings);
-  summary.exposure = job.display.exposure;
-  const Rendered picture = finish_picture(job, std::move(image), scene, still.camera, job.named_output(), summary);
-  const auto metered = [&] { return metered_exposure(still.scene, still.camera, job); };
-  if (std::string warning = clipping(job, picture.image, metered); !warning.empty())
-    summary.warnings.push_back(std::move(warning));
-  if (std::string warning = emptiness(job, summary.counts, picture); !warning.empty())
-    summary.warnings.push_back(std::move(warning));
-
-  out.progress("encode", 0.9);
-  const Stopwatch encode_watch;
-  const std::vector<std::uint8_t> bytes = encode_picture(picture, job.named_output(), job.file);
-  summary.times.emplace_back("encode", encode_watch.ms());
-  out.progress("write", 0.99);
-  const Stopwatch write_watch;
-  for (const LayerFile& file : picture.layers) out.file(-1, file.aov, file.bytes);
-  out.file(-1, -1, bytes);  // last: --skip-existing looks for it
-  summary.times.emplace_back("write", write_watch.ms());
+  render_still(std::move(job), std::move(method), *scene_, out, summary);
   summary.times.emplace_back("total", total_watch.ms());
   return summary;
 }

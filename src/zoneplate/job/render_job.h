@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -25,6 +26,11 @@ class RenderJobs {
   Environments environments_;
   std::optional<PreparedScene> scene_;  ///< the model, with the lights of its file
 };
+
+/// Renders, encodes and sends a still image of a scene whose materials are those of the job, which check_job has
+/// completed.
+void render_still(Job job, std::unique_ptr<Resolver> method, const PreparedScene& prepared, JobSink& out,
+                  Summary& summary);
 
 /// The options that determine the loaded model: jobs with the same key share one.
 std::string model_key(const Job& job);

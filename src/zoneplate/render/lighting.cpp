@@ -45,12 +45,6 @@ Lighting three_lights(const Scene& scene) {
   return lighting;
 }
 
-/// The studio is made once, by the first scene that needs it.
-const std::shared_ptr<const PreparedEnvironment>& studio() {
-  static const auto made = std::make_shared<const PreparedEnvironment>(prepare_studio());
-  return made;
-}
-
 /// The studio, and a directional light from its brightest box, which gives the form and casts the shadow that the
 /// filtered environment cannot cast.
 Lighting studio_lighting(const LightingOptions& options) {
@@ -64,7 +58,7 @@ Lighting studio_lighting(const LightingOptions& options) {
           {.color = {1, 1, 1},
            .is_in_camera_space = true,
            .strength = options.intensity,
-           .map = options.studio ? options.studio() : studio()},
+           .map = options.studio ? options.studio() : shared_studio()},
           {},
           ToneMapping::Neutral};
 }

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/spec.h"
@@ -12,7 +11,6 @@
 #include "zoneplate/cli/config/config.h"
 #include "zoneplate/cli/render/args.h"
 #include "zoneplate/codec/save.h"
-#include "zoneplate/codec/system/encoder_library.h"
 #include "zoneplate/job/output/film.h"
 #include "zoneplate/job/output/frame_name.h"
 #include "zoneplate/job/picture.h"
@@ -36,11 +34,7 @@ void check_output(const RenderArgs& args) {
   }
   if (args.stdout_format != "png")
     throw Error(ErrorKind::Usage, "--output-format requires -o -: otherwise the extension of OUT selects the format");
-  std::error_code ignored;
-  if (std::filesystem::is_directory(args.output, ignored))
-    throw Error(ErrorKind::Output, args.output + ": is a directory; write into it with a / at its end");
-  if (!is_video(args.output)) check_picture_ending(args.output);
-  open_encoder_library(extension_of(args.output), args.output);
+  check_output_name(args.output);
 }
 
 // A single operand that is a list of jobs is the manifest.

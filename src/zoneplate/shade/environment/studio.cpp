@@ -75,4 +75,9 @@ CubeImage studio_cube(int side) {
   return cube;
 }
 
+std::shared_ptr<const PreparedEnvironment> shared_studio() {
+  static const auto made = std::make_shared<const PreparedEnvironment>(prepare_studio());
+  return made;
+}
+
 }  // namespace zoneplate

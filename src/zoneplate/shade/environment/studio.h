@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "zoneplate/shade/environment/cube.h"
 
@@ -28,6 +29,8 @@ CubeImage studio_cube(int side);
 
 /// The studio, filtered for reflection.
 PreparedEnvironment prepare_studio();
+/// The same, made once for the process, by the first caller.
+std::shared_ptr<const PreparedEnvironment> shared_studio();
 
 /// A number for the studio's bytes (see content_hash): a change of the studio changes it.
 std::uint64_t studio_key_number();
