@@ -22,6 +22,7 @@
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/report/json_for_test.h"
 #include "zoneplate/upscale/upscaler.h"
+#include "zoneplate/version.h"
 
 namespace {
 
@@ -294,6 +295,31 @@ TEST(Documents, LinesHaveAtMost120Characters) {
           std::count_if(lines[i].begin(), lines[i].end(), [](char c) { return (c & 0xc0) != 0x80; });
       EXPECT_LE(characters, 120) << file << ':' << i + 1;
     }
+  }
+}
+
+// CMakeLists.txt states the version of the project; the headers, the command, Python's and Node's packages take it from
+// there. Files that no program makes have to be changed with it.
+TEST(Documents, StateTheVersionOfTheProject) {
+  const std::string version = zoneplate::version, minor = version.substr(0, version.rfind('.'));
+  const struct {
+    const char *file, *before;
+    std::string version;
+  } places[] = {{"CMakeLists.txt", "project\\(Zoneplate VERSION ", version},
+                {"CITATION.cff", "\nversion: ", version},
+                {".pre-commit-hooks.yaml", "rev: v", version},
+                {"examples/ci/gitlab.yml", "VERSION: v", version},
+                {"docs/ci.md", "zoneplate@v", version},
+                {"docs/node.md", "zoneplate-(?=.*\\.tgz)", version},
+                {"include/zoneplate/zoneplate.h", "such as \"", version},
+                {"examples/CMakeLists.txt", "find_package\\(Zoneplate ", minor}};
+  for (const auto& place : places) {
+    const std::string text = zoneplate::text_of(root / place.file);
+    const std::regex stated(std::string(place.before) + "([0-9]+(?:\\.[0-9]+)+)");
+    std::size_t count = 0;
+    for (std::sregex_iterator i(text.begin(), text.end(), stated), end; i != end; ++i, ++count)
+      EXPECT_EQ((*i)[1], place.version) << place.file;
+    EXPECT_GT(count, 0u) << place.file;
   }
 }
 
