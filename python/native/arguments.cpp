@@ -177,16 +177,6 @@ bool Storage::set(const Field& field, PyObject* value, void* member) {
       store(member, kept);
       return read_numbers(value, field.name, 3, kept);
     }
-    case Kind::Ints: {
-      if (!read_numbers(value, field.name, field.count, numbers)) return false;
-      for (int i = 0; i < field.count; ++i) {
-        if (!is_in_range(numbers[i], std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max(),
-                         field.name))
-          return false;
-        static_cast<std::int32_t*>(member)[i] = static_cast<std::int32_t>(numbers[i]);
-      }
-      return true;
-    }
     case Kind::Doubles:
       return read_numbers(value, field.name, field.count, static_cast<double*>(member));
     case Kind::Array: {

@@ -42,7 +42,6 @@ enum class Kind {
   OptionalFloat,  ///< const float*
   Floats,         ///< const float*, to `count` numbers
   Place,          ///< const double*, to three numbers
-  Ints,           ///< int32_t[count]
   Doubles,        ///< double[count]
   Array,          ///< zoneplate_array
 };
@@ -70,6 +69,9 @@ class Storage {
   std::deque<std::int32_t> ints_;
   std::deque<InputArray> arrays_;
 };
+
+/// Sets a camera by a dictionary of the members of zoneplate_camera. False with an exception set.
+bool read_camera(PyObject* members, Storage& storage, zoneplate_camera& camera);
 
 /// Reads `count` numbers of a sequence. False with an exception set.
 bool read_numbers(PyObject* sequence, const char* name, int count, double* out);

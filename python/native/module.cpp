@@ -88,6 +88,11 @@ PyMethodDef functions[] = {
     {"resample", resample, METH_VARARGS, "resample(pixels, width, height, kernel): an Image."},
     {"frequency_filter", frequency_filter, METH_VARARGS, "frequency_filter(pixels, pass, low, high, shape): an Image."},
     {"spectrum", spectrum, METH_O, "spectrum(plane): an Image."},
+    {"load_by_job", load_by_job, METH_VARARGS, "load_by_job(path, options): a Scene."},
+    {"render_by_job", render_by_job, METH_VARARGS, "render_by_job(scene, camera, form, options): an Image."},
+    {"save_by_job", save_by_job, METH_VARARGS, "save_by_job(scene, path, options): writes files."},
+    {"frames_by_job", frames_by_job, METH_VARARGS, "frames_by_job(scene, form, options): an iterator of Images."},
+    {"options", list_options, METH_NOARGS, "options(): members of zoneplate_option."},
     {"image_new", image_new, METH_O, "image_new(pixels): an Image with a copy of the pixels."},
     {"image_load", image_load, METH_O, "image_load(path): an Image of a file."},
     {"catalogue", catalogue, METH_O, "catalogue(number): the summaries by name (zoneplate_catalogue)."},
@@ -132,7 +137,7 @@ int execute(PyObject* module) {
     return -1;
   }
   const bool is_complete = add_errors(module) && add_array_type(module) && add_image_type(module) &&
-                           add_scene_type(module) && add_parts(module) &&
+                           add_scene_type(module) && add_frames_type(module) && add_parts(module) &&
                            PyModule_AddStringConstant(module, "__version__", zoneplate_version()) == 0;
   return is_complete ? 0 : -1;
 }

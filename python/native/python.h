@@ -62,11 +62,26 @@ PyObject* make_image(zoneplate_image* image);
 /// Makes the Python object of an array, a view of memory that `owner` keeps.
 PyObject* make_array(const zoneplate_array& array, PyObject* owner);
 
+/// Makes the Python object of a scene, which it takes over; null with an exception set.
+PyObject* make_scene(zoneplate_scene* scene);
+/// The scene of a Scene object.
+zoneplate_scene* scene_of(PyObject* object);
+
+///@{
+/// Functions of the module about jobs.
+PyObject* load_by_job(PyObject* module, PyObject* arguments);
+PyObject* render_by_job(PyObject* module, PyObject* arguments);
+PyObject* save_by_job(PyObject* module, PyObject* arguments);
+PyObject* frames_by_job(PyObject* module, PyObject* arguments);
+PyObject* list_options(PyObject* module, PyObject* arguments);
+///@}
+
 ///@{
 /// Adds the types of a source to the module. False with an exception set.
 bool add_array_type(PyObject* module);
 bool add_image_type(PyObject* module);
 bool add_scene_type(PyObject* module);
+bool add_frames_type(PyObject* module);
 ///@}
 
 /// The image of an Image object.

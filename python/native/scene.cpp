@@ -13,7 +13,7 @@ struct SceneObject {
   zoneplate_scene* scene;
 };
 
-zoneplate_scene* scene_of(PyObject* self) { return reinterpret_cast<SceneObject*>(self)->scene; }
+PyObject* scene_type = nullptr;
 
 #define FIELD(type, member, kind, ...) \
   { #member, Kind::kind, offsetof(type, member) __VA_OPT__(, ) __VA_ARGS__ }
@@ -70,26 +70,16 @@ constexpr Field view_fields[] = {
     FIELD(zoneplate_view, focal_point, Place),          FIELD(zoneplate_view, view_up, Floats, 3),
     FIELD(zoneplate_view, vertical_fov, OptionalFloat), FIELD(zoneplate_view, azimuth, OptionalFloat),
     FIELD(zoneplate_view, elevation, OptionalFloat),    FIELD(zoneplate_view, is_orthographic, Flag)};
-constexpr Field render_fields[] = {FIELD(zoneplate_render_options, width, Int),
-                                   FIELD(zoneplate_render_options, height, Int),
-                                   FIELD(zoneplate_render_options, method, Text),
-                                   FIELD(zoneplate_render_options, passes, Text),
-                                   FIELD(zoneplate_render_options, form, Int),
-                                   FIELD(zoneplate_render_options, crop, Ints, 4),
-                                   FIELD(zoneplate_render_options, threads, Int),
-                                   FIELD(zoneplate_render_options, tone_mapping, Text),
-                                   FIELD(zoneplate_render_options, exposure, Float),
-                                   FIELD(zoneplate_render_options, background, Floats, 4),
-                                   FIELD(zoneplate_render_options, is_transparent, Flag),
-                                   FIELD(zoneplate_render_options, light_intensity, OptionalFloat),
-                                   FIELD(zoneplate_render_options, environment, Floats, 3),
-                                   FIELD(zoneplate_render_options, shadows, Int),
-                                   FIELD(zoneplate_render_options, occlusion_samples, Int),
-                                   FIELD(zoneplate_render_options, has_shadow_ground, Flag),
-                                   FIELD(zoneplate_render_options, anisotropy, Int),
-                                   FIELD(zoneplate_render_options, keeps_back_faces, Flag),
-                                   FIELD(zoneplate_render_options, point_size, Float)};
 #undef FIELD
+
+PyObject* scene_object(PyTypeObject* type, zoneplate_scene* scene) {
+  PyObject* const self = reinterpret_cast<allocfunc>(PyType_GetSlot(type, Py_tp_alloc))(type, 0);
+  if (self == nullptr)
+    zoneplate_scene_free(scene);
+  else
+    reinterpret_cast<SceneObject*>(self)->scene = scene;
+  return self;
+}
 
 /// Scene() is empty; Scene(path, **options) loads a file or makes a built-in scene.
 PyObject* new_scene(PyTypeObject* type, PyObject* arguments, PyObject* keywords) {
@@ -102,12 +92,7 @@ PyObject* new_scene(PyTypeObject* type, PyObject* arguments, PyObject* keywords)
   if (!succeeds(
           [&] { return path == nullptr ? zoneplate_scene_new(&scene) : zoneplate_scene_load(path, &options, &scene); }))
     return nullptr;
-  PyObject* const self = reinterpret_cast<allocfunc>(PyType_GetSlot(type, Py_tp_alloc))(type, 0);
-  if (self == nullptr)
-    zoneplate_scene_free(scene);
-  else
-    reinterpret_cast<SceneObject*>(self)->scene = scene;
-  return self;
+  return scene_object(type, scene);
 }
 
 void free_scene(PyObject* self) {
@@ -213,23 +198,6 @@ PyObject* find_camera(PyObject* self, PyObject* arguments, PyObject* keywords) {
                        "half_height", camera.half_height, "near", camera.near, "far", camera.far);
 }
 
-PyObject* render(PyObject* self, PyObject* arguments, PyObject* keywords) {
-  PyObject* chosen = nullptr;
-  zoneplate_camera camera{};
-  camera.size = sizeof camera;
-  zoneplate_render_options options{};
-  options.size = sizeof options;
-  Storage storage;
-  zoneplate_image* image = nullptr;
-  if (PyArg_ParseTuple(arguments, "O", &chosen) == 0 ||
-      (chosen != Py_None && !storage.fill(chosen, camera_fields, &camera)) ||
-      !storage.fill(keywords, render_fields, &options) || !succeeds([&] {
-        return zoneplate_render(scene_of(self), chosen == Py_None ? nullptr : &camera, &options, &image);
-      }))
-    return nullptr;
-  return make_image(image);
-}
-
 PyCFunction with_keywords(PyObject* (*function)(PyObject*, PyObject*, PyObject*)) {
   return reinterpret_cast<PyCFunction>(reinterpret_cast<void (*)()>(function));
 }
@@ -249,8 +217,6 @@ PyMethodDef methods[] = {
     {"bounds", get_bounds, METH_NOARGS, "bounds(): (minimum, maximum)."},
     {"camera", with_keywords(find_camera), METH_VARARGS | METH_KEYWORDS,
      "camera(aspect, **members of zoneplate_view): the members of zoneplate_camera."},
-    {"render", with_keywords(render), METH_VARARGS | METH_KEYWORDS,
-     "render(camera, **members of zoneplate_render_options): an Image."},
     {nullptr, nullptr, 0, nullptr}};
 PyType_Slot slots[] = {{Py_tp_new, reinterpret_cast<void*>(new_scene)},
                        {Py_tp_dealloc, reinterpret_cast<void*>(free_scene)},
@@ -261,9 +227,19 @@ PyType_Spec spec = {"zoneplate._native.Scene", sizeof(SceneObject), 0, Py_TPFLAG
 
 }  // namespace
 
+zoneplate_scene* scene_of(PyObject* object) { return reinterpret_cast<SceneObject*>(object)->scene; }
+
+PyObject* make_scene(zoneplate_scene* scene) {
+  return scene_object(reinterpret_cast<PyTypeObject*>(scene_type), scene);
+}
+
+bool read_camera(PyObject* members, Storage& storage, zoneplate_camera& camera) {
+  return storage.fill(members, camera_fields, &camera);
+}
+
 bool add_scene_type(PyObject* module) {
-  const Reference type(PyType_FromSpec(&spec));
-  return type && PyModule_AddObjectRef(module, "Scene", type.get()) == 0;
+  scene_type = PyType_FromSpec(&spec);
+  return scene_type != nullptr && PyModule_AddObjectRef(module, "Scene", scene_type) == 0;
 }
 
 }  // namespace zoneplate::python

@@ -13,7 +13,8 @@ Angles are in degrees. Matrices are 4 x 4, row by row, and act on column vectors
 
 from ._images import Image, filter, frequency_filter, load_image, measure, Measurement, resample, spectrum, Spectrum
 from ._native import Array, Error, InputError, OutputError, UsageError, __version__
-from ._scenes import Camera, Scene, View, load, render
+from ._jobs import Frames, options, render, render_file, render_frames
+from ._scenes import Camera, Scene, View, load
 from ._compare import Comparison, compare
 from ._lists import aovs, kernels, methods, metrics, scenes
 from .pyrender import OffscreenRenderer
@@ -23,6 +24,7 @@ __all__ = [
     "Camera",
     "Comparison",
     "Error",
+    "Frames",
     "Image",
     "InputError",
     "Measurement",
@@ -42,7 +44,10 @@ __all__ = [
     "measure",
     "methods",
     "metrics",
+    "options",
     "render",
+    "render_file",
+    "render_frames",
     "resample",
     "scenes",
     "spectrum",

@@ -5,7 +5,8 @@ from __future__ import annotations
 
 
 from ._images import Image, measure, png_of
-from ._scenes import render, scene_of
+from ._jobs import render
+from ._scenes import scene_of
 
 TYPE_CHECKING = False  # type checkers take it as true; to import typing takes milliseconds
 if TYPE_CHECKING:

@@ -18,12 +18,10 @@ if TYPE_CHECKING:
     Floats = Sequence[float]
     Matrix = Sequence[Sequence[float]] | np.ndarray
 
-FORMS = {"uint8": 0, "uint16": 1, "float32": 2}
 MODELS = {"metallic-roughness": 0, "blinn-phong": 1, "phong": 2, "unlit": 3}
 ALPHA_MODES = {"opaque": 0, "mask": 1, "blend": 2}
 TOPOLOGIES = {"triangles": 0, "lines": 1, "points": 2}
 LIGHTS = {"directional": 0, "point": 1, "spot": 2}
-SHADOWS = {"none": 0, "map": 1, "hard": 2, "soft": 3}
 
 
 def choose(names: dict[str, int], name: str, argument: str) -> int:
@@ -154,9 +152,9 @@ class Scene:
         self._meshes: list[str] = []
 
     @staticmethod
-    def _load(path: str, options: dict[str, Any]) -> Scene:
+    def _of(native: _native.Scene) -> Scene:
         scene = Scene.__new__(Scene)
-        scene._native = _native.Scene(path, **options)
+        scene._native = native
         scene._meshes = scene._native.names(_native.MESHES)
         return scene
 
@@ -404,10 +402,12 @@ class Scene:
 
     def render(self, camera: View | Camera | Matrix | None = None, **options: Any) -> Image:
         """The same as `zoneplate.render(scene, camera, ...)`."""
+        from ._jobs import render
+
         return render(self, camera, **options)
 
     def _repr_png_(self) -> bytes:
-        return render(self, size=(400, 300))._repr_png_()
+        return self.render(size=(400, 300))._repr_png_()
 
     def __repr__(self) -> str:
         return f"<zoneplate.Scene: {len(self.meshes)} meshes, {len(self.objects)} objects, {len(self.materials)} materials>"
@@ -430,19 +430,19 @@ def load(
     `animation`, an index or a name, and `time` pose an animated glTF file; -1 means all its animations. `sandbox` reads an untrusted file in a
     child process with limits.
     """
-    return Scene._load(
-        os.fspath(path),
-        {
-            "format": format,
-            "variant": variant,
-            "scene": scene,
-            "animation": None if isinstance(animation, str) else animation,
-            "animation_name": animation if isinstance(animation, str) else None,
-            "time": time,
-            "is_sandboxed": sandbox,
-            "max_memory": max_memory,
-            "max_seconds": max_seconds,
-        },
+    return Scene._of(
+        _native.Scene(
+            os.fspath(path),
+            format=format,
+            variant=variant,
+            scene=scene,
+            animation=None if isinstance(animation, str) else animation,
+            animation_name=animation if isinstance(animation, str) else None,
+            time=time,
+            is_sandboxed=sandbox,
+            max_memory=max_memory,
+            max_seconds=max_seconds,
+        )
     )
 
 
@@ -463,79 +463,3 @@ def camera_of(scene: Scene, camera: Any, aspect: float) -> dict[str, Any] | None
         return scene._native.camera(aspect, **camera._members())
     return (camera if isinstance(camera, Camera) else Camera(camera))._members()
 
-
-def render(
-    scene: Any,
-    camera: View | Camera | Matrix | None = None,
-    size: tuple[int, int] = (800, 600),
-    *,
-    aa: str = "msaa:n=8,alpha=samples",
-    aovs: Iterable[str] = (),
-    dtype: str = "uint8",
-    crop: tuple[int, int, int, int] | None = None,
-    threads: int = 0,
-    tone_mapping: str | None = None,
-    exposure: float = 0.0,
-    background: str | Floats | None = None,
-    transparent: bool = False,
-    light_intensity: float | None = None,
-    environment: str | Floats | None = None,
-    shadows: str = "none",
-    ambient_occlusion: int = 0,
-    shadow_ground: bool = False,
-    anisotropy: int = 0,
-    cull_back_faces: bool = True,
-    point_size: float = 0.0,
-) -> Image:
-    """Renders an image of a scene: a Scene, the path of a model, or a trimesh object.
-
-    camera       a View, a Camera, a 4 x 4 pose, or None: the default view of the command
-    size         width and height in pixels
-    aa           the antialiasing method with its parameters, such as "smaa", "ssaa:n=4" or "none" (see `methods`)
-    aovs         data passes, such as "depth", "normal" or "object-id" (see `aovs`), as further arrays of the image
-    dtype        "uint8" and "uint16": sRGB codes with straight alpha; "float32": linear light, premultiplied
-    crop         x, y, width, height: the rectangle of the image that is rendered
-    threads      0: as many as the process may use
-    tone_mapping "none", "aces", "neutral", "agx" or "filmic"; None: "neutral" in the studio that a scene without lights
-                 gets, else "none"; `exposure` in stops
-    background   "#rrggbb", or sRGB numbers in [0, 1]; `transparent`: none
-    light_intensity  factor of every light; None: 1, and lights that would clip the surfaces to white are dimmed
-    environment  a colour whose light from all directions replaces the default light
-    shadows      "none", "map", "hard" or "soft"; `ambient_occlusion`: rays, 0: none
-    shadow_ground  a ground that is visible only where it is in shadow
-    anisotropy   the most probes of texture filters; 0: 4, or the own value of a built-in scene
-    point_size   pixels along a side of the squares of points; 0: the size with which all points would cover a sixteenth
-                 of the image, from 1 to a hundredth of its height
-
-    Other Python threads run while an image is rendered.
-    """
-    source = scene_of(scene)
-    width, height = int(size[0]), int(size[1])
-    if isinstance(background, str):
-        background = codes_of_text(background)
-    if background is not None:
-        background = tuple(background) + (1.0,) * (4 - len(background))
-    return Image(
-        source._native.render(
-            camera_of(source, camera, width / height if height > 0 else 1.0),
-            width=width,
-            height=height,
-            method=aa,
-            passes=aovs if isinstance(aovs, str) else ",".join(aovs),
-            form=choose(FORMS, str(dtype), "dtype"),
-            crop=crop,
-            threads=threads,
-            tone_mapping=tone_mapping,
-            exposure=exposure,
-            background=background,
-            is_transparent=transparent,
-            light_intensity=light_intensity,
-            environment=None if environment is None else linear_color(environment, 3),
-            shadows=choose(SHADOWS, shadows, "shadows"),
-            occlusion_samples=ambient_occlusion,
-            has_shadow_ground=shadow_ground,
-            anisotropy=anisotropy,
-            keeps_back_faces=not cull_back_faces,
-            point_size=point_size,
-        )
-    )

@@ -12,7 +12,8 @@ from __future__ import annotations
 import math
 
 from . import _native
-from ._scenes import Camera, Scene as NativeScene, View, render
+from ._jobs import render
+from ._scenes import Camera, Scene as NativeScene, View
 
 TYPE_CHECKING = False  # type checkers take it as true; to import typing takes milliseconds
 if TYPE_CHECKING:
