@@ -22,8 +22,8 @@ enum class ImageForm {
 
 /// The settings of a frame: options, data passes and output format.
 struct RenderSettings {
-  RenderOptions options;                 ///< size, crop, display transform and the rules of rasterization
-  Planes planes;                         ///< data passes; not `samples` or `sample_colors`
+  RenderOptions options{};               ///< size, crop, display transform and the rules of rasterization
+  Planes planes{};                       ///< data passes; not `samples` or `sample_colors`
   ImageForm form = ImageForm::Display8;  ///< which image of RenderedImage is made
 };
 
@@ -39,7 +39,7 @@ struct RenderedImage {
 /// A prepared scene and its camera at one moment.
 struct SceneView {
   PreparedScene scene;  ///< with its lights
-  Camera camera;        ///< its pose at the same moment
+  Camera camera{};      ///< its pose at the same moment
 };
 
 /// Renders frames of a scene by an antialiasing method: all rounds of the method, data passes, motion, and the apron

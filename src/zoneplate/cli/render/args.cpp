@@ -185,7 +185,7 @@ std::vector<Option> picture_options(RenderArgs& a) {
       {"--quality", "LEVEL",
        "Sets several options, which other options change: fast is --aa msaa:n=4 --anisotropy 1; default; best is --aa "
        "msaa:n=16,alpha=samples --anisotropy 16 --shadows soft:samples=64,spacing=8 --ambient-occlusion "
-       "rays:samples=64,spacing=8 --ground shadow; "
+       "rays:samples=64,spacing=8 --ground shadow --specular-aa full, on the background #e8e6e0; "
        "the compression of files is --jpeg-quality and --webp-quality",
        group, true, [&](auto& text) { set_quality(a, parse_quality(text)); }, Choices{"fast", "default", "best"}},
       {"--anti-aliasing,--aa", "METHOD",
