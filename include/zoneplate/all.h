@@ -13,6 +13,7 @@
 #include "zoneplate/base/spec.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/save.h"
+#include "zoneplate/edges/edge_options.h"
 #include "zoneplate/formats/import/load_options.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/image/color_profile.h"

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "zoneplate/edges/edge_options.h"
 #include "zoneplate/image/tonemap.h"
 #include "zoneplate/raster/types/raster_rules.h"
 #include "zoneplate/raster/types/sampling.h"
@@ -49,6 +50,7 @@ struct RenderOptions {
   OcclusionOptions occlusion{};                          ///< of the environment's light; none by default
   /// Shadow requires shadows or occlusion. It moves the near and far planes, which may change data passes by rounding.
   GroundKind ground = GroundKind::None;
+  EdgeOptions edges{};           ///< lines over the image of Renderer; data passes have none
   bool sample_footprint = true;  ///< at rate *sample*, choose mip levels by the sample's footprint, not the pixel's
   float point_size = 1, line_width = 1;               ///< pixels
   RasterCapacity capacity{};                          ///< trades memory for time; does not change any bit of the image

@@ -9,6 +9,10 @@
 #include "zoneplate/render/method.h"
 #include "zoneplate/render/prepared_scene.h"
 
+namespace zoneplate {
+class SceneEdges;
+}  // namespace zoneplate
+
 #pragma GCC visibility push(default)
 namespace zoneplate {
 
@@ -101,7 +105,10 @@ class Renderer {
   };
   Rounds render_rounds(const Camera& camera, const Request& request, const RenderOptions& options,
                        RenderCounts& counts);
-  void finish(LinearImage picture, const Frame& frame, ImageForm form, RenderedImage& out);
+  /// What lines along edges cover of the image that the method makes of the request; empty without lines.
+  Plane<float> edge_coverage(const Camera& camera, const RenderSettings& settings, const Request& request);
+  void finish(LinearImage picture, const Frame& frame, const RenderSettings& settings, const Plane<float>& edges,
+              RenderedImage& out);
   void draw_behind(const Camera& camera, const RenderOptions& options, LinearImage& color) const;
   Frame render_data(const Camera& camera, const Request& request, const RenderSettings& settings, RenderCounts& counts);
   void render_light(const Camera& camera, const RenderSettings& settings, RenderCounts& counts, Frame& data);
@@ -114,6 +121,7 @@ class Renderer {
   SamplePattern jitter_;
   int index_ = 0;
   FrameContext context_;  ///< of the frame that is being rendered
+  std::unique_ptr<SceneEdges> edges_;
 
   // Of the last frame.
   int width_ = 0, height_ = 0;

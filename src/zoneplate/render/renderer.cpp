@@ -10,6 +10,7 @@
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/edges/scene_edges.h"
 #include "zoneplate/image/dither.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/render/environment_background.h"
@@ -88,6 +89,7 @@ void Renderer::begin_frame(const Camera& camera, const RenderSettings& settings)
   if (o.width != width_ || o.height != height_ || !is_same(o.crop, crop_)) index_ = 0;
   width_ = o.width, height_ = o.height, crop_ = o.crop;
   if (index_ == 0) moment_.reset(), previous_.reset();
+      edges_(std::make_unique<SceneEdges>()),
   context_ = {.image = {o.width, o.height, o.crop},
               .aspect = aspect_of(o),
               .index = index_,
@@ -110,7 +112,8 @@ Request Renderer::request_for(const RenderSettings& settings) {
   if (request.frame && request.is_display_referred && settings.form == ImageForm::Linear)
     throw Error(ErrorKind::Usage, "the upscaler works after tone mapping, and the image is scene-linear");
   request.writes_display8 = request.resolves_per_pixel && settings.form == ImageForm::Display8 &&
-                            !settings.options.background && !request.frame;
+                            !settings.options.background && !request.frame &&
+                            settings.options.edges.kind == EdgeKind::None;
   return request;
 }
 
@@ -192,8 +195,28 @@ Renderer::Rounds Renderer::render_rounds(const Camera& camera, const Request& re
   return rounds;
 }
 
-/// Converts the method's linear image to the requested format.
-void Renderer::finish(LinearImage picture, const Frame& frame, ImageForm form, RenderedImage& out) {
+Plane<float> Renderer::edge_coverage(const Camera& camera, const RenderSettings& settings, const Request& request) {
+  const RenderOptions& options = settings.options;
+  if (options.edges.kind == EdgeKind::None) return {};
+  const Crop whole{0, 0, options.width, options.height};
+  const Crop part = padded_crop(options, request.frame ? 0 : request.halo).value_or(whole);
+  return edges_->coverage(scene_.shared_scene(), scene_.textures(),
+                          {.camera = camera,
+                           .aspect = aspect_of(options),
+                           .width = options.width,
+                           .height = options.height,
+                           .x = part.x,
+                           .y = part.y,
+                           .part_width = part.width,
+                           .part_height = part.height,
+                           .culls_back_faces = options.cull_back_faces},
+                          options.edges);
+}
+
+/// Converts the method's linear image to the requested format, with the lines over it.
+void Renderer::finish(LinearImage picture, const Frame& frame, const RenderSettings& settings,
+                      const Plane<float>& edges, RenderedImage& out) {
+  const ImageForm form = settings.form;
   if (form == ImageForm::Linear) {
     out.linear = std::move(picture);
     return;
@@ -208,6 +231,7 @@ void Renderer::finish(LinearImage picture, const Frame& frame, ImageForm form, R
   else
     out.display = form == ImageForm::Display8Dithered ? quantize8_dithered(display) : quantize8(display);
   out.counts.display_ms += watch.ms();
+    if (!edges.empty()) draw_edges(edges, settings.options.edges, settings.options.display, picture);
 }
 
 /// Keeps the state of this frame that the next frame may use.
@@ -215,6 +239,7 @@ void Renderer::end_frame(const Camera& camera, bool keeps_moment, const Request&
                          Frame& data) {
   moment_.reset();
   if (keeps_moment) moment_ = {scene_.shared_scene(), camera};
+  if (!edges.empty()) draw_edges(edges, settings.options.edges, settings.options.display, display);
   camera_ = camera, settling_frames_ = request.settling_frames;
   previous_.reset();
   if (request.keeps_planes && are_planes_requested)
@@ -244,9 +269,15 @@ RenderedImage Renderer::render(const Camera& scene_camera, const RenderSettings&
     const Stopwatch watch;
     LinearImage linear = method_->resolve(frame);
     // An upscaler in scene-linear light resolves to the image's size, with the environment already behind the frame.
-    if (!request.frame || request.is_display_referred) draw_behind(camera, options, linear);
+    const bool is_upscaled = request.frame && !request.is_display_referred;
+    if (!draws_surfaces(settings.options)) {
+      clear(linear);
+      draw_behind(camera, is_upscaled ? settings.options : options, linear);
+    } else if (!is_upscaled) {
+      draw_behind(camera, options, linear);
+    }
     out.counts.resolve_ms = watch.ms();
-    finish(std::move(linear), frame, settings.form, out);
+    finish(std::move(linear), frame, settings, edge_coverage(camera, settings, request), out);
   }
   const bool are_planes_requested = settings.planes.any();
   Frame data = rounds.take_data();
@@ -265,7 +296,7 @@ RenderedImage Renderer::render_still(const Camera& camera, const RenderSettings&
   RenderCounts counts = image.counts;
   for (int i = 1; i < settling_frames_; ++i) {
     recycle(std::move(image.display));
-    image = render(camera, settings);
+    image = render(camera, i + 1 < settling_frames_ ? settling : settings);
     add(counts, image.counts);
     counts.resolve_ms += image.counts.resolve_ms, counts.display_ms += image.counts.display_ms;
     counts.filter_ms += image.counts.filter_ms;
@@ -307,7 +338,8 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
   }
   const float weight = 1 / static_cast<float>(count);
   for (Linear& c : sum.values()) c = c * weight;
-  finish(std::move(sum), rounds.frame, settings.form, out);
+  for (float& part : edges.values()) part *= weight;
+  finish(std::move(sum), rounds.frame, settings, edges, out);
   Frame data = rounds.take_data();
   end_frame(camera, reads_last_moment(request.planes), request, false, data);
   if (request.halo > 0 && options.crop && !request.frame) cut_out(out, *options.crop, *settings.options.crop);
@@ -315,3 +347,14 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
 }
 
 }  // namespace zoneplate
+  // Lines are in no history: frames between the first and the last need none.
+  RenderSettings settling = settings;
+  settling.options.edges.kind = EdgeKind::None;
+  Plane<float> edges;
+    if (!draws_surfaces(settings.options)) {
+      clear(picture);
+      draw_behind(camera, options, picture);
+    }
+    const Plane<float> covered = edge_coverage(camera, settings, request);
+    if (edges.empty()) edges = {covered.width(), covered.height(), 0.0f};
+    std::ranges::transform(edges.values(), covered.values(), edges.values().begin(), std::plus());

@@ -405,7 +405,15 @@ std::vector<Option> scene_options(RenderArgs& a) {
           "maps), or full (geometric and lean); default none",
           group, false, {"none", "geometric", "toksvig", "lean", "full"},
           [&](std::size_t i) { a.options.specular_aa = static_cast<SpecularAntialiasing>(i); }),
-      {"--line-width", "PX", "Width of lines; default 1", group, false,
+      {"--edges", "KIND",
+       "Draw edges of triangles as lines: none; features, boundaries, silhouettes and creases, for example "
+       "features:angle=30,width=1.5; mesh, all edges; or wireframe, all edges without surfaces. hidden=shown does not "
+       "remove lines behind surfaces, surfaces=none leaves out the surfaces; default none",
+       group, false, [&](auto& text) { set_edges(text, a.options.edges); },
+       Choices{"none", "features", "mesh", "wireframe"}},
+      {"--edge-color", "COLOR", "Colour of --edges; default black, or white where a dark background alone is below",
+       group, false, [&](auto& text) { a.options.edges.color = parse_color(text); }},
+      {"--line-width", "PX", "Width of lines of the model; default 1", group, false,
        [&](auto& text) { a.options.line_width = static_cast<float>(parse_number(text, 0.01, 1024)); }},
   };
 }
