@@ -52,6 +52,8 @@
 #include "zoneplate/scene/camera.h"
 #include "zoneplate/scene/environment.h"
 #include "zoneplate/scene/geometry/displacement.h"
+#include "zoneplate/scene/geometry/normals.h"
+#include "zoneplate/scene/geometry/section.h"
 #include "zoneplate/scene/light.h"
 #include "zoneplate/scene/material.h"
 #include "zoneplate/scene/material_layers.h"

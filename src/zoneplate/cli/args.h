@@ -19,6 +19,7 @@ struct Option {
   bool is_basic = false;                        ///< included in the short help
   std::function<void(const std::string&)> set;  ///< takes the value's text (empty for a switch)
   std::vector<std::string_view> choices{};      ///< values that shells complete
+  bool repeats = false;                         ///< may be given several times; otherwise the last value counts
 };
 
 /// An option whose value is one of `choices`; `set` takes the index of the chosen one.

@@ -238,8 +238,8 @@ void Renderer::finish(LinearImage picture, const Frame& frame, const RenderSetti
 void Renderer::end_frame(const Camera& camera, bool keeps_moment, const Request& request, bool are_planes_requested,
                          Frame& data) {
   moment_.reset();
-  if (keeps_moment) moment_ = {scene_.shared_scene(), camera};
   if (!edges.empty()) draw_edges(edges, settings.options.edges, settings.options.display, display);
+  if (keeps_moment) moment_ = {scene_.shared_scene(), camera};
   camera_ = camera, settling_frames_ = request.settling_frames;
   previous_.reset();
   if (request.keeps_planes && are_planes_requested)

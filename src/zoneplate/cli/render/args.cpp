@@ -349,6 +349,21 @@ std::vector<Option> scene_options(RenderArgs& a) {
       {"--hdri-file", "FILE",
        "Image-based light, instead of the default lights: .hdr, .exr, .pfm, .png, .jpg or .webp; {face} in the name "
        "stands "
+      {"--section",
+       "X,Y,Z,D",
+       "Cut away what lies beyond the plane X x + Y y + Z z = D of the file's coordinates, and close solids by caps; "
+       "several planes leave what lies beyond none",
+       group,
+       false,
+       [&](auto& text) { a.section.planes.push_back(parse_section(text)); },
+       {},
+       true},
+      {"--section-color", "COLOR", "Colour of the caps of --section; default: that of the surface that is cut", group,
+       false,
+       [&](auto& text) {
+         const float3 light = linear_color(text);
+         a.section.color = float4{light.x, light.y, light.z, 1};
+       }},
        "for px, nx, py, ny, pz and nz, the six squares of a cube map",
        group, false, [&](auto& text) { a.hdri_file = text; }},
       choice_option("--hdri-layout", "NAME",
@@ -483,12 +498,12 @@ bool determines_image(const Option& option) {
   return option.group != "Batches" && option.group != "Running" && names_of(option).front() != "--output";
 }
 
-/// Sets an option as before, and notes it in `args.given` in place of an earlier value.
+/// Sets an option as before, and notes it in `args.given`, in place of an earlier value unless it repeats.
 std::function<void(const std::string&)> noting(RenderArgs& args, const Option& option) {
-  return [&args, set = option.set, name = names_of(option).front()](const std::string& text) {
+  return [&args, set = option.set, name = names_of(option).front(), repeats = option.repeats](const std::string& text) {
     set(text);
     const std::size_t begin = ('\n' + args.given).find('\n' + name + '=');
-    if (begin != std::string::npos) args.given.erase(begin, args.given.find('\n', begin) + 1 - begin);
+    if (begin != std::string::npos && !repeats) args.given.erase(begin, args.given.find('\n', begin) + 1 - begin);
     std::string line = text;
     std::ranges::replace(line, '\n', ' ');
     args.given += name + '=' + line + '\n';

@@ -108,6 +108,7 @@ struct RenderArgs {
   bool is_in_studio = false;                     ///< --environment studio
   std::string hdri_file;                         ///< the image of `lighting.environment`; empty: none
   std::optional<EnvironmentLayout> hdri_layout;  ///< none: by the image's aspect
+  SectionArgs section;
   float hdri_rotation = 0, hdri_intensity = 1;
   std::vector<const Aov*> aovs;
   LoadOptions load;

@@ -71,6 +71,12 @@ void check_effects(const RenderArgs& args, const std::string& ending) {
   if (args.tone_mapping.value_or(ToneMapping::None) != ToneMapping::None && is_linear)
     refuse("--tone-mapping: .exr and .pfm contain linear light, before tone mapping");
   if (args.tone_mapping.value_or(ToneMapping::None) != ToneMapping::None && args.display.raw)
+  if (args.default_material.height_scale && args.default_material.height_map.empty())
+    refuse("--height-scale requires --height-map");
+  if (args.section.color && args.section.planes.empty())
+    refuse("--section-color requires --section, for example 1,0,0,0");
+  if (args.options.edges.color && args.options.edges.kind == EdgeKind::None)
+    refuse("--edge-color requires --edges, for example features");
     refuse("--tone-mapping does not go with --color-management raw");
   if ((args.default_material.metallic || args.default_material.roughness) &&
       args.shading_model.value_or(ShadingModel::MetallicRoughness) != ShadingModel::MetallicRoughness)

@@ -21,13 +21,15 @@ std::string model_key(const RenderArgs& args) {
   const LoadLimits& l = args.load.limits;
   const DefaultMaterial& m = args.default_material;
   const float4 color = m.color.value_or(float4{-1, 0, 0, 0});
-  return fmt::format("{} {}\n{}\n{}\n{} {} {} {:a} {} {} {} {} {} {} {} {} {} {} {} {:a} {:a} {:a} {:a} {:a} {:a} {}",
-                     l.is_strict, args.input, args.load.format, c.animation_name, c.scene.value_or(-1), c.variant,
-                     c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds, fmt::join(l.allowed_paths, "\n"),
-                     args.mips.raw_colors, static_cast<int>(args.mips.filter), args.mips.keeps_coverage,
-                     args.mips.weights_by_alpha, args.shading_model ? static_cast<int>(*args.shading_model) : -1,
-                     args.solid_texture, args.displacement.value_or(-1), color.x, color.y, color.z, color.w,
-                     m.metallic.value_or(-1), m.roughness.value_or(-1), m.texture);
+  return fmt::format(
+      "{} {}\n{}\n{}\n{} {} {} {:a} {} {} {} {} {} {} {} {} {} {} {} {:a} {:a} {:a} {:a} {:a} {:a} {} {} {} {} {:a}",
+      l.is_strict, args.input, args.load.format, c.animation_name, c.scene.value_or(-1), c.variant,
+      c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds, fmt::join(l.allowed_paths, "\n"),
+      args.mips.raw_colors, static_cast<int>(args.mips.filter), args.mips.keeps_coverage, args.mips.weights_by_alpha,
+      args.shading_model ? static_cast<int>(*args.shading_model) : -1, args.solid_texture,
+      args.displacement.value_or(-1), color.x, color.y, color.z, color.w, m.metallic.value_or(-1),
+      m.roughness.value_or(-1), m.texture, args.section.text(), m.normal_map, m.height_map,
+      m.height_scale.value_or(-1e30f));
 }
 
 std::optional<Scene> RenderJobs::read(const RenderArgs& args) {

@@ -142,6 +142,7 @@ void check_passes(const RenderArgs& args, const Request& request) {
 void convert_materials(const RenderArgs& args, Scene& scene) {
   set_default_material(args.default_material, args.load.limits, scene);
   if (args.shading_model)
+  cut_scene(scene, args.section.planes, args.section.color);
     for (Material& material : scene.materials) convert_material(material, *args.shading_model);
   if (args.displacement) displace_surfaces(scene, {.tolerance = *args.displacement});
   if (!args.solid_texture.empty()) set_solid_texture(args.solid_texture, scene);

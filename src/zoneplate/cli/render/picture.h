@@ -54,7 +54,7 @@ void check_request(const RenderArgs& args, const Request& request);
 /// Errors    ErrorKind::Usage if the method does not support one of the data passes.
 void check_passes(const RenderArgs& args, const Request& request);
 
-/// Converts the materials of a loaded scene to the shading model of the arguments.
+/// Cuts a loaded scene at the sections of the arguments, and converts its materials to their shading model.
 void convert_materials(const RenderArgs& args, Scene& scene);
 
 /// Sets those of `args.options` that the user leaves to the scene: `point_size` and `anisotropy`.
