@@ -93,6 +93,9 @@ class Renderer {
   void recycle(Rgba8Image image);
 
  private:
+  /// Renders the frame that a lens with distortion sees by `frame`, and warps the image and its data.
+  RenderedImage through_lens(const Lens& lens, const RenderSettings& settings,
+                             const std::function<RenderedImage(const Lens&, const RenderSettings&)>& frame);
   Camera seeing_ground(const Camera& camera, const RenderOptions& options) const;
   void begin_frame(const Camera& camera, const RenderSettings& settings);
   Request request_for(const RenderSettings& settings);
@@ -118,10 +121,10 @@ class Renderer {
   PreparedScene scene_;
   std::unique_ptr<Resolver> method_;
   std::unique_ptr<Backend> backend_;
+  std::unique_ptr<SceneEdges> edges_;
   SamplePattern jitter_;
   int index_ = 0;
   FrameContext context_;  ///< of the frame that is being rendered
-  std::unique_ptr<SceneEdges> edges_;
 
   // Of the last frame.
   int width_ = 0, height_ = 0;

@@ -56,7 +56,20 @@ PlacedCamera find_camera(const zoneplate_scene& scene, const zoneplate_view* giv
   });
 }
 
-Camera camera_of(const zoneplate_camera* given, double3 origin) {
+/// The lens of an image of this size; none without intrinsics.
+std::optional<Lens> lens_of(const zoneplate_camera& c, int width, int height) {
+  const auto& [fx, fy, cx, cy] = c.intrinsics;
+  if (fx == 0) return std::nullopt;
+  if (!(fx > 0 && fy > 0) || c.is_orthographic != 0)
+    throw Error(ErrorKind::Usage, "intrinsics: need focal lengths above 0, and a perspective camera");
+  const auto& d = c.distortion;
+  Lens lens{.width = width, .height = height, .fx = fx, .fy = fy, .cx = cx, .cy = cy};
+  lens.k1 = d[0], lens.k2 = d[1], lens.p1 = d[2], lens.p2 = d[3];
+  lens.k3 = d[4], lens.k4 = d[5], lens.k5 = d[6], lens.k6 = d[7];
+  return lens;
+}
+
+Camera camera_of(const zoneplate_camera* given, double3 origin, int width, int height) {
   const auto c = completed(given, "zoneplate_camera");
   Camera out;
   const auto& m = c.world_from_camera;
@@ -77,6 +90,7 @@ Camera camera_of(const zoneplate_camera* given, double3 origin) {
   if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
     throw Error(ErrorKind::Usage,
                 "world_from_camera: its last row is not 0, 0, 0, 1: it is not rigid, or stored by columns");
+  out.lens = lens_of(c, width, height);
   return out;
 }
 
@@ -189,8 +203,8 @@ std::unique_ptr<zoneplate_image> render_image(zoneplate_scene& scene, const zone
       o.point_size != 0 ? o.point_size : usual_point_size(prepared.scene(), options.width, options.height);
   const Lighting light = make_lighting(prepared.scene(), lighting);
   settings.options.display.mapping = tone_mapping.value_or(light.tone_mapping);
-  const Camera view =
-      camera != nullptr ? camera_of(camera, prepared.scene().origin) : find_camera(scene, nullptr, aspect).camera;
+  const Camera view = camera != nullptr ? camera_of(camera, prepared.scene().origin, options.width, options.height)
+                                        : find_camera(scene, nullptr, aspect).camera;
   PreparedScene lit = prepared.lit(light);
   if (o.light_intensity == nullptr && !lighting.environment && o.exposure == 0 && settings.form != ImageForm::Linear)
     lit = dimmed(lit, dimming_of(lit, upscale::make_method("none")).factor);

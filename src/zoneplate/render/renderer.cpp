@@ -13,6 +13,7 @@
 #include "zoneplate/edges/scene_edges.h"
 #include "zoneplate/image/dither.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/lens/lens_warp.h"
 #include "zoneplate/render/environment_background.h"
 #include "zoneplate/shade/cast/ground.h"
 
@@ -54,6 +55,18 @@ void cut_out(RenderedImage& image, const Crop& whole, const Crop& crop) {
   image.data.x = crop.x, image.data.y = crop.y;
 }
 
+/// Whether the image shows surfaces, and not the lines of their edges alone.
+bool draws_surfaces(const RenderOptions& o) { return o.edges.kind == EdgeKind::None || o.edges.has_surfaces; }
+
+void clear(LinearImage& image) { std::ranges::fill(image.values(), Linear{0, 0, 0, 0}); }
+
+bool is_distorted(const Camera& camera) { return camera.lens && camera.lens->is_distorted(); }
+
+Camera with_lens(Camera camera, const Lens& lens) {
+  camera.lens = lens;
+  return camera;
+}
+
 /// Whether planes of the next frame show what has changed since this one.
 bool reads_last_moment(const Planes& planes) { return planes.motion || planes.last_position || planes.was_visible; }
 
@@ -76,6 +89,7 @@ Renderer::Renderer(PreparedScene scene, std::unique_ptr<Resolver> method, std::u
     : scene_(std::move(scene)),
       method_(std::move(method)),
       backend_(std::move(backend)),
+      edges_(std::make_unique<SceneEdges>()),
       jitter_(named_pattern("halton", jitter_period)) {}
 
 Renderer::~Renderer() = default;
@@ -89,7 +103,6 @@ void Renderer::begin_frame(const Camera& camera, const RenderSettings& settings)
   if (o.width != width_ || o.height != height_ || !is_same(o.crop, crop_)) index_ = 0;
   width_ = o.width, height_ = o.height, crop_ = o.crop;
   if (index_ == 0) moment_.reset(), previous_.reset();
-      edges_(std::make_unique<SceneEdges>()),
   context_ = {.image = {o.width, o.height, o.crop},
               .aspect = aspect_of(o),
               .index = index_,
@@ -218,6 +231,7 @@ void Renderer::finish(LinearImage picture, const Frame& frame, const RenderSetti
                       const Plane<float>& edges, RenderedImage& out) {
   const ImageForm form = settings.form;
   if (form == ImageForm::Linear) {
+    if (!edges.empty()) draw_edges(edges, settings.options.edges, settings.options.display, picture);
     out.linear = std::move(picture);
     return;
   }
@@ -225,20 +239,19 @@ void Renderer::finish(LinearImage picture, const Frame& frame, const RenderSetti
   DisplayImage display = make_display(picture, frame.display);
   out.counts.display_ms += watch.lap_ms();
   display = method_->post_process(std::move(display), frame);
+  if (!edges.empty()) draw_edges(edges, settings.options.edges, settings.options.display, display);
   out.counts.filter_ms += watch.lap_ms();
   if (form == ImageForm::Display16)
     out.display16 = quantize16(display);
   else
     out.display = form == ImageForm::Display8Dithered ? quantize8_dithered(display) : quantize8(display);
   out.counts.display_ms += watch.ms();
-    if (!edges.empty()) draw_edges(edges, settings.options.edges, settings.options.display, picture);
 }
 
 /// Keeps the state of this frame that the next frame may use.
 void Renderer::end_frame(const Camera& camera, bool keeps_moment, const Request& request, bool are_planes_requested,
                          Frame& data) {
   moment_.reset();
-  if (!edges.empty()) draw_edges(edges, settings.options.edges, settings.options.display, display);
   if (keeps_moment) moment_ = {scene_.shared_scene(), camera};
   camera_ = camera, settling_frames_ = request.settling_frames;
   previous_.reset();
@@ -254,7 +267,59 @@ Camera Renderer::seeing_ground(const Camera& camera, const RenderOptions& option
   return options.ground == GroundKind::Shadow ? GroundSquare(scene_.scene()).enclosing(camera) : camera;
 }
 
+/// The frame without distortion is larger than the image. It is tone-mapped before the warp, with 16 bits: filters of
+/// methods and the resolve of a pixel's samples before the curve or after it are those of the frame.
+RenderedImage Renderer::through_lens(const Lens& lens, const RenderSettings& settings,
+                                     const std::function<RenderedImage(const Lens&, const RenderSettings&)>& frame) {
+  const RenderOptions& o = settings.options;
+  const Crop part = o.crop.value_or(Crop{0, 0, o.width, o.height});
+  const LensWarp warp(lens, o.width, o.height, part.x, part.y, part.width, part.height);
+  const auto scale = static_cast<float>(warp.scale());
+  const LensWarp::Part& read = warp.frame_part();
+  RenderSettings own = settings;
+  own.options.width = warp.frame().width, own.options.height = warp.frame().height;
+  own.options.crop = Crop{read.x, read.y, read.width, read.height};
+  own.options.aspect = 0;
+  own.options.point_size *= scale, own.options.line_width *= scale, own.options.edges.width *= scale;
+  if (settings.form != ImageForm::Linear) own.form = ImageForm::Display16;
+  for (std::optional<Moment>* const other : {&own.options.last, &own.options.next})
+    if (*other) (*other)->camera.lens = warp.frame();
+  RenderedImage image = frame(warp.frame(), own);
+
+  RenderedImage out;
+  out.counts = image.counts;
+  if (settings.form == ImageForm::Linear) {
+    out.linear = warp.warped(image.linear);
+  } else {
+    const DisplayImage display = warp.warped(image.display16, o.display.raw);
+    if (settings.form == ImageForm::Display16)
+      out.display16 = quantize16(display);
+    else
+      out.display = settings.form == ImageForm::Display8Dithered ? quantize8_dithered(display) : quantize8(display);
+  }
+  out.data.x = part.x, out.data.y = part.y;
+  out.data.sample_triangle.resize(image.data.sample_triangle.size());
+  Frame::for_data_planes(image.data, out.data, [&](const auto& from, auto& to) { to = warp.nearest(from); });
+  out.data.motion = warp.nearest_steps(image.data.motion, -1, 0);
+  out.data.flow = warp.nearest_steps(image.data.flow, 0, 1);
+  for (std::size_t k = 0; k < out.data.light.size(); ++k) {
+    if (image.data.light[k].empty()) continue;
+    LinearImage light(read.width, read.height);
+    std::ranges::transform(image.data.light[k].values(), light.values().begin(), [](float3 c) {
+      return Linear{c.x, c.y, c.z, 1};
+    });
+    std::ranges::transform(warp.warped(light).values(), out.data.light[k].values().begin(), [](const Linear& c) {
+      return float3{c.r, c.g, c.b};
+    });
+  }
+  return out;
+}
+
 RenderedImage Renderer::render(const Camera& scene_camera, const RenderSettings& settings) {
+  if (is_distorted(scene_camera))
+    return through_lens(*scene_camera.lens, settings, [&](const Lens& lens, const RenderSettings& own) {
+      return render(with_lens(scene_camera, lens), own);
+    });
   const Camera camera = seeing_ground(scene_camera, settings.options);
   begin_frame(camera, settings);
   const Request request = request_for(settings);
@@ -291,8 +356,15 @@ RenderedImage Renderer::render(const Camera& scene_camera, const RenderSettings&
 }
 
 RenderedImage Renderer::render_still(const Camera& camera, const RenderSettings& settings) {
+  if (is_distorted(camera))
+    return through_lens(*camera.lens, settings, [&](const Lens& lens, const RenderSettings& own) {
+      return render_still(with_lens(camera, lens), own);
+    });
   begin_sequence();
   RenderedImage image = render(camera, settings);
+  // Lines are in no history: frames between the first and the last need none.
+  RenderSettings settling = settings;
+  settling.options.edges.kind = EdgeKind::None;
   RenderCounts counts = image.counts;
   for (int i = 1; i < settling_frames_; ++i) {
     recycle(std::move(image.display));
@@ -308,6 +380,15 @@ RenderedImage Renderer::render_still(const Camera& camera, const RenderSettings&
 RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int)>& moment,
                                     const RenderSettings& settings) {
   SceneView view = moment(0);
+  if (is_distorted(view.camera))
+    return through_lens(*view.camera.lens, settings, [&](const Lens& lens, const RenderSettings& own) {
+      const auto without_distortion = [&](int i) {
+        SceneView at = i == 0 ? view : moment(i);
+        at.camera.lens = lens;
+        return at;
+      };
+      return render_mean(count, without_distortion, own);
+    });
   scene_ = std::move(view.scene);  // the ground of which the camera sees
   begin_frame(seeing_ground(view.camera, settings.options), settings);
   Request request = request_for(settings);
@@ -319,6 +400,7 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
 
   RenderedImage out;
   LinearImage sum;
+  Plane<float> edges;
   Rounds rounds;
   Camera camera;
   for (int i = 0; i < count; ++i) {
@@ -327,6 +409,13 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
     rounds = render_rounds(camera, request, options, out.counts);
     const Stopwatch watch;
     LinearImage picture = method_->resolve(rounds.frame);
+    if (!draws_surfaces(settings.options)) {
+      clear(picture);
+      draw_behind(camera, options, picture);
+    }
+    const Plane<float> covered = edge_coverage(camera, settings, request);
+    if (edges.empty()) edges = {covered.width(), covered.height(), 0.0f};
+    std::ranges::transform(edges.values(), covered.values(), edges.values().begin(), std::plus());
     if (i == 0) {
       sum = std::move(picture);
     } else {
@@ -347,14 +436,3 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
 }
 
 }  // namespace zoneplate
-  // Lines are in no history: frames between the first and the last need none.
-  RenderSettings settling = settings;
-  settling.options.edges.kind = EdgeKind::None;
-  Plane<float> edges;
-    if (!draws_surfaces(settings.options)) {
-      clear(picture);
-      draw_behind(camera, options, picture);
-    }
-    const Plane<float> covered = edge_coverage(camera, settings, request);
-    if (edges.empty()) edges = {covered.width(), covered.height(), 0.0f};
-    std::ranges::transform(edges.values(), covered.values(), edges.values().begin(), std::plus());

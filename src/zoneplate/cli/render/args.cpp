@@ -10,6 +10,9 @@
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/spec.h"
+#include "zoneplate/cli/look/edge_args.h"
+#include "zoneplate/cli/look/lens_args.h"
+#include "zoneplate/cli/look/section_args.h"
 #include "zoneplate/cli/look/shadow_args.h"
 #include "zoneplate/cli/look/solid_texture.h"
 #include "zoneplate/cli/process/confined.h"
@@ -291,6 +294,16 @@ std::vector<Option> camera_options(RenderArgs& a) {
        [&](auto& text) { a.view.index = parse_whole(text, 0, 1 << 20); }},
       {"--up", "AXIS", "Up axis of the scene: +Y, +Z, ...; default +Z for STL, 3MF and AMF, else +Y or the file's",
        group, false, [&](auto& text) { a.up = parse_up(text); }},
+      {"--camera-intrinsics", "FX,FY,CX,CY",
+       "Focal lengths and principal point in pixels, as of OpenCV: (0, 0) is the centre of the top-left pixel; instead "
+       "of a view angle",
+       group, false, [&](auto& text) { a.lens.intrinsics = parse_intrinsics(text); }},
+      {"--camera-distortion", "LIST", "Distortion of the lens as of OpenCV: K1,K2,P1,P2[,K3[,K4,K5,K6]]", group, false,
+       [&](auto& text) { a.lens.distortion = parse_distortion(text); }},
+      {"--camera-calibration", "FILE",
+       "Intrinsics and distortion of a JSON file by OpenCV's FileStorage: camera_matrix, distortion_coefficients, "
+       "image_width and image_height",
+       group, false, [&](auto& text) { a.lens.calibrated = read_calibration(text); }},
   };
 }
 
@@ -336,19 +349,6 @@ std::vector<Option> scene_options(RenderArgs& a) {
       {"--light-intensity", "FACTOR", "Factor of all lights; default 1", group, false,
        [&](auto& text) {
          a.lighting.intensity = static_cast<float>(parse_number(text, 0, 1e6));
-         a.has_own_brightness = true;
-       }},
-      {"--environment", "COLOR",
-       "Constant environment light of this colour, instead of the default lights; or studio: the boxes of the default "
-       "light, also for files with lights of their own",
-       group, false,
-       [&](auto& text) {
-         a.is_in_studio = text == "studio";
-         a.environment_color = a.is_in_studio ? std::nullopt : std::optional(linear_color(text));
-       }},
-      {"--hdri-file", "FILE",
-       "Image-based light, instead of the default lights: .hdr, .exr, .pfm, .png, .jpg or .webp; {face} in the name "
-       "stands "
       {"--section",
        "X,Y,Z,D",
        "Cut away what lies beyond the plane X x + Y y + Z z = D of the file's coordinates, and close solids by caps; "
@@ -364,6 +364,19 @@ std::vector<Option> scene_options(RenderArgs& a) {
          const float3 light = linear_color(text);
          a.section.color = float4{light.x, light.y, light.z, 1};
        }},
+         a.has_own_brightness = true;
+       }},
+      {"--environment", "COLOR",
+       "Constant environment light of this colour, instead of the default lights; or studio: the boxes of the default "
+       "light, also for files with lights of their own",
+       group, false,
+       [&](auto& text) {
+         a.is_in_studio = text == "studio";
+         a.environment_color = a.is_in_studio ? std::nullopt : std::optional(linear_color(text));
+       }},
+      {"--hdri-file", "FILE",
+       "Image-based light, instead of the default lights: .hdr, .exr, .pfm, .png, .jpg or .webp; {face} in the name "
+       "stands "
        "for px, nx, py, ny, pz and nz, the six squares of a cube map",
        group, false, [&](auto& text) { a.hdri_file = text; }},
       choice_option("--hdri-layout", "NAME",

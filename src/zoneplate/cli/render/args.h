@@ -16,6 +16,9 @@
 #include "zoneplate/cli/batch/shard.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/look/default_material.h"
+#include "zoneplate/cli/look/lens_args.h"
+#include "zoneplate/cli/look/section_args.h"
+#include "zoneplate/cli/look/view_args.h"
 #include "zoneplate/cli/progress.h"
 #include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/codec/save.h"
@@ -96,7 +99,8 @@ struct RenderArgs {
   float light_dimming = 1;                  ///< of the lights of a file; set by set_light_dimming
   std::optional<float4> background;         ///< sRGB code; none: the scene's own or the usual one
   float background_blur = 0;
-  View view;
+  View view;  ///< its lens is set from `lens` by check_args
+  LensArgs lens;
   MipOptions mips;                            ///< how images are decoded and reduced
   std::optional<ShadingModel> shading_model;  ///< for every material
   std::optional<float> displacement;          ///< DisplacementOptions::tolerance; none: height textures are bumps
@@ -104,11 +108,11 @@ struct RenderArgs {
   std::string solid_texture;  ///< of every material, in the form of cli/look/solid_texture.h
   LightingOptions lighting;
   std::optional<float3> environment_color;       ///< linear radiance of --environment
+  SectionArgs section;
   std::string cache;                             ///< folder of prepared environments; empty: none is kept
   bool is_in_studio = false;                     ///< --environment studio
   std::string hdri_file;                         ///< the image of `lighting.environment`; empty: none
   std::optional<EnvironmentLayout> hdri_layout;  ///< none: by the image's aspect
-  SectionArgs section;
   float hdri_rotation = 0, hdri_intensity = 1;
   std::vector<const Aov*> aovs;
   LoadOptions load;

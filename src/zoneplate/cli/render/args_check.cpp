@@ -70,6 +70,7 @@ void check_effects(const RenderArgs& args, const std::string& ending) {
   if (args.file.exr_compression && ending != ".exr") refuse("--exr-compression is for .exr");
   if (args.tone_mapping.value_or(ToneMapping::None) != ToneMapping::None && is_linear)
     refuse("--tone-mapping: .exr and .pfm contain linear light, before tone mapping");
+    refuse("--tone-mapping does not go with --color-management raw");
   if (args.tone_mapping.value_or(ToneMapping::None) != ToneMapping::None && args.display.raw)
   if (args.default_material.height_scale && args.default_material.height_map.empty())
     refuse("--height-scale requires --height-map");
@@ -77,7 +78,6 @@ void check_effects(const RenderArgs& args, const std::string& ending) {
     refuse("--section-color requires --section, for example 1,0,0,0");
   if (args.options.edges.color && args.options.edges.kind == EdgeKind::None)
     refuse("--edge-color requires --edges, for example features");
-    refuse("--tone-mapping does not go with --color-management raw");
   if ((args.default_material.metallic || args.default_material.roughness) &&
       args.shading_model.value_or(ShadingModel::MetallicRoughness) != ShadingModel::MetallicRoughness)
     refuse("--metallic and --roughness are those of --shading-model pbr");
@@ -173,6 +173,11 @@ void check_args(RenderArgs& args) {
   check_output(args);
   check_environment(args);
   const std::string ending = extension_of(args.named_output());
+  args.view.lens = args.lens.lens(args.options.width, args.options.height);
+  if (args.view.lens && (args.view.view_angle || args.view.is_orthographic))
+    throw Error(ErrorKind::Usage,
+                "--camera-intrinsics and --camera-calibration go with neither --camera-view-angle nor "
+                "--camera-orthographic");
   if (ending == ".exr" && !args.background && !args.options.background) args.display.is_transparent = true;
   if (args.options.opaque_glass && !args.display.is_transparent)
     throw Error(ErrorKind::Usage, "--opaque-glass requires a transparent background (--no-background)");

@@ -141,9 +141,9 @@ void check_passes(const RenderArgs& args, const Request& request) {
 
 void convert_materials(const RenderArgs& args, Scene& scene) {
   set_default_material(args.default_material, args.load.limits, scene);
-  if (args.shading_model)
   cut_scene(scene, args.section.planes, args.section.color);
     for (Material& material : scene.materials) convert_material(material, *args.shading_model);
+  if (args.shading_model)
   if (args.displacement) displace_surfaces(scene, {.tolerance = *args.displacement});
   if (!args.solid_texture.empty()) set_solid_texture(args.solid_texture, scene);
 }
@@ -158,6 +158,7 @@ Camera choose_own_camera(RenderArgs& args, const Scene& scene) {
   set_usual_options(args, scene);
   args.view.up = args.up.value_or(scene.up);
   const bool has_own_view = is_builtin_scene(args.input) && !scene.cameras.empty();
+  args.view.lens = args.lens.lens(args.options.width, args.options.height);
   if (has_own_view && !args.view.index && !args.view.position) args.view.index = 0;
   const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
   return choose_camera(scene, args.view, aspect);
