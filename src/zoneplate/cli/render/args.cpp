@@ -124,6 +124,15 @@ std::vector<Option> sequence_options(RenderArgs& a) {
        [&](auto& text) { a.sequence.count = parse_whole(text, 1, 100'000); }},
       {"--frame-start,-s", "F", "First frame; default 0", group, false,
        [&](auto& text) { a.sequence.first = parse_whole(text, -1'000'000, 1'000'000); }},
+      {"--views", "LIST",
+       "Render one frame from each of these directions: front, right, back, left, top, bottom or iso; the animation "
+       "rests at --animation-time",
+       group, false, [&](auto& text) { a.sequence.views = parse_views(text); }, view_names()},
+      {"--camera-path", "FILE",
+       "Move the camera through the keys of a JSON file: {\"keys\": [{\"time\": 0, \"position\": [X,Y,Z], "
+       "\"focal_point\": [X,Y,Z]}, ...]}, with view_up and view_angle where they are given; on smooth curves between "
+       "them",
+       group, false, [&](auto& text) { a.sequence.camera_path = read_camera_path(text); }},
       {"--frame-end,-e", "F", "Last frame", group, false,
        [&](auto& text) { a.sequence.last = parse_whole(text, -1'000'000, 1'000'000); }},
       {"--frame-jump,-j", "N", "Step between frames; default 1", group, false,
@@ -288,12 +297,6 @@ std::vector<Option> camera_options(RenderArgs& a) {
        [&](auto& text) { a.view.view_up = narrowed(parse_triple(text)); }},
       {"--camera-view-angle", "DEG", "Vertical angle of view; default 30", group, false,
        [&](auto& text) { a.view.view_angle = radians(text, 0.01, 179); }},
-      {"--camera-orthographic", "", "Orthographic projection", group, false,
-       [&](auto&) { a.view.is_orthographic = true; }},
-      {"--camera-index", "N", "Index of a camera of the scene, from 0", group, false,
-       [&](auto& text) { a.view.index = parse_whole(text, 0, 1 << 20); }},
-      {"--up", "AXIS", "Up axis of the scene: +Y, +Z, ...; default +Z for STL, 3MF and AMF, else +Y or the file's",
-       group, false, [&](auto& text) { a.up = parse_up(text); }},
       {"--camera-intrinsics", "FX,FY,CX,CY",
        "Focal lengths and principal point in pixels, as of OpenCV: (0, 0) is the centre of the top-left pixel; instead "
        "of a view angle",
@@ -301,6 +304,12 @@ std::vector<Option> camera_options(RenderArgs& a) {
       {"--camera-distortion", "LIST", "Distortion of the lens as of OpenCV: K1,K2,P1,P2[,K3[,K4,K5,K6]]", group, false,
        [&](auto& text) { a.lens.distortion = parse_distortion(text); }},
       {"--camera-calibration", "FILE",
+      {"--camera-orthographic", "", "Orthographic projection", group, false,
+       [&](auto&) { a.view.is_orthographic = true; }},
+      {"--camera-index", "N", "Index of a camera of the scene, from 0", group, false,
+       [&](auto& text) { a.view.index = parse_whole(text, 0, 1 << 20); }},
+      {"--up", "AXIS", "Up axis of the scene: +Y, +Z, ...; default +Z for STL, 3MF and AMF, else +Y or the file's",
+       group, false, [&](auto& text) { a.up = parse_up(text); }},
        "Intrinsics and distortion of a JSON file by OpenCV's FileStorage: camera_matrix, distortion_coefficients, "
        "image_width and image_height",
        group, false, [&](auto& text) { a.lens.calibrated = read_calibration(text); }},
@@ -334,21 +343,6 @@ std::vector<Option> scene_options(RenderArgs& a) {
        "Turn height textures into geometry instead of bumps: refine meshes until they are this near to the heights,\n"
        "relative to their longest side, for example 0.001",
        group, false, [&](auto& text) { a.displacement = static_cast<float>(parse_number(text, 1e-6, 1)); }},
-      {"--solid-texture", "PATTERN",
-       "Procedural texture of all materials, for example marble:scale=6: " + solid_texture_names(), group, false,
-       [&](auto& text) { a.solid_texture = check_solid_texture(text); }},
-      choice_option("--lights", "SOURCE",
-                    "Lights: file, those of the model alone, or the default light where it has none; default, the "
-                    "default light, or --environment or --hdri-file alone; or both, the model's and the default light; "
-                    "by default those of the model and, so that nothing is black, the default environment at 0.15",
-                    group, false, {"file", "default", "both"},
-                    [&](std::size_t i) {
-                      constexpr LightSource sources[] = {LightSource::Alone, LightSource::Default, LightSource::Both};
-                      a.lighting.source = sources[i];
-                    }),
-      {"--light-intensity", "FACTOR", "Factor of all lights; default 1", group, false,
-       [&](auto& text) {
-         a.lighting.intensity = static_cast<float>(parse_number(text, 0, 1e6));
       {"--section",
        "X,Y,Z,D",
        "Cut away what lies beyond the plane X x + Y y + Z z = D of the file's coordinates, and close solids by caps; "
@@ -370,6 +364,21 @@ std::vector<Option> scene_options(RenderArgs& a) {
        "Constant environment light of this colour, instead of the default lights; or studio: the boxes of the default "
        "light, also for files with lights of their own",
        group, false,
+      {"--solid-texture", "PATTERN",
+       "Procedural texture of all materials, for example marble:scale=6: " + solid_texture_names(), group, false,
+       [&](auto& text) { a.solid_texture = check_solid_texture(text); }},
+      choice_option("--lights", "SOURCE",
+                    "Lights: file, those of the model alone, or the default light where it has none; default, the "
+                    "default light, or --environment or --hdri-file alone; or both, the model's and the default light; "
+                    "by default those of the model and, so that nothing is black, the default environment at 0.15",
+                    group, false, {"file", "default", "both"},
+                    [&](std::size_t i) {
+                      constexpr LightSource sources[] = {LightSource::Alone, LightSource::Default, LightSource::Both};
+                      a.lighting.source = sources[i];
+                    }),
+      {"--light-intensity", "FACTOR", "Factor of all lights; default 1", group, false,
+       [&](auto& text) {
+         a.lighting.intensity = static_cast<float>(parse_number(text, 0, 1e6));
        [&](auto& text) {
          a.is_in_studio = text == "studio";
          a.environment_color = a.is_in_studio ? std::nullopt : std::optional(linear_color(text));

@@ -46,11 +46,13 @@ struct SequenceArgs {
   int shutter_samples = 16;
   ShutterFilter shutter_filter = ShutterFilter::Box;
   int warm_up = 0;  ///< frames before the first that are rendered for a method with history, and not written
-  std::vector<int> finished = {};  ///< sorted; frames that are not rendered again
+  std::vector<ViewDirection> views = {};       ///< of the frames, one after the other
+  std::optional<KeyedViews> camera_path = {};  ///< the camera of each frame
+  std::vector<int> finished = {};              ///< sorted; frames that are not rendered again
 
   bool is_sequence() const { return requests_frames() || is_film; }
   /// Whether the options request frames, whatever the output is.
-  bool requests_frames() const { return turntable || count || first || last; }
+  bool requests_frames() const { return turntable || count || first || last || !views.empty() || camera_path; }
   std::int64_t first_frame() const { return first.value_or(0); }
   /// The last frame, if it does not depend on the animation.
   std::optional<std::int64_t> last_frame() const;
@@ -106,9 +108,9 @@ struct RenderArgs {
   std::optional<float> displacement;          ///< DisplacementOptions::tolerance; none: height textures are bumps
   DefaultMaterial default_material;
   std::string solid_texture;  ///< of every material, in the form of cli/look/solid_texture.h
+  SectionArgs section;
   LightingOptions lighting;
   std::optional<float3> environment_color;       ///< linear radiance of --environment
-  SectionArgs section;
   std::string cache;                             ///< folder of prepared environments; empty: none is kept
   bool is_in_studio = false;                     ///< --environment studio
   std::string hdri_file;                         ///< the image of `lighting.environment`; empty: none

@@ -159,6 +159,8 @@ void check_environment(RenderArgs& args) {
 std::optional<std::int64_t> SequenceArgs::last_frame() const {
   if (last) return *last;
   if (count) return first_frame() + std::int64_t{*count - 1} * jump;
+  if (!views.empty()) return static_cast<std::int64_t>(views.size()) - 1;
+  if (camera_path) return static_cast<std::int64_t>(camera_path->keys.back().time * rate + 1e-6);
   if (turntable) return std::int64_t{*turntable} - 1;
   return std::nullopt;
 }
@@ -172,11 +174,11 @@ void check_args(RenderArgs& args) {
   append_upscaler(args);
   check_output(args);
   check_environment(args);
-  const std::string ending = extension_of(args.named_output());
   args.view.lens = args.lens.lens(args.options.width, args.options.height);
   if (args.view.lens && (args.view.view_angle || args.view.is_orthographic))
     throw Error(ErrorKind::Usage,
                 "--camera-intrinsics and --camera-calibration go with neither --camera-view-angle nor "
+  const std::string ending = extension_of(args.named_output());
                 "--camera-orthographic");
   if (ending == ".exr" && !args.background && !args.options.background) args.display.is_transparent = true;
   if (args.options.opaque_glass && !args.display.is_transparent)
@@ -193,6 +195,14 @@ void check_args(RenderArgs& args) {
     throw Error(ErrorKind::Usage, "--dither is for 8 bits a channel");
   if (args.sequence.jump != 1 && !args.sequence.is_sequence())
     throw Error(ErrorKind::Usage,
+  const int paths = int{args.sequence.turntable.has_value()} + int{!args.sequence.views.empty()} +
+                    int{args.sequence.camera_path.has_value()};
+  if (paths > 1)
+    throw Error(ErrorKind::Usage, "--turntable, --views and --camera-path each move the camera: give one of them");
+  if (!args.sequence.views.empty() && (args.sequence.shutter || args.view.index || args.view.position))
+    throw Error(ErrorKind::Usage,
+                "--views are of the whole scene: they go with none of --shutter, --camera-index and "
+                "--camera-position");
                 "--frame-jump requires a sequence: --frames, --frame-start, --frame-end or --turntable");
   if (args.sequence.shutter && !args.sequence.is_sequence())
     throw Error(ErrorKind::Usage, "--shutter requires a sequence: --frames, --frame-start, --frame-end or --turntable");

@@ -142,9 +142,9 @@ void check_passes(const RenderArgs& args, const Request& request) {
 void convert_materials(const RenderArgs& args, Scene& scene) {
   set_default_material(args.default_material, args.load.limits, scene);
   cut_scene(scene, args.section.planes, args.section.color);
-    for (Material& material : scene.materials) convert_material(material, *args.shading_model);
   if (args.shading_model)
   if (args.displacement) displace_surfaces(scene, {.tolerance = *args.displacement});
+    for (Material& material : scene.materials) convert_material(material, *args.shading_model);
   if (!args.solid_texture.empty()) set_solid_texture(args.solid_texture, scene);
 }
 
@@ -157,9 +157,9 @@ void set_usual_options(RenderArgs& args, const Scene& scene) {
 Camera choose_own_camera(RenderArgs& args, const Scene& scene) {
   set_usual_options(args, scene);
   args.view.up = args.up.value_or(scene.up);
-  const bool has_own_view = is_builtin_scene(args.input) && !scene.cameras.empty();
   args.view.lens = args.lens.lens(args.options.width, args.options.height);
   if (has_own_view && !args.view.index && !args.view.position) args.view.index = 0;
+  const bool has_own_view = is_builtin_scene(args.input) && !scene.cameras.empty();
   const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
   return choose_camera(scene, args.view, aspect);
 }

@@ -28,7 +28,8 @@ class Plan {
     const bool is_chosen = has_animation || args.has_animation_time;
     choice_ = args.load.choice;
     Scene scene = load(&SceneSource::load, choice_.time);
-    if (!has_animation && !scene.animations.empty() && (is_chosen || !args.sequence.turntable)) {
+    const bool is_orbit = args.sequence.turntable || !args.sequence.views.empty();
+    if (!has_animation && !scene.animations.empty() && (is_chosen || !is_orbit)) {
       choice_.animation = 0;
       if (scene.animations.size() > 1)
         notes_.push_back(fmt::format(
@@ -39,7 +40,7 @@ class Plan {
     is_animated_ = choice_.animation || !choice_.animation_name.empty();
     if (!is_animated_) still_ = std::move(scene);
     list_frames();
-    if (still_ && !args.sequence.turntable && frames_.size() > 1)
+    if (still_ && !is_orbit && !args.sequence.camera_path && frames_.size() > 1)
       notes_.push_back(fmt::format("{}: has no animation, so that all {} frames show the same; see --turntable",
                                    args.input, frames_.size()));
     if (std::string late = lateness(args, end_); !late.empty()) notes_.push_back(std::move(late));
@@ -60,7 +61,8 @@ class Plan {
   ToneMapping tone_mapping() const { return tone_mapping_; }
 
   Sequence sequence() {
-    const SequenceTiming timing{.rate = args_.sequence.rate,
+    constexpr double resting = 1e12;  // frames per second: all have the time of the first
+    const SequenceTiming timing{.rate = args_.sequence.views.empty() ? args_.sequence.rate : resting,
                                 .start = args_.load.choice.time,
                                 .duration = end_,
                                 .turntable = args_.sequence.turntable};
@@ -152,7 +154,8 @@ Rendered render_frame(const RenderArgs& args, Sequence& sequence, int frame, con
     SceneView view = sequence.view(frame);
     renderer.set_scene(dimmed(std::move(view.scene), args.light_dimming));
     camera = view.camera;
-    image = renderer.render(camera, settings);
+    // Views have nothing in common that a history could keep.
+    image = args.sequence.views.empty() ? renderer.render(camera, settings) : renderer.render_still(camera, settings);
   }
   return finish_picture(args, std::move(image), renderer.scene().scene(), camera, output, summary, frame);
 }
@@ -179,6 +182,24 @@ void warm_up(const RenderArgs& args, Sequence& sequence, int first, Renderer& re
     renderer.set_scene(dimmed(std::move(view.scene), args.light_dimming));
     renderer.render(view.camera, settings);
   }
+}
+
+/// The camera of all frames, or of each.
+void set_camera(const RenderArgs& args, float aspect, Sequence& sequence) {
+  const SequenceArgs& s = args.sequence;
+  if (s.camera_path)
+    return sequence.set_views([&, rate = s.rate](double frame) { return s.camera_path->at(frame / rate, args.view); },
+                              aspect);
+  if (s.views.empty()) return sequence.set_view(args.view, aspect);
+  sequence.set_views(
+      [&](double frame) {
+        const auto last = static_cast<double>(s.views.size() - 1);
+        const ViewDirection& direction = s.views[static_cast<std::size_t>(std::clamp(frame, 0.0, last))];
+        View view = args.view;
+        view.azimuth = direction.azimuth, view.elevation = direction.elevation;
+        return view;
+      },
+      aspect);
 }
 
 bool is_one_frame(const SequenceArgs& s) { return s.count == 1 || (s.first && s.first == s.last); }
@@ -237,7 +258,7 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
   const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
   if (!is_numbered && !args.aovs.empty())
     throw Error(ErrorKind::Usage, "--aov requires numbered frames, as chair.####.png");
-  sequence.set_view(args.view, aspect);
+  set_camera(args, aspect, sequence);
   summary.warnings = sequence.scene(plan.frames().front()).scene().warnings;
   if (renderer.scene().scene().needs_fill_light) {
     std::string warning;
