@@ -33,11 +33,11 @@ struct RenderSettings {
 
 /// A finished image with its data passes, all of the size of the crop or, without one, of the image.
 struct RenderedImage {
-  Rgba8Image display;     ///< display-referred, straight alpha
-  Rgba16Image display16;  ///< the same with 16 bits
-  LinearImage linear;     ///< before exposure, tone mapping and background: premultiplied, in scene units
-  Frame data;             ///< the planes of the settings; its colours are empty
-  RenderCounts counts;    ///< the sums over all rounds of the method
+  Rgba8Image display{};     ///< display-referred, straight alpha
+  Rgba16Image display16{};  ///< the same with 16 bits
+  LinearImage linear{};     ///< before exposure, tone mapping and background: premultiplied, in scene units
+  Frame data{};             ///< the planes of the settings; its colours are empty
+  RenderCounts counts{};    ///< the sums over all rounds of the method
 };
 
 /// A prepared scene and its camera at one moment.

@@ -15,6 +15,7 @@
 #include "zoneplate/cli/look/section_args.h"
 #include "zoneplate/cli/look/shadow_args.h"
 #include "zoneplate/cli/look/solid_texture.h"
+#include "zoneplate/cli/look/tone_args.h"
 #include "zoneplate/cli/process/confined.h"
 #include "zoneplate/cli/render/environment_file.h"
 #include "zoneplate/cli/render/option_values.h"
@@ -85,6 +86,9 @@ void set_quality(RenderArgs& a, int level) {
   a.options.shadows = level == 2 ? parse_shadows("soft:samples=64,spacing=8") : usual.options.shadows;
   a.options.occlusion = level == 2 ? parse_occlusion("rays:samples=64,spacing=8") : usual.options.occlusion;
   a.options.ground = level == 2 ? GroundKind::Shadow : usual.options.ground;
+  a.options.specular_aa = level == 2 ? SpecularAntialiasing::Full : usual.options.specular_aa;
+  constexpr float4 paper{0xe8 / 255.0f, 0xe6 / 255.0f, 0xe0 / 255.0f, 1};  // #e8e6e0, on which a shadow shows
+  a.quality_background = level == 2 ? std::optional(paper) : std::nullopt;
 }
 
 std::vector<Option> input_options(RenderArgs& a) {
@@ -120,10 +124,6 @@ std::vector<Option> sequence_options(RenderArgs& a) {
   return {
       {"--turntable", "N", "Render N frames while the camera makes one turn around the scene", group, false,
        [&](auto& text) { a.sequence.turntable = parse_whole(text, 1, 100'000); }},
-      {"--frames", "N", "Number of frames; default: to the end of the animation or turn", group, false,
-       [&](auto& text) { a.sequence.count = parse_whole(text, 1, 100'000); }},
-      {"--frame-start,-s", "F", "First frame; default 0", group, false,
-       [&](auto& text) { a.sequence.first = parse_whole(text, -1'000'000, 1'000'000); }},
       {"--views", "LIST",
        "Render one frame from each of these directions: front, right, back, left, top, bottom or iso; the animation "
        "rests at --animation-time",
@@ -133,6 +133,10 @@ std::vector<Option> sequence_options(RenderArgs& a) {
        "\"focal_point\": [X,Y,Z]}, ...]}, with view_up and view_angle where they are given; on smooth curves between "
        "them",
        group, false, [&](auto& text) { a.sequence.camera_path = read_camera_path(text); }},
+      {"--frames", "N", "Number of frames; default: to the end of the animation or turn", group, false,
+       [&](auto& text) { a.sequence.count = parse_whole(text, 1, 100'000); }},
+      {"--frame-start,-s", "F", "First frame; default 0", group, false,
+       [&](auto& text) { a.sequence.first = parse_whole(text, -1'000'000, 1'000'000); }},
       {"--frame-end,-e", "F", "Last frame", group, false,
        [&](auto& text) { a.sequence.last = parse_whole(text, -1'000'000, 1'000'000); }},
       {"--frame-jump,-j", "N", "Step between frames; default 1", group, false,
@@ -229,31 +233,24 @@ std::vector<Option> picture_options(RenderArgs& a) {
        "them, "
        "as in Babylon.js and Khronos' sample viewer; otherwise their alpha is 1 - the part of light that passes",
        group, true, [&](auto&) { a.options.opaque_glass = true; }},
-      choice_option("--tone-mapping", "CURVE",
-                    "Tone-mapping curve of images that are not linear: none, aces, neutral, agx or filmic; default "
-                    "neutral in the studio that a scene without lights gets, else none",
-                    group, false, {"none", "aces", "neutral", "agx", "filmic"},
-                    [&](std::size_t i) {
-                      constexpr ToneMapping curves[] = {ToneMapping::None, ToneMapping::Aces, ToneMapping::Neutral,
-                                                        ToneMapping::Agx, ToneMapping::Filmic};
-                      a.tone_mapping = curves[i];
-                    }),
+      tone_mapping_option(a.tone_mapping, "default neutral in the studio that a scene without lights gets, else none",
+                          group),
       {"--exposure", "STOPS",
        "Exposure in stops: each stop doubles the brightness, negative ones halve it; or auto: 95 % of the surfaces' "
        "pixels have no channel above 0.8, in a sequence those of frame 0; default 0",
        group, false,
        [&](auto& text) {
-         a.meters_exposure = text == "auto";
-         a.has_own_brightness = true;
-         a.display.exposure = a.meters_exposure ? 1 : exp2(static_cast<float>(parse_number(text, -32, 32)));
+         const std::optional<float> factor = parse_exposure(text);
+         a.meters_exposure = !factor, a.has_own_brightness = true;
+         a.display.exposure = factor.value_or(1);
        },
        Choices{"auto"}},
       choice_option("--bit-depth", "BITS", "Bits per channel of .png and .rgba: 8 or 16; default 8", group, false,
                     {"8", "16"}, [&](std::size_t i) { a.bit_depth = i == 1 ? 16 : 8; }),
       {"--jpeg-quality", "N", "Quality of .jpg, 1 to 100: smaller files below, fewer artifacts above; default 92",
        group, false, [&](auto& text) { a.file.jpeg_quality = parse_whole(text, 1, 100); }},
-      {"--webp-quality", "N", "Quality of .webp, 0 to 100, with loss; default: lossless", group, false,
-       [&](auto& text) { a.file.webp_quality = parse_whole(text, 0, 100); }},
+      {"--webp-quality", "N", "Quality of .webp, still or animated, 0 to 100, with loss; default: lossless", group,
+       false, [&](auto& text) { a.file.webp_quality = parse_whole(text, 0, 100); }},
       choice_option("--png-compression", "KIND",
                     "Compression of .png: fast, or small: some 30 % smaller, several "
                     "times slower; default fast",
@@ -304,15 +301,15 @@ std::vector<Option> camera_options(RenderArgs& a) {
       {"--camera-distortion", "LIST", "Distortion of the lens as of OpenCV: K1,K2,P1,P2[,K3[,K4,K5,K6]]", group, false,
        [&](auto& text) { a.lens.distortion = parse_distortion(text); }},
       {"--camera-calibration", "FILE",
+       "Intrinsics and distortion of a JSON file by OpenCV's FileStorage: camera_matrix, distortion_coefficients, "
+       "image_width and image_height",
+       group, false, [&](auto& text) { a.lens.calibrated = read_calibration(text); }},
       {"--camera-orthographic", "", "Orthographic projection", group, false,
        [&](auto&) { a.view.is_orthographic = true; }},
       {"--camera-index", "N", "Index of a camera of the scene, from 0", group, false,
        [&](auto& text) { a.view.index = parse_whole(text, 0, 1 << 20); }},
       {"--up", "AXIS", "Up axis of the scene: +Y, +Z, ...; default +Z for STL, 3MF and AMF, else +Y or the file's",
        group, false, [&](auto& text) { a.up = parse_up(text); }},
-       "Intrinsics and distortion of a JSON file by OpenCV's FileStorage: camera_matrix, distortion_coefficients, "
-       "image_width and image_height",
-       group, false, [&](auto& text) { a.lens.calibrated = read_calibration(text); }},
   };
 }
 
@@ -328,6 +325,15 @@ std::vector<Option> scene_options(RenderArgs& a) {
       {"--texture", "FILE",
        "Image for surfaces without a material: .png, .jpg, .webp, .hdr, .exr or .ktx2; times --color, if given", group,
        false, [&](auto& text) { a.default_material.texture = text; }},
+      {"--normal-map", "FILE", "Normal map in tangent space for surfaces without a material", group, false,
+       [&](auto& text) { a.default_material.normal_map = text; }},
+      {"--height-map", "FILE",
+       "Height map for surfaces without a material: bumps, or geometry with --displacement; white is --height-scale "
+       "above black",
+       group, false, [&](auto& text) { a.default_material.height_map = text; }},
+      {"--height-scale", "H", "Height of white above black of --height-map; default a hundredth of the longest side",
+       group, false,
+       [&](auto& text) { a.default_material.height_scale = static_cast<float>(parse_number(text, -1e9, 1e9)); }},
       {"--metallic", "M", "Metalness of surfaces without a material, from 0, a dielectric, to 1, a metal", group, false,
        [&](auto& text) { a.default_material.metallic = static_cast<float>(parse_number(text, 0, 1)); }},
       {"--roughness", "R", "Roughness of surfaces without a material, from 0, a mirror, to 1", group, false,
@@ -358,12 +364,6 @@ std::vector<Option> scene_options(RenderArgs& a) {
          const float3 light = linear_color(text);
          a.section.color = float4{light.x, light.y, light.z, 1};
        }},
-         a.has_own_brightness = true;
-       }},
-      {"--environment", "COLOR",
-       "Constant environment light of this colour, instead of the default lights; or studio: the boxes of the default "
-       "light, also for files with lights of their own",
-       group, false,
       {"--solid-texture", "PATTERN",
        "Procedural texture of all materials, for example marble:scale=6: " + solid_texture_names(), group, false,
        [&](auto& text) { a.solid_texture = check_solid_texture(text); }},
@@ -379,6 +379,12 @@ std::vector<Option> scene_options(RenderArgs& a) {
       {"--light-intensity", "FACTOR", "Factor of all lights; default 1", group, false,
        [&](auto& text) {
          a.lighting.intensity = static_cast<float>(parse_number(text, 0, 1e6));
+         a.has_own_brightness = true;
+       }},
+      {"--environment", "COLOR",
+       "Constant environment light of this colour, instead of the default lights; or studio: the boxes of the default "
+       "light, also for files with lights of their own",
+       group, false,
        [&](auto& text) {
          a.is_in_studio = text == "studio";
          a.environment_color = a.is_in_studio ? std::nullopt : std::optional(linear_color(text));

@@ -88,18 +88,19 @@ struct RenderArgs {
   FileOptions file;
   std::string stdout_format = "png";
   std::string method = usual_method;
-  bool has_method = false;                  ///< --anti-aliasing is given
-  std::string upscaler;                     ///< follows the method; check_args appends it to `method`
-  std::optional<double> render_scale;       ///< of `upscaler`
-  RenderOptions options;                    ///< `anisotropy` and `point_size` are set by set_usual_options
-  std::optional<int> anisotropy;            ///< none: usual_anisotropy, or the own one of a built-in scene
-  std::optional<float> point_size;          ///< none: usual_point_size
-  DisplayOptions display;                   ///< `mapping` is set from `tone_mapping`, by the scene's light
-  std::optional<ToneMapping> tone_mapping;  ///< none: that of the light, see Lighting
-  bool meters_exposure = false;             ///< --exposure auto: `display.exposure` is set by metered_exposure
-  bool has_own_brightness = false;          ///< --exposure or --light-intensity is given
-  float light_dimming = 1;                  ///< of the lights of a file; set by set_light_dimming
-  std::optional<float4> background;         ///< sRGB code; none: the scene's own or the usual one
+  bool has_method = false;                   ///< --anti-aliasing is given
+  std::string upscaler;                      ///< follows the method; check_args appends it to `method`
+  std::optional<double> render_scale;        ///< of `upscaler`
+  RenderOptions options;                     ///< `anisotropy` and `point_size` are set by set_usual_options
+  std::optional<int> anisotropy;             ///< none: usual_anisotropy, or the own one of a built-in scene
+  std::optional<float> point_size;           ///< none: usual_point_size
+  DisplayOptions display;                    ///< `mapping` is set from `tone_mapping`, by the scene's light
+  std::optional<ToneMapping> tone_mapping;   ///< none: that of the light, see Lighting
+  bool meters_exposure = false;              ///< --exposure auto: `display.exposure` is set by metered_exposure
+  bool has_own_brightness = false;           ///< --exposure or --light-intensity is given
+  float light_dimming = 1;                   ///< of the lights of a file; set by set_light_dimming
+  std::optional<float4> background;          ///< sRGB code; none: that of the quality, the scene's own or the usual one
+  std::optional<float4> quality_background;  ///< of --quality best; .exr stays transparent
   float background_blur = 0;
   View view;  ///< its lens is set from `lens` by check_args
   LensArgs lens;
@@ -107,8 +108,8 @@ struct RenderArgs {
   std::optional<ShadingModel> shading_model;  ///< for every material
   std::optional<float> displacement;          ///< DisplacementOptions::tolerance; none: height textures are bumps
   DefaultMaterial default_material;
-  std::string solid_texture;  ///< of every material, in the form of cli/look/solid_texture.h
   SectionArgs section;
+  std::string solid_texture;  ///< of every material, in the form of cli/look/solid_texture.h
   LightingOptions lighting;
   std::optional<float3> environment_color;       ///< linear radiance of --environment
   std::string cache;                             ///< folder of prepared environments; empty: none is kept

@@ -62,16 +62,15 @@ void check_effects(const RenderArgs& args, const std::string& ending) {
   const auto refuse = [](const std::string& cause) { throw Error(ErrorKind::Usage, cause); };
   const SequenceArgs& sequence = args.sequence;
   const bool is_linear = ending == ".exr" || ending == ".pfm";
-  const bool is_frame = !sequence.is_sequence() || args.frame_place;
   if (args.file.jpeg_quality && ending != ".jpg" && ending != ".jpeg")
     refuse("--jpeg-quality is for .jpg; --webp-quality is for .webp, and --png-compression for .png");
-  if (args.file.webp_quality && (ending != ".webp" || !is_frame)) refuse("--webp-quality is for .webp with one image");
+  if (args.file.webp_quality && ending != ".webp") refuse("--webp-quality is for .webp");
   if (args.file.is_small_png && ending != ".png") refuse("--png-compression is for .png");
   if (args.file.exr_compression && ending != ".exr") refuse("--exr-compression is for .exr");
   if (args.tone_mapping.value_or(ToneMapping::None) != ToneMapping::None && is_linear)
     refuse("--tone-mapping: .exr and .pfm contain linear light, before tone mapping");
-    refuse("--tone-mapping does not go with --color-management raw");
   if (args.tone_mapping.value_or(ToneMapping::None) != ToneMapping::None && args.display.raw)
+    refuse("--tone-mapping does not go with --color-management raw");
   if (args.default_material.height_scale && args.default_material.height_map.empty())
     refuse("--height-scale requires --height-map");
   if (args.section.color && args.section.planes.empty())
@@ -159,9 +158,9 @@ void check_environment(RenderArgs& args) {
 std::optional<std::int64_t> SequenceArgs::last_frame() const {
   if (last) return *last;
   if (count) return first_frame() + std::int64_t{*count - 1} * jump;
+  if (turntable) return std::int64_t{*turntable} - 1;
   if (!views.empty()) return static_cast<std::int64_t>(views.size()) - 1;
   if (camera_path) return static_cast<std::int64_t>(camera_path->keys.back().time * rate + 1e-6);
-  if (turntable) return std::int64_t{*turntable} - 1;
   return std::nullopt;
 }
 
@@ -178,8 +177,8 @@ void check_args(RenderArgs& args) {
   if (args.view.lens && (args.view.view_angle || args.view.is_orthographic))
     throw Error(ErrorKind::Usage,
                 "--camera-intrinsics and --camera-calibration go with neither --camera-view-angle nor "
-  const std::string ending = extension_of(args.named_output());
                 "--camera-orthographic");
+  const std::string ending = extension_of(args.named_output());
   if (ending == ".exr" && !args.background && !args.options.background) args.display.is_transparent = true;
   if (args.options.opaque_glass && !args.display.is_transparent)
     throw Error(ErrorKind::Usage, "--opaque-glass requires a transparent background (--no-background)");
@@ -195,6 +194,7 @@ void check_args(RenderArgs& args) {
     throw Error(ErrorKind::Usage, "--dither is for 8 bits a channel");
   if (args.sequence.jump != 1 && !args.sequence.is_sequence())
     throw Error(ErrorKind::Usage,
+                "--frame-jump requires a sequence: --frames, --frame-start, --frame-end or --turntable");
   const int paths = int{args.sequence.turntable.has_value()} + int{!args.sequence.views.empty()} +
                     int{args.sequence.camera_path.has_value()};
   if (paths > 1)
@@ -203,7 +203,6 @@ void check_args(RenderArgs& args) {
     throw Error(ErrorKind::Usage,
                 "--views are of the whole scene: they go with none of --shutter, --camera-index and "
                 "--camera-position");
-                "--frame-jump requires a sequence: --frames, --frame-start, --frame-end or --turntable");
   if (args.sequence.shutter && !args.sequence.is_sequence())
     throw Error(ErrorKind::Usage, "--shutter requires a sequence: --frames, --frame-start, --frame-end or --turntable");
   if (args.sequence.shutter && (!args.aovs.empty() || args.options.crop))

@@ -34,6 +34,7 @@ namespace {
 // "#333333", the default background of F3D; the scene "triangles" is defined on black.
 float4 background_of(const RenderArgs& args) {
   if (args.background) return *args.background;
+  if (args.quality_background) return *args.quality_background;
   return args.input == "triangles" ? float4{0, 0, 0, 1} : default_background;
 }
 
@@ -143,8 +144,8 @@ void convert_materials(const RenderArgs& args, Scene& scene) {
   set_default_material(args.default_material, args.load.limits, scene);
   cut_scene(scene, args.section.planes, args.section.color);
   if (args.shading_model)
-  if (args.displacement) displace_surfaces(scene, {.tolerance = *args.displacement});
     for (Material& material : scene.materials) convert_material(material, *args.shading_model);
+  if (args.displacement) displace_surfaces(scene, {.tolerance = *args.displacement});
   if (!args.solid_texture.empty()) set_solid_texture(args.solid_texture, scene);
 }
 
@@ -158,8 +159,8 @@ Camera choose_own_camera(RenderArgs& args, const Scene& scene) {
   set_usual_options(args, scene);
   args.view.up = args.up.value_or(scene.up);
   args.view.lens = args.lens.lens(args.options.width, args.options.height);
-  if (has_own_view && !args.view.index && !args.view.position) args.view.index = 0;
   const bool has_own_view = is_builtin_scene(args.input) && !scene.cameras.empty();
+  if (has_own_view && !args.view.index && !args.view.position) args.view.index = 0;
   const float aspect = static_cast<float>(args.options.width) / static_cast<float>(args.options.height);
   return choose_camera(scene, args.view, aspect);
 }

@@ -327,7 +327,7 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
       out.film_frame(picture.image);
     } else {
       format.has_alpha = picture.has_alpha;
-      if (!film) film = make_film_encoder(args.output, format);
+      if (!film) film = make_film_encoder(args.output, format, args.file.webp_quality);
       background.run(film->add(std::make_shared<const Rgba8Image>(std::move(picture.image))));
     }
   }
