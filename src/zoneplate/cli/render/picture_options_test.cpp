@@ -82,6 +82,7 @@ TEST_F(PictureOptions, SectionsCutInTheFilesCoordinates) {
       "1,0,0,1000001 --section-color red --shading-model unlit");
   EXPECT_EQ(cap(32, 32), (Rgba8{255, 0, 0, 255}));
   EXPECT_EQ(run("cube.obj -o none.png --size 64 --section 1,0,0,0").code, 0);
+  expect_refused("panning-wires --section 1,0,0,0 --frames 1 --size 64 --aa taa", "excludes --aov motion");
   expect_refused("cube.obj --section 0,0,0,1", "normal");
   expect_refused("cube.obj --section 1,0,1", "plane x,y,z,offset");
   expect_refused("cube.obj --section-color red", "--section-color requires --section");

@@ -57,6 +57,7 @@ class Plan {
     for (int i = 1; i <= parts && is_animated_; ++i) out.push_back(end_ * args_.sequence.rate * i / parts);
     return out;
   }
+  bool is_animated() const { return is_animated_; }
   // Of the scene that was made last.
   ToneMapping tone_mapping() const { return tone_mapping_; }
 
@@ -160,6 +161,16 @@ Rendered render_frame(const RenderArgs& args, Sequence& sequence, int frame, con
   return finish_picture(args, std::move(image), renderer.scene().scene(), camera, output, summary, frame);
 }
 
+/// The motion of surfaces that a section cuts anew in every frame is not known.
+void check_section(const RenderArgs& args, const Resolver& method, bool is_animated) {
+  if (args.section.planes.empty() || !is_animated) return;
+  const bool has_motion = std::ranges::any_of(
+      args.aovs, [](const Aov* aov) { return aov->plane == &Planes::motion || aov->plane == &Planes::flow; });
+  if (has_motion || method.has_history())
+    throw Error(ErrorKind::Usage,
+                "--section of an animated model excludes --aov motion and flow, and methods that average frames");
+}
+
 /// A method with history needs all frames in order.
 void check_history(const RenderArgs& args, const Resolver& method) {
   if (!method.has_history() && args.sequence.warm_up > 0)
@@ -246,6 +257,7 @@ void render_sequence(RenderArgs args, std::unique_ptr<Resolver> method, ItemSend
   const bool is_numbered = has_number || !is_film(args.output);
   check_passes(args, request_of(args, *method));
   check_history(args, *method);
+  check_section(args, *method, plan.is_animated());
   Sequence sequence = plan.sequence();
   // What all frames share and the scene decides, it decides at frame 0, whichever frames are rendered: nothing
   // flickers, and the parts of a sequence look alike.
