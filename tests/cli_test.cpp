@@ -244,7 +244,7 @@ TEST_F(Cli, ErrorsAreOneLineWithTheDocumentedCode) {
       {2,
        {"triangles", "-o", "a.png", "--jpeg-quality", "80"},
        "--jpeg-quality is for .jpg; --webp-quality is for .webp, and --png-compression for .png"},
-      {2, {"triangles", "-o", "a.png", "--webp-quality", "80"}, "--webp-quality is for .webp with one image"},
+      {2, {"triangles", "-o", "a.png", "--webp-quality", "80"}, "--webp-quality is for .webp"},
       {2, {"triangles", "-o", "a.jpg", "--png-compression", "small"}, "--png-compression is for .png"},
       {2,
        {"triangles", "-o", "a.exr", "--tone-mapping", "aces"},

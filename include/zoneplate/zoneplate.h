@@ -233,6 +233,10 @@ typedef struct zoneplate_camera {
   double vertical_fov;           ///< radians
   double half_height;            ///< half the image's height, world units
   double near, far;              ///< distances along the view axis
+  /// Instead of `vertical_fov` OpenCV's camera matrix, in pixels of the image that is rendered: fx, fy, cx and cy,
+  /// where (0, 0) is the centre of the top-left pixel. fx = 0: none.
+  double intrinsics[4];
+  double distortion[8];  ///< with `intrinsics`, OpenCV's order: k1, k2, p1, p2, k3, k4, k5, k6
 } zoneplate_camera;
 
 /// The choice of a camera; angles in radians. Members that are null have no effect.

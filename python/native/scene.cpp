@@ -64,7 +64,9 @@ constexpr Field camera_fields[] = {FIELD(zoneplate_camera, world_from_camera, Do
                                    FIELD(zoneplate_camera, vertical_fov, Double),
                                    FIELD(zoneplate_camera, half_height, Double),
                                    FIELD(zoneplate_camera, near, Double),
-                                   FIELD(zoneplate_camera, far, Double)};
+                                   FIELD(zoneplate_camera, far, Double),
+                                   FIELD(zoneplate_camera, intrinsics, Doubles, 4),
+                                   FIELD(zoneplate_camera, distortion, Doubles, 8)};
 constexpr Field view_fields[] = {
     FIELD(zoneplate_view, index, OptionalInt),          FIELD(zoneplate_view, position, Place),
     FIELD(zoneplate_view, focal_point, Place),          FIELD(zoneplate_view, view_up, Floats, 3),

@@ -134,6 +134,11 @@ class Pyrender(unittest.TestCase):
         renderer = zoneplate.OffscreenRenderer(64, 48)
         # Their planes differ, which may change the last bit of the depth.
         np.testing.assert_allclose(renderer.render(by_angle)[1], renderer.render(by_pixels)[1], rtol=1e-5)
+        shifted = pyrender.Scene()
+        shifted.add(pyrender.Mesh.from_trimesh(trimesh()))
+        shifted.add(pyrender.IntrinsicsCamera(fx=48, fy=48, cx=37, cy=21), pose=pose)
+        moved, centred = renderer.render(shifted)[1], renderer.render(by_pixels)[1]
+        np.testing.assert_allclose(moved[:45, 5:], centred[3:, :59], rtol=1e-5)
         parallel = pyrender.Scene()
         parallel.add(pyrender.Mesh.from_trimesh(trimesh()))
         parallel.add(pyrender.OrthographicCamera(xmag=2, ymag=2), pose=pose)

@@ -183,6 +183,30 @@ class Render(unittest.TestCase):
         exact = zoneplate.render(scene, fitted, (160, 120), aovs=["depth"])["depth"]
         self.assertTrue(np.allclose(depth[np.isfinite(exact)], exact[np.isfinite(exact)], rtol=1e-4))
 
+    def test_cameras_of_opencv(self):
+        scene = zoneplate.load("teapot")
+        near = scene.camera(zoneplate.View(azimuth=30, elevation=20), aspect=4 / 3)
+        camera_from_world = np.linalg.inv(np.array(near.matrix))
+        flip = np.diag([1.0, -1.0, -1.0])
+        rotation, translation = flip @ camera_from_world[:3, :3], flip @ camera_from_world[:3, 3]
+        matrix = np.array([[300.0, 0, 84.5], [0, 295.0, 57.25], [0, 0, 1]])
+        for distortion in (np.zeros(4), np.array([[-0.28, 0.09, 0.0012, -0.0007, 0.01]])):
+            camera = zoneplate.Camera.from_opencv(matrix, distortion, rotation=rotation, translation=translation)
+            np.testing.assert_allclose(np.array(camera.matrix), np.array(near.matrix), atol=1e-6)
+            image = zoneplate.render(scene, camera, (160, 120), aa="none", aovs=["position", "depth"])
+            rows, columns = np.nonzero(np.isfinite(image["depth"]))
+            points = image["position"][rows, columns] @ rotation.T + translation
+            x, y = points[:, 0] / points[:, 2], points[:, 1] / points[:, 2]
+            k1, k2, p1, p2, k3 = (list(distortion.ravel()) + [0.0])[:5]
+            r2 = x * x + y * y
+            radial = 1 + k1 * r2 + k2 * r2**2 + k3 * r2**3
+            u = x * radial + 2 * p1 * x * y + p2 * (r2 + 2 * x * x)
+            v = y * radial + p1 * (r2 + 2 * y * y) + 2 * p2 * x * y
+            self.assertLess(np.abs(300.0 * u + 84.5 - columns).max(), 0.5)
+            self.assertLess(np.abs(295.0 * v + 57.25 - rows).max(), 0.5)
+        with self.assertRaises(zoneplate.UsageError):
+            zoneplate.Camera(np.eye(4), distortion=(1, 2, 3))
+
     def test_scenes_of_parts(self):
         scene = zoneplate.Scene()
         checker = (np.indices((4, 4)).sum(axis=0) % 2 * 255).astype(np.uint8)

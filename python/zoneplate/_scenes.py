@@ -100,14 +100,20 @@ class View:
         }
 
 
+_identity = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+
+
 class Camera:
     """A camera in the world, which looks along its own -z with +y up.
 
     `matrix`: its pose, world from camera, 4 x 4 and rigid. `vertical_fov` in degrees; `height` instead makes a parallel
     projection that shows this height in world units. `near` and `far` are distances along the view axis.
+
+    `intrinsics` = (fx, fy, cx, cy) instead of a field of view, in pixels of the image that is rendered, where (0, 0) is
+    the centre of the top-left pixel, and `distortion` = (k1, k2, p1, p2[, k3[, k4, k5, k6]]) are those of OpenCV.
     """
 
-    __slots__ = ("matrix", "vertical_fov", "height", "near", "far")
+    __slots__ = ("matrix", "vertical_fov", "height", "near", "far", "intrinsics", "distortion")
 
     def __init__(
         self,
@@ -117,9 +123,21 @@ class Camera:
         height: float | None = None,
         near: float = 0.01,
         far: float | None = None,
+        intrinsics: Sequence[float] | None = None,
+        distortion: Sequence[float] = (),
     ):
+        if intrinsics is None and len(distortion) > 0:
+            raise _native.UsageError("distortion: requires intrinsics")
+        if intrinsics is not None and height is not None:
+            raise _native.UsageError("intrinsics: a camera with a height has a parallel projection")
         self.matrix = matrix
         self.vertical_fov, self.height, self.near = vertical_fov, height, near
+        self.intrinsics = None if intrinsics is None else tuple(float(v) for v in intrinsics)
+        if self.intrinsics is not None and len(self.intrinsics) != 4:
+            raise _native.UsageError("intrinsics: expected fx, fy, cx, cy")
+        self.distortion = tuple(float(v) for v in distortion)
+        if len(self.distortion) not in (0, 4, 5, 8):
+            raise _native.UsageError(f"distortion: has {len(self.distortion)} coefficients, expected 4, 5 or 8")
         self.far = far if far is not None else (math.inf if height is None else 1000.0)
 
     def _members(self) -> dict[str, Any]:
@@ -130,11 +148,51 @@ class Camera:
             "half_height": 1.0 if self.height is None else self.height / 2,
             "near": self.near,
             "far": self.far,
+            "intrinsics": self.intrinsics or (0.0,) * 4,
+            "distortion": self.distortion + (0.0,) * (8 - len(self.distortion)),
         }
+
+    @classmethod
+    def from_opencv(
+        cls,
+        camera_matrix: Any,
+        distortion: Any = (),
+        *,
+        rotation: Matrix | None = None,
+        translation: Sequence[float] = (0.0, 0.0, 0.0),
+        near: float = 0.01,
+        far: float | None = None,
+    ) -> Camera:
+        """A camera from OpenCV's camera matrix (3 x 3) and distortion coefficients, as cv2.calibrateCamera gives them.
+
+        `rotation` (3 x 3, of cv2.Rodrigues) and `translation` move points of the world to OpenCV's camera, whose y axis
+        points downwards and whose z axis points ahead, as rvec and tvec do.
+        """
+        k = [[float(camera_matrix[i][j]) for j in range(3)] for i in range(3)]
+        if k[0][1] != 0 or k[1][0] != 0 or k[2] != [0, 0, 1]:
+            raise _native.UsageError("camera_matrix: has a skew or a last row that is not 0, 0, 1")
+        coefficients = [float(v) for v in (distortion.ravel() if hasattr(distortion, "ravel") else distortion)]
+        while len(coefficients) > 8 and coefficients[-1] == 0:
+            coefficients.pop()
+        if 5 < len(coefficients) < 8:
+            coefficients += [0.0] * (8 - len(coefficients))
+        r = [[float(rotation[i][j]) for j in range(3)] for i in range(3)] if rotation is not None else _identity
+        t = [float(v) for v in (translation.ravel() if hasattr(translation, "ravel") else translation)]
+        # World from camera: the transposed rotation, whose second and third column turn from OpenCV's axes to these.
+        signs = (1.0, -1.0, -1.0)
+        matrix = [
+            [r[column][row] * signs[column] for column in range(3)] + [-sum(r[k][row] * t[k] for k in range(3))]
+            for row in range(3)
+        ]
+        matrix.append([0.0, 0.0, 0.0, 1.0])
+        intrinsics = (k[0][0], k[1][1], k[0][2], k[1][2])
+        return cls(matrix, near=near, far=far, intrinsics=intrinsics, distortion=coefficients)
 
     def __repr__(self) -> str:
         x, y, z = (float(self.matrix[row][3]) for row in range(3))
         lens = f"{self.vertical_fov:.4g} degrees" if self.height is None else f"height {self.height:.4g}"
+        if self.intrinsics is not None:
+            lens = f"focal length {self.intrinsics[0]:.4g}, {self.intrinsics[1]:.4g} pixels"
         return f"<zoneplate.Camera at ({x:.4g}, {y:.4g}, {z:.4g}), {lens}>"
 
 

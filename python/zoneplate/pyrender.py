@@ -131,7 +131,7 @@ class OrthographicCamera:
 
 
 class IntrinsicsCamera:
-    """A pinhole camera by focal lengths and principal point in pixels; the latter must be the image's centre."""
+    """A pinhole camera by focal lengths and principal point in pixels from the image's top-left corner."""
 
     def __init__(self, fx: float, fy: float, cx: float, cy: float, znear: float = 0.05, zfar: float = 100.0):
         self.fx, self.fy, self.cx, self.cy, self.znear, self.zfar = fx, fy, cx, cy, znear, zfar
@@ -410,10 +410,7 @@ def camera_of(scene: Any, width: int, height: int) -> Camera | View:
     if hasattr(camera, "ymag"):
         return Camera(pose, height=2 * camera.ymag, near=camera.znear, far=camera.zfar)
     if hasattr(camera, "fx"):
-        is_centred = abs(camera.cx - width / 2) <= 0.5 and abs(camera.cy - height / 2) <= 0.5
-        if not is_centred or abs(camera.fx - camera.fy) > 1e-3 * camera.fy:
-            raise _native.UsageError("IntrinsicsCamera: needs square pixels and the principal point in the centre")
-        yfov = 2 * math.atan(height / (2 * camera.fy))
-    else:
-        yfov = camera.yfov
-    return Camera(pose, math.degrees(yfov), near=camera.znear, far=camera.zfar)
+        # pyrender's (0, 0) is the corner of the top-left pixel.
+        intrinsics = (camera.fx, camera.fy, camera.cx - 0.5, camera.cy - 0.5)
+        return Camera(pose, near=camera.znear, far=camera.zfar, intrinsics=intrinsics)
+    return Camera(pose, math.degrees(camera.yfov), near=camera.znear, far=camera.zfar)

@@ -17,8 +17,8 @@ namespace zoneplate {
 struct Param {
   static constexpr int real = -1;  ///< of `decimals`: any number of decimals, and an exponent
 
-  std::string_view name;                         ///< n of `msaa:n=4`
-  std::string_view meaning;                      ///< one line of help
+  std::string_view name{};                       ///< n of `msaa:n=4`
+  std::string_view meaning{};                    ///< one line of help
   double value = 0;                              ///< the default; among names, its index
   double low = 0, high = 0;                      ///< the range, both ends included
   std::span<const int> choices = {};             ///< the only values; empty: any number in the range
@@ -91,8 +91,8 @@ const Row* find_row(std::span<const Row> rows, std::string_view text) {
 /// A row of a catalogue and the values of its parameters.
 template <class Row>
 struct Spec {
-  const Row& row;     ///< of the catalogue, which outlives the Spec
-  Settings settings;  ///< the values of the row's parameters
+  const Row& row;       ///< of the catalogue, which outlives the Spec
+  Settings settings{};  ///< the values of the row's parameters
 
   /// The text in canonical form: `name` or `name:a=1,b=2`.
   std::string text() const {

@@ -15,8 +15,8 @@ namespace zoneplate {
 
 /// A decoded PNG: values as stored, expanded to four channels; 16-bit files keep their precision in `pixels16`.
 struct PngImage {
-  Rgba8Image pixels;     ///< 8 bits a channel; of a 16-bit file its values rounded
-  Rgba16Image pixels16;  ///< empty unless the file has 16 bits a channel
+  Rgba8Image pixels{};     ///< 8 bits a channel; of a 16-bit file its values rounded
+  Rgba16Image pixels16{};  ///< empty unless the file has 16 bits a channel
 };
 
 /// True if the bytes begin with PNG's signature.

@@ -21,9 +21,9 @@ bool is_builtin_scene(std::string_view name);
 
 /// Options of loading a scene.
 struct LoadOptions {
-  LoadLimits limits;          ///< of memory, time and files
-  std::string format;         ///< an extension without its dot, "stl"; empty: that of the name
-  SceneChoice choice;         ///< scene, variant and moment of a glTF file
+  LoadLimits limits{};        ///< of memory, time and files
+  std::string format{};       ///< an extension without its dot, "stl"; empty: that of the name
+  SceneChoice choice{};       ///< scene, variant and moment of a glTF file
   bool is_sandboxed = false;  ///< reads in a child process with limits, whatever the format
 };
 

@@ -13,8 +13,8 @@ namespace metrics {
 
 /// Pairs of images to compare; each is loaded once, in order, and released when it has been measured.
 struct Comparands {
-  std::size_t count = 0;                                ///< the number of pairs
-  std::function<Picture(std::size_t)> reference, test;  ///< load image i of [0, count)
+  std::size_t count = 0;                                    ///< the number of pairs
+  std::function<Picture(std::size_t)> reference{}, test{};  ///< load image i of [0, count)
   bool are_frames = false;  ///< the images are frames of one sequence, so that metrics over several frames apply
   std::function<std::string(std::size_t)> name = {};  ///< of image i, for messages; none: "image 1" and so on
 };
@@ -29,18 +29,18 @@ enum class Unfit {
 struct Result {
   const Metric* metric = nullptr;  ///< a row of the catalogue, never null in a Comparison
   double value = 0;                ///< pooled over all images
-  std::vector<double> values;      ///< of each image, or of each run of `metric->frames` frames with the feature
+  std::vector<double> values{};    ///< of each image, or of each run of `metric->frames` frames with the feature
   std::size_t worst = 0;           ///< the index of the worst of `values`
   std::size_t worst_image = 0;     ///< the index of its image, of several frames the newest
-  Score score;                     ///< the map, curves and additional figures of the worst image
+  Score score{};                   ///< the map, curves and additional figures of the worst image
 };
 
 /// The results of all metrics.
 struct Comparison {
-  bool are_same = true;         ///< every pair has the same values (has_same_values)
-  int width = 0, height = 0;    ///< in pixels, of the last test image
-  std::size_t count = 0;        ///< the number of pairs that were compared
-  std::vector<Result> results;  ///< in the order of the choices, without omitted ones
+  bool are_same = true;           ///< every pair has the same values (has_same_values)
+  int width = 0, height = 0;      ///< in pixels, of the last test image
+  std::size_t count = 0;          ///< the number of pairs that were compared
+  std::vector<Result> results{};  ///< in the order of the choices, without omitted ones
 };
 
 /// Measures images with metrics.

@@ -29,23 +29,23 @@ enum class Sizes {
 
 /// An additional number of a metric.
 struct Figure {
-  std::string name;  ///< as in reports: "rmse"
-  double value = 0;  ///< in `unit`
-  std::string unit;  ///< "code", "share of pixels"; empty for a ratio
+  std::string name{};  ///< as in reports: "rmse"
+  double value = 0;    ///< in `unit`
+  std::string unit{};  ///< "code", "share of pixels"; empty for a ratio
 };
 
 /// A function that was measured: a response, a spectrum.
 struct Curve {
-  std::string name, x_label, y_label;  ///< for legends and axes of a plot
-  std::vector<double> x, y;            ///< of the points, in order of x
+  std::string name{}, x_label{}, y_label{};  ///< for legends and axes of a plot
+  std::vector<double> x{}, y{};              ///< of the points, in order of x
 };
 
 /// The result of a metric for one image (or for the consecutive frames that it uses together).
 struct Score {
-  double value = 0;           ///< in the unit of the metric
-  std::vector<Figure> more;   ///< other values that the measurement gives
-  std::vector<Curve> curves;  ///< for metrics that measure a function
-  Plane<float> map;           ///< the error at each pixel, from 0 (none) to 1; empty if the metric has no map
+  double value = 0;             ///< in the unit of the metric
+  std::vector<Figure> more{};   ///< other values that the measurement gives
+  std::vector<Curve> curves{};  ///< for metrics that measure a function
+  Plane<float> map{};           ///< the error at each pixel, from 0 (none) to 1; empty if the metric has no map
 };
 
 using Frames = std::span<const Picture>;  ///< consecutive images of a sequence, the newest last
@@ -57,10 +57,10 @@ double root_mean_square_of(std::span<const double> values);
 
 /// An entry of the catalogue; each metric's file defines its own.
 struct Metric {
-  std::string_view name;                ///< in lower case: "flip" of `flip:ppd=30`
-  std::string_view summary;             ///< one line for listings
-  std::string_view source;              ///< the publication or standard that defines the metric
-  std::string_view unit;                ///< "dB"; empty for a pure number
+  std::string_view name{};              ///< in lower case: "flip" of `flip:ppd=30`
+  std::string_view summary{};           ///< one line for listings
+  std::string_view source{};            ///< the publication or standard that defines the metric
+  std::string_view unit{};              ///< "dB"; empty for a pure number
   Better better = Better::Lower;        ///< decides which of several values is the worst
   std::optional<double> perfect = 0.0;  ///< the value for identical images, if there is one
   /// True if it says itself what alpha means; null: the worse of the values over black and over white counts.
@@ -75,14 +75,14 @@ struct Metric {
   /// Measures the newest test image against its reference.
   /// Requires  `frames` images each (fewer if starts_short), of the sizes that `sizes` and `smallest` require. Nothing if
   /// the images lack the measured feature; of a sequence, the other windows are measured.
-  std::function<std::optional<Score>(Frames reference, Frames test, const Settings&)> measure;
+  std::function<std::optional<Score>(Frames reference, Frames test, const Settings&)> measure{};
   double (*pool)(std::span<const double> values) = mean_of;  ///< of a sequence's scores
 };
 
 /// A metric with its settings.
 struct Choice {
   const Metric* metric = nullptr;  ///< a row of the catalogue
-  Settings settings;               ///< the values of its parameters
+  Settings settings{};             ///< the values of its parameters
 };
 
 /// Reads a text such as `flip:ppd=30`.

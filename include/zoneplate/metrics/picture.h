@@ -17,8 +17,8 @@ namespace metrics {
 
 /// The input of metrics: the same image as display-referred values and in linear light.
 struct Picture {
-  DisplayImage display;          ///< straight alpha
-  LinearImage linear;            ///< premultiplied; of files as stored, with NaN and infinities
+  DisplayImage display{};        ///< straight alpha
+  LinearImage linear{};          ///< premultiplied; of files as stored, with NaN and infinities
   bool is_scene_linear = false;  ///< `display` was made from `linear`, not the other way round
   /// 1 where a surface was hidden, or outside the image, in the frame before. Only of references that the renderer has
   /// made as frames of a sequence; otherwise empty.

@@ -54,51 +54,52 @@ struct Planes {
 struct Frame {
   static constexpr std::uint32_t no_id = 0xffffffffu;  ///< no surface at a pixel or sample
 
-  int x = 0, y = 0;     ///< position of its first pixel in the whole image; not 0 for a crop
-  LinearImage color;    ///< resolved inside the tiles with the method's weights
-  Rgba8Image display8;  ///< display-referred, in place of `color`, if Request::writes_display8
+  int x = 0, y = 0;       ///< position of its first pixel in the whole image; not 0 for a crop
+  LinearImage color{};    ///< resolved inside the tiles with the method's weights
+  Rgba8Image display8{};  ///< display-referred, in place of `color`, if Request::writes_display8
   Plane<SamplePosition>
-      data_position;            ///< in the pixel: where the data are evaluated; made for position, motion and the like
-  Plane<float> depth;           ///< distance along the view axis, world units; +infinity in empty pixels
-  Plane<float> reversed_depth;  ///< as in the depth test: 1 near, 0 far
-  Plane<float3> normal;         ///< world space, unit length, towards the viewer
-  Plane<float3> albedo;         ///< linear base colour
-  Plane<float2> uv;             ///< texture coordinates of the base colour
-  Plane<float> mip_level;   ///< level of detail in the base colour's texture; FragmentOutputs::no_mip_level without one
-  Plane<float> anisotropy;  ///< longer over shorter axis of the footprint in that texture; 0 without one
-  Plane<std::uint32_t> object_id, material_id, primitive_id;  ///< no_id in empty pixels
-  Plane<std::uint32_t> instance;                              ///< index into Scene::instances
-  Plane<float3> position;                                     ///< world space
-  Plane<float2> motion;  ///< pixels, x right, y down: the surface point's position now minus its last one, no jitter
-  Plane<float2> flow;    ///< the surface point's next position minus its position now, as `motion`
+      data_position;     ///< in the pixel: where the data are evaluated; made for position, motion and the like
+  Plane<float> depth{};  ///< distance along the view axis, world units; +infinity in empty pixels
+  Plane<float> reversed_depth{};  ///< as in the depth test: 1 near, 0 far
+  Plane<float3> normal{};         ///< world space, unit length, towards the viewer
+  Plane<float3> albedo{};         ///< linear base colour
+  Plane<float2> uv{};             ///< texture coordinates of the base colour
+  Plane<float>
+      mip_level{};  ///< level of detail in the base colour's texture; FragmentOutputs::no_mip_level without one
+  Plane<float> anisotropy{};  ///< longer over shorter axis of the footprint in that texture; 0 without one
+  Plane<std::uint32_t> object_id{}, material_id{}, primitive_id{};  ///< no_id in empty pixels
+  Plane<std::uint32_t> instance{};                                  ///< index into Scene::instances
+  Plane<float3> position{};                                         ///< world space
+  Plane<float2> motion{};  ///< pixels, x right, y down: the surface point's position now minus its last one, no jitter
+  Plane<float2> flow{};    ///< the surface point's next position minus its position now, as `motion`
   Plane<float3>
       last_position;  ///< of the surface point in the last frame, as `position`; where it had none, `position`
   /// 1 where the last frame's camera saw the surface point: within the image, and no surface with an opacity above one
   /// half lay before it. By rays to the triangles of the last frame. If it is requested, all data are those at the
   /// nearest sample: another surface may hide the pixel's centre.
-  Plane<std::uint8_t> was_visible;
-  Plane<float> coverage;  ///< in [0, 1]
+  Plane<std::uint8_t> was_visible{};
+  Plane<float> coverage{};  ///< in [0, 1]
   /// The components of the colour, premultiplied by its alpha: diffuse, specular, transmission, emission, as in
   /// LightComponent. Where the method's mean is linear, as that of ssaa and msaa, they add up to the colour.
-  std::array<Plane<float3>, 4> light;
-  Plane<float> error;  ///< estimated standard error of the colour, the maximum of its channels
+  std::array<Plane<float3>, 4> light{};
+  Plane<float> error{};  ///< estimated standard error of the colour, the maximum of its channels
 
-  DisplayOptions display;  ///< the display transform of the image; set before `Resolver::resolve`
+  DisplayOptions display{};  ///< the display transform of the image; set before `Resolver::resolve`
 
-  std::vector<LinearImage> sample_color;              ///< by sample
-  std::vector<Plane<float>> sample_depth;             ///< reversed
-  std::vector<Plane<std::uint32_t>> sample_triangle;  ///< triangle id; no_id in empty samples
+  std::vector<LinearImage> sample_color{};              ///< by sample
+  std::vector<Plane<float>> sample_depth{};             ///< reversed
+  std::vector<Plane<std::uint32_t>> sample_triangle{};  ///< triangle id; no_id in empty samples
 
   /// By sample, of opaque and alpha-tested surfaces (Content::Geometry). r, g, b: the interpolated vertex normal in
   /// world space, unit length, on the visible side, without normal maps; towards the viewer if the mesh has no normals.
   /// a: the distance along the view axis, world units. Empty samples are 0.
-  std::vector<LinearImage> sample_geometry;
+  std::vector<LinearImage> sample_geometry{};
 
   /// The distance from the pixel's centre to the line through the nearest edge of the visible triangle, along the axis
   /// of the screen that crosses the line more steeply (Content::EdgeDistances). x: along the row, positive to the
   /// right; y: along the column, positive downwards; pixels, rounded to 16-bit floats. The other axis has the value
   /// no_edge, and in empty pixels both have.
-  Plane<float2> edge_distance;
+  Plane<float2> edge_distance{};
   static constexpr float no_edge = 0.5f;  ///< of an axis along which there is no edge in the pixel
 
   /// Calls use(plane) for every data plane by pixel and every triangle plane by sample, empty or not: for all planes

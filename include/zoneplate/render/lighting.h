@@ -14,8 +14,8 @@ namespace zoneplate {
 
 /// The lights and the environment of a scene.
 struct Lighting {
-  std::vector<Light> lights;      ///< in world space or camera space
-  Environment environment;        ///< light from infinitely far away
+  std::vector<Light> lights{};    ///< in world space or camera space
+  Environment environment{};      ///< light from infinitely far away
   float3 ambient_light{0, 0, 0};  ///< Scene::ambient_light
   /// The curve that goes with the light, where the caller chooses none: Neutral for the studio, which it was made for.
   ToneMapping tone_mapping = ToneMapping::None;
@@ -31,11 +31,11 @@ enum class LightSource {
 
 /// Changes to the lighting of a scene.
 struct LightingOptions {
-  LightSource source = LightSource::Scene;  ///< which lights are used
-  float intensity = 1;                      ///< multiplies every light, and the studio
-  std::optional<Environment> environment;   ///< in place of the scene's own
+  LightSource source = LightSource::Scene;   ///< which lights are used
+  float intensity = 1;                       ///< multiplies every light, and the studio
+  std::optional<Environment> environment{};  ///< in place of the scene's own
   /// Makes the studio of the default light (scene/default_lights.h), for callers that keep it; empty: it is made anew.
-  std::function<std::shared_ptr<const PreparedEnvironment>()> studio;
+  std::function<std::shared_ptr<const PreparedEnvironment>()> studio{};
 };
 
 /// The scene's own lighting, changed by the options.

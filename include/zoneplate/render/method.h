@@ -43,8 +43,8 @@ struct Crop {
 
 /// The size of a whole image, and the part of it that is made.
 struct ImageExtent {
-  int width = 0, height = 0;  ///< pixels of the whole image
-  std::optional<Crop> crop;   ///< none: all of it
+  int width = 0, height = 0;   ///< pixels of the whole image
+  std::optional<Crop> crop{};  ///< none: all of it
 };
 
 /// The size of the frame that an upscaler renders for an image: each side divided by the scale, rounded down, at
@@ -59,11 +59,11 @@ struct Request {
   SamplePattern samples = {SamplePosition{}};  ///< positions in every pixel; by default one, in the centre
   Content content = Content::Colour;           ///< other contents leave Frame::color and the data passes by pixel empty
   Rate rate = Rate::Surface;                   ///< how often surfaces are shaded
-  std::vector<float> weights;                  ///< by sample; empty: all equal
+  std::vector<float> weights{};                ///< by sample; empty: all equal
   AlphaTest alpha = AlphaTest::Pixel;          ///< of alpha-tested surfaces at rate *surface*
   Centroid centroid = Centroid::Mean;          ///< where surfaces are shaded at rate *surface*
-  Planes planes;                               ///< the data that `resolve` and `post_process` read
-  Plane<std::uint8_t> pixel_mask;  ///< of the frame's size: only pixels that are not 0 here are drawn; empty: all
+  Planes planes{};                             ///< the data that `resolve` and `post_process` read
+  Plane<std::uint8_t> pixel_mask{};  ///< of the frame's size: only pixels that are not 0 here are drawn; empty: all
   /// The texture footprint of a fragment, in pixels of the frame: level of detail changes by its logarithm to base 2.
   /// 0: 1 / √(number of samples) at rate *sample*, 1 at rate *surface*.
   float footprint = 0;
@@ -74,12 +74,12 @@ struct Request {
   /// The frame's size and part if they are not those of the image: an upscaler renders fewer pixels than the image has.
   /// The camera sees the same view, and point and line widths are those of the image. `resolve` or `post_process` then
   /// returns an image of FrameContext::image; data passes of the settings are rendered separately, at the image's size.
-  std::optional<ImageExtent> frame;
+  std::optional<ImageExtent> frame{};
 
   /// Draws the colour instead of the tiles; `samples` then apply to the data passes only. The function owns all data
   /// that it needs, since it may be called after the method is destroyed. Only methods of the library can use it:
   /// CustomDraw is not public.
-  std::function<void(const CustomDraw&)> draw;
+  std::function<void(const CustomDraw&)> draw{};
   bool estimates_error = false;  ///< `draw` fills Frame::error
 
   /// The tiles map the colour to 8-bit display codes: Frame::display8 takes the place of Frame::color. Set by Renderer,
@@ -97,26 +97,26 @@ struct Request {
 
 /// A frame that another program has rendered, in place of the one that a method would request.
 struct GivenFrame {
-  int width = 0, height = 0;             ///< pixels
-  std::optional<SamplePosition> sample;  ///< where in its pixels it was sampled; none: where the method would sample
+  int width = 0, height = 0;               ///< pixels
+  std::optional<SamplePosition> sample{};  ///< where in its pixels it was sampled; none: where the method would sample
 };
 
 /// The position of a frame in its sequence, and the data of the frame before it.
 struct FrameContext {
-  ImageExtent image;     ///< the image that the frame becomes, without the apron of Request::halo
+  ImageExtent image{};   ///< the image that the frame becomes, without the apron of Request::halo
   float aspect = 0;      ///< width / height of the camera's view, whatever the size of the frame; 0: that of `image`
   int index = 0;         ///< in its sequence, in the order of rendering
   bool is_first = true;  ///< the first frame of its sequence: the method drops all history
   /// The sub-pixel jitter for methods that distribute their samples over frames; others ignore it. It cycles through
   /// the "halton" pattern of 8 positions, whose mean is the pixel's centre.
-  SamplePosition jitter;
+  SamplePosition jitter{};
   /// The data planes of the previous frame if its request had `keeps_planes`; otherwise, and for the first frame, null.
   /// They are valid until the method has resolved and post-processed this frame.
   const Frame* previous = nullptr;
-  Camera camera;       ///< of this frame, without jitter
-  Camera last_camera;  ///< of the previous frame; for the first frame, `camera`
+  Camera camera{};       ///< of this frame, without jitter
+  Camera last_camera{};  ///< of the previous frame; for the first frame, `camera`
   /// The frame exists already: methods with history and temporal upscalers use its size and sample.
-  std::optional<GivenFrame> given;
+  std::optional<GivenFrame> given{};
 };
 
 /// Width / height of the camera's view of a frame.
@@ -149,11 +149,11 @@ class Resolver {
 ///
 /// Requires  the arrays and texts that the members refer to outlive every use of the entry.
 struct Method {
-  std::string_view name;               ///< in lower case: "msaa" of `msaa:n=4`
-  std::string_view summary;            ///< one line for listings
-  std::string_view source;             ///< the publication or implementation that defines the method
+  std::string_view name{};             ///< in lower case: "msaa" of `msaa:n=4`
+  std::string_view summary{};          ///< one line for listings
+  std::string_view source{};           ///< the publication or implementation that defines the method
   std::span<const Param> params = {};  ///< what may follow the name: n of `msaa:n=4`
-  std::function<std::unique_ptr<Resolver>(const Settings&)> make;  ///< makes a resolver from the values of `params`
+  std::function<std::unique_ptr<Resolver>(const Settings&)> make{};  ///< makes a resolver from the values of `params`
   std::span<const std::string_view> variants = {};  ///< parameters that are compared in addition to the defaults: "n=8"
   bool is_reference = false;           ///< other methods are measured against it; not part of `compare --aa all`
   bool is_specification_only = false;  ///< tested against its publication only, for lack of another implementation

@@ -9,6 +9,10 @@
 #include "zoneplate/render/method.h"
 #include "zoneplate/render/prepared_scene.h"
 
+namespace zoneplate {
+class SceneEdges;
+}  // namespace zoneplate
+
 #pragma GCC visibility push(default)
 namespace zoneplate {
 
@@ -22,24 +26,24 @@ enum class ImageForm {
 
 /// The settings of a frame: options, data passes and output format.
 struct RenderSettings {
-  RenderOptions options;                 ///< size, crop, display transform and the rules of rasterization
-  Planes planes;                         ///< data passes; not `samples` or `sample_colors`
+  RenderOptions options{};               ///< size, crop, display transform and the rules of rasterization
+  Planes planes{};                       ///< data passes; not `samples` or `sample_colors`
   ImageForm form = ImageForm::Display8;  ///< which image of RenderedImage is made
 };
 
 /// A finished image with its data passes, all of the size of the crop or, without one, of the image.
 struct RenderedImage {
-  Rgba8Image display;     ///< display-referred, straight alpha
-  Rgba16Image display16;  ///< the same with 16 bits
-  LinearImage linear;     ///< before exposure, tone mapping and background: premultiplied, in scene units
-  Frame data;             ///< the planes of the settings; its colours are empty
-  RenderCounts counts;    ///< the sums over all rounds of the method
+  Rgba8Image display{};     ///< display-referred, straight alpha
+  Rgba16Image display16{};  ///< the same with 16 bits
+  LinearImage linear{};     ///< before exposure, tone mapping and background: premultiplied, in scene units
+  Frame data{};             ///< the planes of the settings; its colours are empty
+  RenderCounts counts{};    ///< the sums over all rounds of the method
 };
 
 /// A prepared scene and its camera at one moment.
 struct SceneView {
   PreparedScene scene;  ///< with its lights
-  Camera camera;        ///< its pose at the same moment
+  Camera camera{};      ///< its pose at the same moment
 };
 
 /// Renders frames of a scene by an antialiasing method: all rounds of the method, data passes, motion, and the apron
@@ -89,6 +93,9 @@ class Renderer {
   void recycle(Rgba8Image image);
 
  private:
+  /// Renders the frame that a lens with distortion sees by `frame`, and warps the image and its data.
+  RenderedImage through_lens(const Lens& lens, const RenderSettings& settings,
+                             const std::function<RenderedImage(const Lens&, const RenderSettings&)>& frame);
   Camera seeing_ground(const Camera& camera, const RenderOptions& options) const;
   void begin_frame(const Camera& camera, const RenderSettings& settings);
   Request request_for(const RenderSettings& settings);
@@ -101,7 +108,10 @@ class Renderer {
   };
   Rounds render_rounds(const Camera& camera, const Request& request, const RenderOptions& options,
                        RenderCounts& counts);
-  void finish(LinearImage picture, const Frame& frame, ImageForm form, RenderedImage& out);
+  /// What lines along edges cover of the image that the method makes of the request; empty without lines.
+  Plane<float> edge_coverage(const Camera& camera, const RenderSettings& settings, const Request& request);
+  void finish(LinearImage picture, const Frame& frame, const RenderSettings& settings, const Plane<float>& edges,
+              RenderedImage& out);
   void draw_behind(const Camera& camera, const RenderOptions& options, LinearImage& color) const;
   Frame render_data(const Camera& camera, const Request& request, const RenderSettings& settings, RenderCounts& counts);
   void render_light(const Camera& camera, const RenderSettings& settings, RenderCounts& counts, Frame& data);
@@ -111,6 +121,7 @@ class Renderer {
   PreparedScene scene_;
   std::unique_ptr<Resolver> method_;
   std::unique_ptr<Backend> backend_;
+  std::unique_ptr<SceneEdges> edges_;
   SamplePattern jitter_;
   int index_ = 0;
   FrameContext context_;  ///< of the frame that is being rendered

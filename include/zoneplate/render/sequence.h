@@ -15,16 +15,17 @@ namespace zoneplate {
 
 /// The timing of a sequence. Frame i has the time start + i / rate seconds.
 struct SequenceTiming {
-  double rate = 24;              ///< frames per second
-  double start = 0;              ///< seconds
-  double duration = 0;           ///< of the animation, in seconds
-  std::optional<int> turntable;  ///< frames of one turn of the camera about the centre of the scene; none: no turntable
+  double rate = 24;     ///< frames per second
+  double start = 0;     ///< seconds
+  double duration = 0;  ///< of the animation, in seconds
+  std::optional<int>
+      turntable{};  ///< frames of one turn of the camera about the centre of the scene; none: no turntable
 };
 
 /// Functions that make the scene at a time in seconds.
 struct SceneLoader {
-  std::function<Scene(double)> load;        ///< the whole scene at a time
-  std::function<Scene(double)> load_shape;  ///< the same without images
+  std::function<Scene(double)> load{};        ///< the whole scene at a time
+  std::function<Scene(double)> load_shape{};  ///< the same without images
   /// Times, in seconds, that a camera of the whole animation has to see, the most important first: those of keys. Empty
   /// if they are not known.
   std::function<std::vector<double>()> key_times = {};
@@ -48,6 +49,12 @@ class Sequence {
   ///
   /// Errors    those of choose_camera.
   void set_view(const View& view, float aspect);
+
+  /// The camera of each frame is that of a view of its own, `view_at(frame)`, in place of set_view and a turntable. Of
+  /// a whole-scene view it frames the whole animation.
+  ///
+  /// Errors    those of choose_camera, here and later.
+  void set_views(std::function<View(double)> view_at, float aspect);
 
   /// The time of a frame, in seconds of the animation.
   double seconds_of(double frame) const { return timing_.start + frame / timing_.rate; }
@@ -74,6 +81,8 @@ class Sequence {
   std::optional<PreparedScene> scene_;
   double frame_ = 0;  ///< of `scene_`
   View view_;
+  std::function<View(double)> view_at_;  ///< empty: `view_` of all frames
+  Scene poses_;                          ///< of an animated scene with `view_at_`: all of them
   float aspect_ = 1;
   Camera still_;  ///< before the turntable turns it
   float3 centre_;

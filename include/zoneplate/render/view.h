@@ -10,14 +10,15 @@ namespace zoneplate {
 
 /// The choice of a camera; angles in radians.
 struct View {
-  std::optional<int> index;                 ///< a camera of the scene
-  std::optional<double3> position;          ///< of the eye, in the coordinates of the file (Scene::origin)
-  std::optional<double3> focal_point;       ///< the point that the camera looks at, in the same coordinates
-  std::optional<float3> view_up;            ///< the direction that is upwards in the image
-  std::optional<float> view_angle;          ///< vertical field of view
-  std::optional<float> azimuth, elevation;  ///< of the whole-scene view, or a turn about the focal point
-  bool is_orthographic = false;             ///< a parallel projection that shows the same height at the focal point
-  float3 up{0, 1, 0};                       ///< the scene's upward axis
+  std::optional<int> index{};                   ///< a camera of the scene
+  std::optional<double3> position{};            ///< of the eye, in the coordinates of the file (Scene::origin)
+  std::optional<double3> focal_point{};         ///< the point that the camera looks at, in the same coordinates
+  std::optional<float3> view_up{};              ///< the direction that is upwards in the image
+  std::optional<float> view_angle{};            ///< vertical field of view
+  std::optional<float> azimuth{}, elevation{};  ///< of the whole-scene view, or a turn about the focal point
+  bool is_orthographic = false;                 ///< a parallel projection that shows the same height at the focal point
+  std::optional<Lens> lens{};                   ///< replaces `view_angle`; perspective only
+  float3 up{0, 1, 0};                           ///< the scene's upward axis
 };
 
 /// The view with the azimuth and elevation that choose_camera takes where a whole-scene view of no given direction
@@ -31,9 +32,11 @@ View facing_front(const Scene& scene, const View& view, float aspect);
 /// point, view-up and view angle replace those of the base. For the whole-scene view, azimuth and elevation are its
 /// direction, 0 and 0 being the front; any other camera is turned by them about its focal point as the last step,
 /// azimuth to the right and elevation upwards. The focal point of a base camera is the point on its axis nearest to the
-/// centre of the scene. Near and far planes enclose the scene, unless the base is used unchanged.
+/// centre of the scene. Near and far planes enclose the scene, unless the base is used unchanged. Through a lens
+/// a whole-scene view is as far away as its principal point allows, without regard to distortion.
 ///
-/// Errors    ErrorKind::Usage for an index outside the scene's cameras, or a position equal to the focal point.
+/// Errors    ErrorKind::Usage for an index outside the scene's cameras, a position equal to the focal point, or a lens with
+///           an orthographic camera.
 Camera choose_camera(const Scene& scene, const View& view, float aspect);
 
 /// The same view with near and far planes that also enclose the part of a scene in front of the camera. Planes that do

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
@@ -10,15 +11,35 @@
 #pragma GCC visibility push(default)
 namespace zoneplate {
 
+/// A calibrated lens: OpenCV's camera matrix and its rational and tangential distortion.
+///
+/// A point (x, y, -1) of camera space, y upwards, has the undistorted coordinates (x, -y) and the distorted ones
+/// (x', y'); its pixel is (fx x' + cx, fy y' + cy), where the centre of the top-left pixel is (0, 0).
+/// Source    OpenCV 4, camera calibration and 3D reconstruction: projectPoints with eight coefficients.
+struct Lens {
+  int width = 0, height = 0;                              ///< pixels of the image for which it is calibrated
+  double fx = 1, fy = 1;                                  ///< focal lengths, in pixels
+  double cx = 0, cy = 0;                                  ///< the principal point, in pixels
+  double k1 = 0, k2 = 0, k3 = 0, k4 = 0, k5 = 0, k6 = 0;  ///< radial: (1 + k1 r² + ...) / (1 + k4 r² + ...)
+  double p1 = 0, p2 = 0;                                  ///< tangential
+  bool operator==(const Lens&) const = default;
+
+  /// Whether straight lines become curved.
+  bool is_distorted() const {
+    return k1 != 0 || k2 != 0 || k3 != 0 || k4 != 0 || k5 != 0 || k6 != 0 || p1 != 0 || p2 != 0;
+  }
+};
+
 /// A camera in the world. It looks along its own -Z with +Y up.
 struct Camera {
-  std::string name;                 ///< from the file, for listings; may be empty
-  float4x4 world_from_camera;       ///< rigid; the identity by default: at the origin, looking along -Z
+  std::string name{};               ///< from the file, for listings; may be empty
+  float4x4 world_from_camera{};     ///< rigid; the identity by default: at the origin, looking along -Z
   bool is_orthographic = false;     ///< `half_height` then sets the scale in place of `vertical_fov`
   float vertical_fov = 0.5235988f;  ///< radians (30°)
   float half_height = 1;            ///< orthographic: half the image's height, world units
   float aspect = 0;                 ///< the file's own width / height; 0: the image's
   float near = 0.01f, far = 1000;   ///< distances along the view axis; far may be infinite (perspective only)
+  std::optional<Lens> lens{};       ///< replaces field of view and aspect; perspective only
 
   /// The projection for an image of the given aspect (width / height).
   float4x4 clip_from_camera(float picture_aspect) const;

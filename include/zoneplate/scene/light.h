@@ -37,7 +37,7 @@ enum class LightComponent {
 /// Units     `color` linear; `intensity` in lux (directional) or candela (point, spot), as KHR_lights_punctual;
 ///           angles from the axis in radians.
 struct Light {
-  std::string name;                         ///< from the file, for listings; may be empty
+  std::string name{};                       ///< from the file, for listings; may be empty
   LightKind kind = LightKind::Directional;  ///< decides which of the following members count
   bool is_in_camera_space = false;          ///< `position` and `direction` are in the space of the rendering camera
   float3 color{1, 1, 1};                    ///< multiplies `intensity`

@@ -24,27 +24,27 @@ struct MaterialLayers {
   float ior = 1.5f;  ///< index of refraction, at least 1; 0: infinite, as specular-glossiness requires
 
   // KHR_materials_specular
-  float specular = 1;                 ///< strength of the dielectric's specular reflection
-  TextureUse specular_texture;        ///< alpha
-  float3 specular_color{1, 1, 1};     ///< multiplies the reflectance at normal incidence; may exceed 1
-  TextureUse specular_color_texture;  ///< colour
+  float specular = 1;                   ///< strength of the dielectric's specular reflection
+  TextureUse specular_texture{};        ///< alpha
+  float3 specular_color{1, 1, 1};       ///< multiplies the reflectance at normal incidence; may exceed 1
+  TextureUse specular_color_texture{};  ///< colour
   /// Given: the roughness is 1 - glossiness × alpha of the specular colour's texture, and Material::roughness is unused
   /// (KHR_materials_pbrSpecularGlossiness, whose other parameters are the base colour, the specular colour and ior 0).
-  std::optional<float> glossiness;
+  std::optional<float> glossiness{};
 
   // KHR_materials_clearcoat
-  float clearcoat = 0;                     ///< strength of the coating
-  TextureUse clearcoat_texture;            ///< red
-  float clearcoat_roughness = 0;           ///< of the coating alone
-  TextureUse clearcoat_roughness_texture;  ///< green
-  TextureUse clearcoat_normal_texture;     ///< of the coating alone, like Material::normal_texture
-  float clearcoat_normal_scale = 1;        ///< multiplies x and y of that texture
+  float clearcoat = 0;                       ///< strength of the coating
+  TextureUse clearcoat_texture{};            ///< red
+  float clearcoat_roughness = 0;             ///< of the coating alone
+  TextureUse clearcoat_roughness_texture{};  ///< green
+  TextureUse clearcoat_normal_texture{};     ///< of the coating alone, like Material::normal_texture
+  float clearcoat_normal_scale = 1;          ///< multiplies x and y of that texture
 
   // KHR_materials_sheen
-  float3 sheen_color{0, 0, 0};         ///< reflectance of the fibres
-  TextureUse sheen_color_texture;      ///< colour
-  float sheen_roughness = 0;           ///< of the fibres alone
-  TextureUse sheen_roughness_texture;  ///< alpha
+  float3 sheen_color{0, 0, 0};           ///< reflectance of the fibres
+  TextureUse sheen_color_texture{};      ///< colour
+  float sheen_roughness = 0;             ///< of the fibres alone
+  TextureUse sheen_roughness_texture{};  ///< alpha
 
   // KHR_materials_anisotropy
   float anisotropy = 0;           ///< 0: round highlights; 1: stretched along the direction
@@ -53,20 +53,20 @@ struct MaterialLayers {
       anisotropy_texture;  ///< red and green: the direction, from [0, 1] to [-1, 1]; blue: multiplies the strength
 
   // KHR_materials_iridescence
-  float iridescence = 0;                      ///< strength of the thin film
-  TextureUse iridescence_texture;             ///< red
-  float iridescence_ior = 1.3f;               ///< of the film, at least 1
-  float iridescence_thickness_minimum = 100;  ///< nanometres, where the texture is 0
-  float iridescence_thickness_maximum = 400;  ///< nanometres, where the texture is 1 or absent
-  TextureUse iridescence_thickness_texture;   ///< green
+  float iridescence = 0;                       ///< strength of the thin film
+  TextureUse iridescence_texture{};            ///< red
+  float iridescence_ior = 1.3f;                ///< of the film, at least 1
+  float iridescence_thickness_minimum = 100;   ///< nanometres, where the texture is 0
+  float iridescence_thickness_maximum = 400;   ///< nanometres, where the texture is 1 or absent
+  TextureUse iridescence_thickness_texture{};  ///< green
 
   // KHR_materials_transmission
-  float transmission = 0;           ///< share of the light entering the surface that passes through it
-  TextureUse transmission_texture;  ///< red
+  float transmission = 0;             ///< share of the light entering the surface that passes through it
+  TextureUse transmission_texture{};  ///< red
 
   // KHR_materials_volume
-  float thickness = 0;           ///< of the volume below the surface, in the mesh's space; 0: a thin wall
-  TextureUse thickness_texture;  ///< green
+  float thickness = 0;             ///< of the volume below the surface, in the mesh's space; 0: a thin wall
+  TextureUse thickness_texture{};  ///< green
   float attenuation_distance = std::numeric_limits<float>::infinity();  ///< in world space, above 0
   float3 attenuation_color{1, 1, 1};                                    ///< what white light becomes over that distance
 
@@ -74,16 +74,16 @@ struct MaterialLayers {
   float dispersion = 0;  ///< 20 / Abbe number
 
   // KHR_materials_diffuse_transmission
-  float diffuse_transmission = 0;                 ///< share of the diffuse light that leaves on the other side
-  TextureUse diffuse_transmission_texture;        ///< alpha
-  float3 diffuse_transmission_color{1, 1, 1};     ///< multiplies that light
-  TextureUse diffuse_transmission_color_texture;  ///< colour
+  float diffuse_transmission = 0;                   ///< share of the diffuse light that leaves on the other side
+  TextureUse diffuse_transmission_texture{};        ///< alpha
+  float3 diffuse_transmission_color{1, 1, 1};       ///< multiplies that light
+  TextureUse diffuse_transmission_color_texture{};  ///< colour
 };
 
 /// A texture slot of a material's layers.
 struct LayerTextureSlot {
-  std::string_view extension;       ///< the glTF extension with this texture
-  std::string_view gltf_name;       ///< the property of the extension
+  std::string_view extension{};     ///< the glTF extension with this texture
+  std::string_view gltf_name{};     ///< the property of the extension
   TextureUse MaterialLayers::*use;  ///< the member of MaterialLayers that is the slot
   bool is_color;                    ///< sRGB-encoded, otherwise linear
 };

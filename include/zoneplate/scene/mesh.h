@@ -25,14 +25,14 @@ enum class Topology {
 /// Requires  after load: all values finite, every index < position.size(), normals (where present) of unit length.
 ///           `normal` is present for triangles. A mesh without normals is drawn unlit.
 struct Mesh {
-  std::string name;                         ///< from the file, for listings; need not be unique
+  std::string name{};                       ///< from the file, for listings; need not be unique
   Topology topology = Topology::Triangles;  ///< how `index` is grouped
-  std::vector<float3> position;             ///< one for each vertex
-  std::vector<float3> normal;               ///< unit length
-  std::vector<float4> tangent;              ///< xyz: unit length, along +u; w: 1 or -1
-  std::vector<float2> uv0, uv1;             ///< texture coordinates, sets 0 and 1 of TextureUse::uv_set
-  std::vector<float4> color;                ///< multiplies the base colour
-  std::vector<std::uint32_t> index;         ///< into the attributes, primitive by primitive
+  std::vector<float3> position{};           ///< one for each vertex
+  std::vector<float3> normal{};             ///< unit length
+  std::vector<float4> tangent{};            ///< xyz: unit length, along +u; w: 1 or -1
+  std::vector<float2> uv0{}, uv1{};         ///< texture coordinates, sets 0 and 1 of TextureUse::uv_set
+  std::vector<float4> color{};              ///< multiplies the base colour
+  std::vector<std::uint32_t> index{};       ///< into the attributes, primitive by primitive
   int material = 0;                         ///< index into Scene::materials
 
   /// 3, 2 or 1, by the topology.

@@ -34,10 +34,10 @@ struct TextureFilter {
 
 /// A row of the list of texture filters.
 struct TextureFilterEntry {
-  std::string_view name;                                      ///< ewa in `ewa:anisotropy=16`
-  std::string_view summary;                                   ///< one line for listings
-  std::string_view source;                                    ///< the publication
-  std::vector<Param> params;                                  ///< those of `TextureFilter`
+  std::string_view name{};                                    ///< ewa in `ewa:anisotropy=16`
+  std::string_view summary{};                                 ///< one line for listings
+  std::string_view source{};                                  ///< the publication
+  std::vector<Param> params{};                                ///< those of `TextureFilter`
   TextureFilter::Kind kind = TextureFilter::Kind::BySampler;  ///< the filter that it stands for
 };
 

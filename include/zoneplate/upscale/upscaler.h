@@ -21,7 +21,7 @@ namespace zoneplate {
 struct UpscaleGrid {
   int width = 0, height = 0;  ///< pixels of the whole input
   int x = 0, y = 0;           ///< position of the given part of the input in the whole one
-  ImageExtent to;             ///< the whole output, and the part of it that is made
+  ImageExtent to{};           ///< the whole output, and the part of it that is made
 
   /// The rectangle that is made: `to.crop`, or the whole output.
   Crop made() const { return to.crop.value_or(Crop{0, 0, to.width, to.height}); }
@@ -48,14 +48,14 @@ class SpatialUpscaler {
 
 /// An entry of the catalogue of upscalers.
 struct Upscaler {
-  std::string_view name;               ///< in lower case: "fsr1" of `fsr1:scale=2`
-  std::string_view summary;            ///< one line for listings
-  std::string_view source;             ///< the publication or implementation that defines the method
+  std::string_view name{};             ///< in lower case: "fsr1" of `fsr1:scale=2`
+  std::string_view summary{};          ///< one line for listings
+  std::string_view source{};           ///< the publication or implementation that defines the method
   std::span<const Param> params = {};  ///< what may follow the name, beginning with `scale`
   /// Makes a filter of the display-referred image; empty for temporal methods.
-  std::function<std::unique_ptr<SpatialUpscaler>(const Settings&)> make_spatial;
+  std::function<std::unique_ptr<SpatialUpscaler>(const Settings&)> make_spatial{};
   /// Makes the resolver of a temporal method, which jitters its own samples; empty for filters.
-  std::function<std::unique_ptr<Resolver>(const Settings&)> make_temporal;
+  std::function<std::unique_ptr<Resolver>(const Settings&)> make_temporal{};
   bool is_specification_only = false;  ///< tested against its publication only, for lack of another implementation
 };
 
@@ -75,7 +75,7 @@ std::unique_ptr<SpatialUpscaler> make_spatial_upscaler(std::string_view text);
 
 /// An upscaled scene-linear image, and what a filter of display-referred ones cannot represent.
 struct UpscaledLight {
-  LinearImage image;         ///< premultiplied, of the size of the grid
+  LinearImage image{};       ///< premultiplied, of the size of the grid
   std::size_t negative = 0;  ///< pixels with a channel below 0, which counted as 0
   std::size_t bright = 0;    ///< with a straight colour above 32768, which counted as that
   std::size_t additive = 0;  ///< with light at alpha 0, which counted as none

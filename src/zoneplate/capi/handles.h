@@ -77,7 +77,7 @@ std::unique_ptr<zoneplate_scene> loaded(const std::string& name, const LoadOptio
 
 /// A camera in the coordinates of a scene with this origin.
 /// Errors    ErrorKind::Usage for one that is not rigid, or shows nothing.
-Camera camera_of(const zoneplate_camera* given, double3 origin);
+Camera camera_of(const zoneplate_camera* given, double3 origin, int width, int height);
 
 /// An image of a job with its data passes.
 std::unique_ptr<zoneplate_image> image_of(const Job& job, RenderedImage image, const Scene& scene);

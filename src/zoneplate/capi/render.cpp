@@ -55,9 +55,22 @@ PlacedCamera find_camera(const zoneplate_scene& scene, const zoneplate_view* giv
   });
 }
 
+/// The lens of an image of this size; none without intrinsics.
+std::optional<Lens> lens_of(const zoneplate_camera& c, int width, int height) {
+  const auto& [fx, fy, cx, cy] = c.intrinsics;
+  if (fx == 0) return std::nullopt;
+  if (!(fx > 0 && fy > 0) || c.is_orthographic != 0)
+    throw Error(ErrorKind::Usage, "intrinsics: need focal lengths above 0, and a perspective camera");
+  const auto& d = c.distortion;
+  Lens lens{.width = width, .height = height, .fx = fx, .fy = fy, .cx = cx, .cy = cy};
+  lens.k1 = d[0], lens.k2 = d[1], lens.p1 = d[2], lens.p2 = d[3];
+  lens.k3 = d[4], lens.k4 = d[5], lens.k5 = d[6], lens.k6 = d[7];
+  return lens;
+}
+
 }  // namespace
 
-Camera camera_of(const zoneplate_camera* given, double3 origin) {
+Camera camera_of(const zoneplate_camera* given, double3 origin, int width, int height) {
   const auto c = completed(given, "zoneplate_camera");
   Camera out;
   const auto& m = c.world_from_camera;
@@ -78,6 +91,7 @@ Camera camera_of(const zoneplate_camera* given, double3 origin) {
   if (m[12] != 0 || m[13] != 0 || m[14] != 0 || m[15] != 1)
     throw Error(ErrorKind::Usage,
                 "world_from_camera: its last row is not 0, 0, 0, 1: it is not rigid, or stored by columns");
+  out.lens = lens_of(c, width, height);
   return out;
 }
 
@@ -199,7 +213,7 @@ std::unique_ptr<zoneplate_image> render_image(Job job, const PreparedScene& scen
     throw Error(ErrorKind::Usage, fmt::format("{} works after tone mapping, and the image is linear", job.method));
   check_passes(job, request);
   std::optional<Camera> given;
-  if (camera != nullptr) given = camera_of(camera, scene.scene().origin);
+  if (camera != nullptr) given = camera_of(camera, scene.scene().origin, job.options.width, job.options.height);
   const bool is_light = is_linear(job.output);
   LitStill still = light_still(std::move(job), scene, is_light, given ? &*given : nullptr);
   RenderedImage image =

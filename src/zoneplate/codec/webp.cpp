@@ -60,13 +60,18 @@ struct Data {
   WebPData data;
 };
 
-WebPConfig lossless() {
+WebPConfig config_of(std::optional<int> quality) {
   WebPConfig config;
   if (WebPConfigInit(&config) == 0) fail("libwebp has another version than its headers");
-  config.lossless = 1;
-  config.exact = 1;
-  config.quality = effort;
   config.method = method;
+  if (quality) {
+    config.quality = static_cast<float>(*quality);
+    config.use_sharp_yuv = 1;  // less colour bleeding at edges
+  } else {
+    config.lossless = 1;
+    config.exact = 1;
+    config.quality = effort;
+  }
   return config;
 }
 
@@ -83,7 +88,8 @@ Encoder make_encoder(const Rgba8Image& first, int loops) {
 /// first one in it.
 class WebpEncoder final : public AnimationEncoder {
  public:
-  explicit WebpEncoder(const AnimationFormat& format) : format_(format) {}
+  WebpEncoder(const AnimationFormat& format, std::optional<int> quality)
+      : format_(format), config_(config_of(quality)) {}
 
   std::function<void()> add(std::shared_ptr<const Rgba8Image> frame, std::optional<FrameTime> time) override {
     const std::lock_guard lock(mutex_);
@@ -134,7 +140,7 @@ class WebpEncoder final : public AnimationEncoder {
   }
 
   const AnimationFormat format_;
-  const WebPConfig config_ = lossless();
+  const WebPConfig config_;
   std::mutex mutex_;  ///< of the queue and the times
   std::queue<Waiting> waiting_;
   double timed_ = 0;  ///< seconds of the frames with times of their own
@@ -146,12 +152,12 @@ class WebpEncoder final : public AnimationEncoder {
 
 }  // namespace
 
-std::unique_ptr<AnimationEncoder> make_webp_encoder(const AnimationFormat& format) {
-  return std::make_unique<WebpEncoder>(format);
+std::unique_ptr<AnimationEncoder> make_webp_encoder(const AnimationFormat& format, std::optional<int> quality) {
+  return std::make_unique<WebpEncoder>(format, quality);
 }
 
-std::vector<std::uint8_t> encode_webp(const Animation& animation) {
-  WebpEncoder encoder(animation.format);
+std::vector<std::uint8_t> encode_webp(const Animation& animation, std::optional<int> quality) {
+  WebpEncoder encoder(animation.format, quality);
   return encode_animation(encoder, animation);
 }
 

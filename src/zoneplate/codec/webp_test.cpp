@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <webp/demux.h>
 
+#include <cmath>
 #include <cstring>
 #include <memory>
 
@@ -61,6 +62,40 @@ TEST(Webp, PlaysTheFramesThatWereGiven) {
     EXPECT_EQ(result.loops, 5u);
     EXPECT_EQ(encode_webp(animation), file);
   }
+}
+
+// A disc that moves over a gradient: what a film of a model looks like.
+TEST(Webp, AQualityMakesAnimationsSmallerAndKeepsAlpha) {
+  Animation animation{.format = {.seconds = 1, .per = 24, .has_alpha = true}, .frames = {}};
+  for (int i = 0; i < 6; ++i) {
+    Rgba8Image& frame = animation.frames.emplace_back(96, 64);
+    for (int y = 0; y < 64; ++y)
+      for (int x = 0; x < 96; ++x) {
+        const int dx = x - 20 - 8 * i, dy = y - 32;
+        const bool is_disc = dx * dx + dy * dy < 300;
+        frame(x, y) = {static_cast<std::uint8_t>(is_disc ? 200 - 2 * y : 2 * x), static_cast<std::uint8_t>(90 + y),
+                       static_cast<std::uint8_t>(40 + (x * x + 3 * y * y) % 23),
+                       static_cast<std::uint8_t>(x < 8 ? 0 : 255)};
+      }
+  }
+  const auto lossless = encode_webp(animation), good = encode_webp(animation, 90), poor = encode_webp(animation, 20);
+  EXPECT_LT(good.size(), lossless.size());
+  EXPECT_LT(poor.size(), good.size() / 2);
+  EXPECT_EQ(encode_webp(animation, 90), good);
+  const auto error_of = [&](const std::vector<std::uint8_t>& file) {
+    const Played shown = played(file);
+    EXPECT_EQ(shown.ends, played(lossless).ends);
+    double sum = 0;
+    for (std::size_t i = 0; i < shown.frames.size(); ++i)
+      for (std::size_t p = 0; p < shown.frames[i].values().size(); ++p) {
+        const Rgba8 &a = shown.frames[i].values()[p], &b = animation.frames[i].values()[p];
+        EXPECT_EQ(a.a, b.a);
+        if (b.a > 0) sum += (a.r - b.r) * (a.r - b.r) + (a.g - b.g) * (a.g - b.g) + (a.b - b.b) * (a.b - b.b);
+      }
+    return std::sqrt(sum / (3.0 * 6 * 96 * 64));
+  };
+  EXPECT_LT(error_of(good), 8);
+  EXPECT_GT(error_of(poor), error_of(good));
 }
 
 TEST(Webp, TheOrderOfTheWorkDoesNotMatter) {

@@ -83,6 +83,8 @@ std::optional<std::int64_t> SequenceArgs::last_frame() const {
   if (last) return *last;
   if (count) return first_frame() + std::int64_t{*count - 1} * jump;
   if (turntable) return std::int64_t{*turntable} - 1;
+  if (!views.empty()) return static_cast<std::int64_t>(views.size()) - 1;
+  if (camera_path) return static_cast<std::int64_t>(camera_path->keys.back().time * rate + 1e-6);
   return std::nullopt;
 }
 
@@ -92,16 +94,21 @@ void check_effects(const Job& job) {
   SequenceArgs sequence = job.sequence;
   sequence.is_film = is_video(job.output) || job.frame_place;
   const bool is_linear = ending == ".exr" || ending == ".pfm";
-  const bool is_frame = !sequence.is_sequence() || job.frame_place;
   if (job.file.jpeg_quality && ending != ".jpg" && ending != ".jpeg")
     refuse("--jpeg-quality is for .jpg; --webp-quality is for .webp, and --png-compression for .png");
-  if (job.file.webp_quality && (ending != ".webp" || !is_frame)) refuse("--webp-quality is for .webp with one image");
+  if (job.file.webp_quality && ending != ".webp") refuse("--webp-quality is for .webp");
   if (job.file.is_small_png && ending != ".png") refuse("--png-compression is for .png");
   if (job.file.exr_compression && ending != ".exr") refuse("--exr-compression is for .exr");
   if (job.tone_mapping.value_or(ToneMapping::None) != ToneMapping::None && is_linear)
     refuse("--tone-mapping: .exr and .pfm contain linear light, before tone mapping");
   if (job.tone_mapping.value_or(ToneMapping::None) != ToneMapping::None && job.display.raw)
     refuse("--tone-mapping does not go with --color-management raw");
+  if (job.default_material.height_scale && job.default_material.height_map.empty())
+    refuse("--height-scale requires --height-map");
+  if (job.section.color && job.section.planes.empty())
+    refuse("--section-color requires --section, for example 1,0,0,0");
+  if (job.options.edges.color && job.options.edges.kind == EdgeKind::None)
+    refuse("--edge-color requires --edges, for example features");
   if ((job.default_material.metallic || job.default_material.roughness) &&
       job.shading_model.value_or(ShadingModel::MetallicRoughness) != ShadingModel::MetallicRoughness)
     refuse("--metallic and --roughness are those of --shading-model pbr");
@@ -115,6 +122,11 @@ void check_job(Job& job) {
   append_upscaler(job);
   job.sequence.is_film = is_video(job.output) || job.frame_place;
   check_environment(job);
+  job.view.lens = job.lens.lens(job.options.width, job.options.height);
+  if (job.view.lens && (job.view.view_angle || job.view.is_orthographic))
+    throw Error(ErrorKind::Usage,
+                "--camera-intrinsics and --camera-calibration go with neither --camera-view-angle nor "
+                "--camera-orthographic");
   const std::string ending = extension_of(job.named_output());
   if (ending == ".exr" && !job.background && !job.options.background) job.display.is_transparent = true;
   if (job.options.opaque_glass && !job.display.is_transparent)
@@ -129,6 +141,14 @@ void check_job(Job& job) {
   if (job.sequence.jump != 1 && !job.sequence.is_sequence())
     throw Error(ErrorKind::Usage,
                 "--frame-jump requires a sequence: --frames, --frame-start, --frame-end or --turntable");
+  const int paths = int{job.sequence.turntable.has_value()} + int{!job.sequence.views.empty()} +
+                    int{job.sequence.camera_path.has_value()};
+  if (paths > 1)
+    throw Error(ErrorKind::Usage, "--turntable, --views and --camera-path each move the camera: give one of them");
+  if (!job.sequence.views.empty() && (job.sequence.shutter || job.view.index || job.view.position))
+    throw Error(ErrorKind::Usage,
+                "--views are of the whole scene: they go with none of --shutter, --camera-index and "
+                "--camera-position");
   if (job.sequence.shutter && !job.sequence.is_sequence())
     throw Error(ErrorKind::Usage, "--shutter requires a sequence: --frames, --frame-start, --frame-end or --turntable");
   if (job.sequence.shutter && (!job.aovs.empty() || job.options.crop))

@@ -10,8 +10,11 @@
 #include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/image/tonemap.h"
+#include "zoneplate/job/lens_args.h"
 #include "zoneplate/job/look/default_material.h"
+#include "zoneplate/job/look/view_args.h"
 #include "zoneplate/job/output/frame_name.h"
+#include "zoneplate/job/section_args.h"
 #include "zoneplate/render/aov.h"
 #include "zoneplate/render/lighting.h"
 #include "zoneplate/render/render.h"
@@ -38,12 +41,14 @@ struct SequenceArgs {
   int shutter_samples = 16;
   ShutterFilter shutter_filter = ShutterFilter::Box;
   int warm_up = 0;  ///< frames before the first that are rendered for a method with history, and not written
-  std::vector<int> finished = {};  ///< sorted; frames that are not rendered again
-  bool skips_finished = false;     ///< --skip-existing is given
+  std::vector<ViewDirection> views = {};       ///< of the frames, one after the other
+  std::optional<KeyedViews> camera_path = {};  ///< the camera of each frame
+  std::vector<int> finished = {};              ///< sorted; frames that are not rendered again
+  bool skips_finished = false;                 ///< --skip-existing is given
 
   bool is_sequence() const { return requests_frames() || is_film; }
   /// Whether the options request frames, whatever the output is.
-  bool requests_frames() const { return turntable || count || first || last; }
+  bool requests_frames() const { return turntable || count || first || last || !views.empty() || camera_path; }
   std::int64_t first_frame() const { return first.value_or(0); }
   /// The last frame, if it does not depend on the animation.
   std::optional<std::int64_t> last_frame() const;
@@ -72,25 +77,28 @@ struct Job {
   FileOptions file;
   std::vector<const Aov*> aovs;
   std::string method = usual_method;
-  bool has_method = false;                  ///< --anti-aliasing is given
-  std::string upscaler;                     ///< follows the method; check_job appends it to `method`
-  std::optional<double> render_scale;       ///< of `upscaler`
-  RenderOptions options;                    ///< `anisotropy` and `point_size` are set by resolve
-  std::optional<int> anisotropy;            ///< none: usual_anisotropy, or the own one of a built-in scene
-  std::optional<float> point_size;          ///< none: usual_point_size
-  DisplayOptions display;                   ///< `mapping` and `background` are set by resolve
-  std::optional<ToneMapping> tone_mapping;  ///< none: that of the light, see Lighting
-  bool meters_exposure = false;             ///< --exposure auto: resolve_brightness sets `display.exposure`
-  bool has_own_brightness = false;          ///< --exposure or --light-intensity is given
-  float light_dimming = 1;                  ///< of the lights of a file; set by resolve_brightness
-  std::optional<float4> background;         ///< sRGB code; none: the scene's own or the usual one
+  bool has_method = false;                   ///< --anti-aliasing is given
+  std::string upscaler;                      ///< follows the method; check_job appends it to `method`
+  std::optional<double> render_scale;        ///< of `upscaler`
+  RenderOptions options;                     ///< `anisotropy` and `point_size` are set by resolve
+  std::optional<int> anisotropy;             ///< none: usual_anisotropy, or the own one of a built-in scene
+  std::optional<float> point_size;           ///< none: usual_point_size
+  DisplayOptions display;                    ///< `mapping` and `background` are set by resolve
+  std::optional<ToneMapping> tone_mapping;   ///< none: that of the light, see Lighting
+  bool meters_exposure = false;              ///< --exposure auto: resolve_brightness sets `display.exposure`
+  bool has_own_brightness = false;           ///< --exposure or --light-intensity is given
+  float light_dimming = 1;                   ///< of the lights of a file; set by resolve_brightness
+  std::optional<float4> background;          ///< sRGB code; none: that of the quality, the scene's own or the usual one
+  std::optional<float4> quality_background;  ///< of --quality best; .exr stays transparent
   float background_blur = 0;
-  View view;
+  View view;  ///< its lens is set from `lens` by check_job
+  LensArgs lens;
   std::optional<float3> up;                   ///< the scene's up axis; nothing: that of its format
   MipOptions mips;                            ///< how images are decoded and reduced
   std::optional<ShadingModel> shading_model;  ///< for every material
   std::optional<float> displacement;          ///< DisplacementOptions::tolerance; none: height textures are bumps
   DefaultMaterial default_material;
+  SectionArgs section;
   std::string solid_texture;  ///< of every material, in the form of job/look/solid_texture.h
   LightingOptions lighting;
   std::optional<float3> environment_color;       ///< linear radiance of --environment

@@ -44,6 +44,7 @@ struct Option {
   bool is_basic = false;  ///< included in the short help
   OptionSetter set;       ///< takes the value's text (empty for a switch)
   Choices choices{};      ///< values that shells complete
+  bool repeats = false;   ///< may be given several times; otherwise the last value counts
 
   ValueKind kind() const { return value.empty() ? ValueKind::Switch : set.kind; }
 };

@@ -11,9 +11,14 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/spec.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/job/lens_args.h"
+#include "zoneplate/job/look/edge_args.h"
 #include "zoneplate/job/look/shadow_args.h"
 #include "zoneplate/job/look/solid_texture.h"
+#include "zoneplate/job/look/view_args.h"
 #include "zoneplate/job/option_values.h"
+#include "zoneplate/job/section_args.h"
+#include "zoneplate/job/tone_args.h"
 #include "zoneplate/job/values.h"
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/upscale/upscaler.h"
@@ -30,6 +35,9 @@ void set_quality(Job& a, int level) {
   a.options.shadows = level == 2 ? parse_shadows("soft:samples=64,spacing=8") : usual.options.shadows;
   a.options.occlusion = level == 2 ? parse_occlusion("rays:samples=64,spacing=8") : usual.options.occlusion;
   a.options.ground = level == 2 ? GroundKind::Shadow : usual.options.ground;
+  a.options.specular_aa = level == 2 ? SpecularAntialiasing::Full : usual.options.specular_aa;
+  constexpr float4 paper{0xe8 / 255.0f, 0xe6 / 255.0f, 0xe0 / 255.0f, 1};  // #e8e6e0, on which a shadow shows
+  a.quality_background = level == 2 ? std::optional(paper) : std::nullopt;
 }
 
 std::vector<Option> input_options(Job& a) {
@@ -66,6 +74,15 @@ std::vector<Option> sequence_options(Job& a) {
   return {
       {"--turntable", "N", "Render N frames while the camera makes one turn around the scene", group, false,
        whole(1, 100'000, [&](int n) { a.sequence.turntable = n; })},
+      {"--views", "LIST",
+       "Render one frame from each of these directions: front, right, back, left, top, bottom or iso; the animation "
+       "rests at --animation-time",
+       group, false, [&](auto& text) { a.sequence.views = parse_views(text); }, view_names()},
+      {"--camera-path", "FILE",
+       "Move the camera through the keys of a JSON file: {\"keys\": [{\"time\": 0, \"position\": [X,Y,Z], "
+       "\"focal_point\": [X,Y,Z]}, ...]}, with view_up and view_angle where they are given; on smooth curves between "
+       "them",
+       group, false, [&](auto& text) { a.sequence.camera_path = read_camera_path(text); }},
       {"--frames", "N", "Number of frames; default: to the end of the animation or turn", group, false,
        whole(1, 100'000, [&](int n) { a.sequence.count = n; })},
       {"--frame-start,-s", "F", "First frame; default 0", group, false,
@@ -101,7 +118,7 @@ std::vector<Option> picture_options(Job& a) {
       {"--quality", "LEVEL",
        "Sets several options, which other options change: fast is --aa msaa:n=4 --anisotropy 1; default; best is --aa "
        "msaa:n=16,alpha=samples --anisotropy 16 --shadows soft:samples=64,spacing=8 --ambient-occlusion "
-       "rays:samples=64,spacing=8 --ground shadow; "
+       "rays:samples=64,spacing=8 --ground shadow --specular-aa full, on the background #e8e6e0; "
        "the compression of files is --jpeg-quality and --webp-quality",
        group, true, [&](auto& text) { set_quality(a, parse_quality(text)); }, Choices{"fast", "default", "best"}},
       {"--anti-aliasing,--aa", "METHOD",
@@ -133,31 +150,24 @@ std::vector<Option> picture_options(Job& a) {
        "them, "
        "as in Babylon.js and Khronos' sample viewer; otherwise their alpha is 1 - the part of light that passes",
        group, true, [&](auto&) { a.options.opaque_glass = true; }},
-      choice_option("--tone-mapping", "CURVE",
-                    "Tone-mapping curve of images that are not linear: none, aces, neutral, agx or filmic; default "
-                    "neutral in the studio that a scene without lights gets, else none",
-                    group, false, {"none", "aces", "neutral", "agx", "filmic"},
-                    [&](std::size_t i) {
-                      constexpr ToneMapping curves[] = {ToneMapping::None, ToneMapping::Aces, ToneMapping::Neutral,
-                                                        ToneMapping::Agx, ToneMapping::Filmic};
-                      a.tone_mapping = curves[i];
-                    }),
+      tone_mapping_option(a.tone_mapping, "default neutral in the studio that a scene without lights gets, else none",
+                          group),
       {"--exposure", "STOPS",
        "Exposure in stops: each stop doubles the brightness, negative ones halve it; or auto: 95 % of the surfaces' "
        "pixels have no channel above 0.8, in a sequence those of frame 0; default 0",
        group, false,
        [&](auto& text) {
-         a.meters_exposure = text == "auto";
-         a.has_own_brightness = true;
-         a.display.exposure = a.meters_exposure ? 1 : exp2(static_cast<float>(parse_number(text, -32, 32)));
+         const std::optional<float> factor = parse_exposure(text);
+         a.meters_exposure = !factor, a.has_own_brightness = true;
+         a.display.exposure = factor.value_or(1);
        },
        Choices{"auto"}},
       choice_option("--bit-depth", "BITS", "Bits per channel of .png and .rgba: 8 or 16; default 8", group, false,
                     {"8", "16"}, [&](std::size_t i) { a.bit_depth = i == 1 ? 16 : 8; }),
       {"--jpeg-quality", "N", "Quality of .jpg, 1 to 100: smaller files below, fewer artifacts above; default 92",
        group, false, whole(1, 100, [&](int n) { a.file.jpeg_quality = n; })},
-      {"--webp-quality", "N", "Quality of .webp, 0 to 100, with loss; default: lossless", group, false,
-       whole(0, 100, [&](int n) { a.file.webp_quality = n; })},
+      {"--webp-quality", "N", "Quality of .webp, still or animated, 0 to 100, with loss; default: lossless", group,
+       false, whole(0, 100, [&](int n) { a.file.webp_quality = n; })},
       choice_option("--png-compression", "KIND",
                     "Compression of .png: fast, or small: some 30 % smaller, several "
                     "times slower; default fast",
@@ -201,6 +211,16 @@ std::vector<Option> camera_options(Job& a) {
        [&](auto& text) { a.view.view_up = narrowed(parse_triple(text)); }},
       {"--camera-view-angle", "DEG", "Vertical angle of view; default 30", group, false,
        angle(0.01, 179, [&](float x) { a.view.view_angle = x; })},
+      {"--camera-intrinsics", "FX,FY,CX,CY",
+       "Focal lengths and principal point in pixels, as of OpenCV: (0, 0) is the centre of the top-left pixel; instead "
+       "of a view angle",
+       group, false, [&](auto& text) { a.lens.intrinsics = parse_intrinsics(text); }},
+      {"--camera-distortion", "LIST", "Distortion of the lens as of OpenCV: K1,K2,P1,P2[,K3[,K4,K5,K6]]", group, false,
+       [&](auto& text) { a.lens.distortion = parse_distortion(text); }},
+      {"--camera-calibration", "FILE",
+       "Intrinsics and distortion of a JSON file by OpenCV's FileStorage: camera_matrix, distortion_coefficients, "
+       "image_width and image_height",
+       group, false, [&](auto& text) { a.lens.calibrated = read_calibration(text); }},
       {"--camera-orthographic", "", "Orthographic projection", group, false,
        [&](auto&) { a.view.is_orthographic = true; }},
       {"--camera-index", "N", "Index of a camera of the scene, from 0", group, false,
@@ -222,6 +242,14 @@ std::vector<Option> scene_options(Job& a) {
       {"--texture", "FILE",
        "Image for surfaces without a material: .png, .jpg, .webp, .hdr, .exr or .ktx2; times --color, if given", group,
        false, [&](auto& text) { a.default_material.texture = text; }},
+      {"--normal-map", "FILE", "Normal map in tangent space for surfaces without a material", group, false,
+       [&](auto& text) { a.default_material.normal_map = text; }},
+      {"--height-map", "FILE",
+       "Height map for surfaces without a material: bumps, or geometry with --displacement; white is --height-scale "
+       "above black",
+       group, false, [&](auto& text) { a.default_material.height_map = text; }},
+      {"--height-scale", "H", "Height of white above black of --height-map; default a hundredth of the longest side",
+       group, false, number(-1e9, 1e9, [&](double x) { a.default_material.height_scale = static_cast<float>(x); })},
       {"--metallic", "M", "Metalness of surfaces without a material, from 0, a dielectric, to 1, a metal", group, false,
        number(0, 1, [&](double x) { a.default_material.metallic = static_cast<float>(x); })},
       {"--roughness", "R", "Roughness of surfaces without a material, from 0, a mirror, to 1", group, false,
@@ -237,6 +265,21 @@ std::vector<Option> scene_options(Job& a) {
        "Turn height textures into geometry instead of bumps: refine meshes until they are this near to the heights,\n"
        "relative to their longest side, for example 0.001",
        group, false, number(1e-6, 1, [&](double x) { a.displacement = static_cast<float>(x); })},
+      {"--section",
+       "X,Y,Z,D",
+       "Cut away what lies beyond the plane X x + Y y + Z z = D of the file's coordinates, and close solids by caps; "
+       "several planes leave what lies beyond none",
+       group,
+       false,
+       [&](auto& text) { a.section.planes.push_back(parse_section(text)); },
+       {},
+       true},
+      {"--section-color", "COLOR", "Colour of the caps of --section; default: that of the surface that is cut", group,
+       false,
+       [&](auto& text) {
+         const float3 light = linear_color(text);
+         a.section.color = float4{light.x, light.y, light.z, 1};
+       }},
       {"--solid-texture", "PATTERN",
        "Procedural texture of all materials, for example marble:scale=6: " + solid_texture_names(), group, false,
        [&](auto& text) { a.solid_texture = check_solid_texture(text); }},
@@ -322,7 +365,15 @@ std::vector<Option> scene_options(Job& a) {
           "maps), or full (geometric and lean); default none",
           group, false, {"none", "geometric", "toksvig", "lean", "full"},
           [&](std::size_t i) { a.options.specular_aa = static_cast<SpecularAntialiasing>(i); }),
-      {"--line-width", "PX", "Width of lines; default 1", group, false,
+      {"--edges", "KIND",
+       "Draw edges of triangles as lines: none; features, boundaries, silhouettes and creases, for example "
+       "features:angle=30,width=1.5; mesh, all edges; or wireframe, all edges without surfaces. hidden=shown does not "
+       "remove lines behind surfaces, surfaces=none leaves out the surfaces; default none",
+       group, false, [&](auto& text) { set_edges(text, a.options.edges); },
+       Choices{"none", "features", "mesh", "wireframe"}},
+      {"--edge-color", "COLOR", "Colour of --edges; default black, or white where a dark background alone is below",
+       group, false, [&](auto& text) { a.options.edges.color = parse_color(text); }},
+      {"--line-width", "PX", "Width of lines of the model; default 1", group, false,
        number(0.01, 1024, [&](double x) { a.options.line_width = static_cast<float>(x); })},
   };
 }

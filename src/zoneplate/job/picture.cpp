@@ -118,6 +118,7 @@ void check_passes(const Job& job, const Request& request) {
 
 void convert_materials(const Job& job, Scene& scene) {
   set_default_material(job.default_material, job.load.limits, scene);
+  cut_scene(scene, job.section.planes, job.section.color);
   if (job.shading_model)
     for (Material& material : scene.materials) convert_material(material, *job.shading_model);
   if (job.displacement) displace_surfaces(scene, {.tolerance = *job.displacement});

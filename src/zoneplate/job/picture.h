@@ -50,7 +50,7 @@ void check_request(const Job& job, const Request& request);
 /// Errors    ErrorKind::Usage if the method does not support one of the data passes.
 void check_passes(const Job& job, const Request& request);
 
-/// Converts the materials of a loaded scene to the shading model of the job.
+/// Cuts a loaded scene at the sections of the job, and converts its materials to the shading model of the job.
 void convert_materials(const Job& job, Scene& scene);
 
 /// Changes the materials and the lighting of a loaded scene as the job says. The tone curve that goes with the light.

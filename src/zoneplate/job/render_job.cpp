@@ -19,13 +19,14 @@ std::string model_key(const Job& job) {
   const LoadLimits& l = job.load.limits;
   const DefaultMaterial& m = job.default_material;
   const float4 color = m.color.value_or(float4{-1, 0, 0, 0});
-  return fmt::format("{} {}\n{}\n{}\n{} {} {} {:a} {} {} {} {} {} {} {} {} {} {} {} {:a} {:a} {:a} {:a} {:a} {:a} {}",
-                     l.is_strict, job.input, job.load.format, c.animation_name, c.scene.value_or(-1), c.variant,
-                     c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds, fmt::join(l.allowed_paths, "\n"),
-                     job.mips.raw_colors, static_cast<int>(job.mips.filter), job.mips.keeps_coverage,
-                     job.mips.weights_by_alpha, job.shading_model ? static_cast<int>(*job.shading_model) : -1,
-                     job.solid_texture, job.displacement.value_or(-1), color.x, color.y, color.z, color.w,
-                     m.metallic.value_or(-1), m.roughness.value_or(-1), m.texture);
+  return fmt::format(
+      "{} {}\n{}\n{}\n{} {} {} {:a} {} {} {} {} {} {} {} {} {} {} {} {:a} {:a} {:a} {:a} {:a} {:a} {} {} {} {} {:a}",
+      l.is_strict, job.input, job.load.format, c.animation_name, c.scene.value_or(-1), c.variant,
+      c.animation.value_or(-1), c.time, l.memory, l.pixels, l.seconds, fmt::join(l.allowed_paths, "\n"),
+      job.mips.raw_colors, static_cast<int>(job.mips.filter), job.mips.keeps_coverage, job.mips.weights_by_alpha,
+      job.shading_model ? static_cast<int>(*job.shading_model) : -1, job.solid_texture, job.displacement.value_or(-1),
+      color.x, color.y, color.z, color.w, m.metallic.value_or(-1), m.roughness.value_or(-1), m.texture,
+      job.section.text(), m.normal_map, m.height_map, m.height_scale.value_or(-1e30f));
 }
 
 std::optional<Scene> RenderJobs::read(const Job& job) {

@@ -18,6 +18,7 @@ bool is_builtin(const Job& job) { return job.load.format.empty() && is_builtin_s
 /// "#333333", the default background of F3D; the scene "triangles" is defined on black.
 float4 background_of(const Job& job) {
   if (job.background) return *job.background;
+  if (job.quality_background) return *job.quality_background;
   return job.input == "triangles" && is_builtin(job) ? float4{0, 0, 0, 1} : default_background;
 }
 
@@ -33,6 +34,7 @@ Job resolve(Job job, const Scene& scene, ToneMapping of_light) {
   options.point_size = job.point_size.value_or(usual_point_size(scene, options.width, options.height));
   options.anisotropy = job.anisotropy.value_or(is_builtin(job) ? 1 : usual_anisotropy);
   job.view.up = job.up.value_or(scene.up);
+  job.view.lens = job.lens.lens(job.options.width, job.options.height);
   if (has_own_view(job, scene) && !job.view.index && !job.view.position) job.view.index = 0;
   job.display.background = background_of(job);
   job.display.mapping = job.tone_mapping.value_or(of_light);

@@ -37,7 +37,8 @@ class Plan {
     const bool has_animation = job.load.choice.animation || !job.load.choice.animation_name.empty();
     const bool is_chosen = has_animation || job.has_animation_time;
     Scene scene = load(&SceneSource::load, choice_.time);
-    if (!has_animation && !scene.animations.empty() && (is_chosen || !job.sequence.turntable)) {
+    const bool is_orbit = job.sequence.turntable || !job.sequence.views.empty();
+    if (!has_animation && !scene.animations.empty() && (is_chosen || !is_orbit)) {
       choice_.animation = 0;
       if (scene.animations.size() > 1)
         notes_.push_back(fmt::format(
@@ -48,7 +49,7 @@ class Plan {
     is_animated_ = choice_.animation || !choice_.animation_name.empty();
     if (!is_animated_) still_ = std::move(scene);
     list_frames();
-    if (still_ && !job.sequence.turntable && frames_.size() > 1)
+    if (still_ && !is_orbit && !job.sequence.camera_path && frames_.size() > 1)
       notes_.push_back(fmt::format("{}: has no animation, so that all {} frames show the same; see --turntable",
                                    job.input, frames_.size()));
     if (std::string late = lateness(job, end_); !late.empty()) notes_.push_back(std::move(late));
@@ -65,11 +66,13 @@ class Plan {
     for (int i = 1; i <= parts && is_animated_; ++i) out.push_back(end_ * job_.sequence.rate * i / parts);
     return out;
   }
+  bool is_animated() const { return is_animated_; }
   // Of the scene that was made last.
   ToneMapping tone_mapping() const { return tone_mapping_; }
 
   Sequence sequence() {
-    const SequenceTiming timing{.rate = job_.sequence.rate,
+    constexpr double resting = 1e12;  // frames per second: all have the time of the first
+    const SequenceTiming timing{.rate = job_.sequence.views.empty() ? job_.sequence.rate : resting,
                                 .start = job_.load.choice.time,
                                 .duration = end_,
                                 .turntable = job_.sequence.turntable};
@@ -142,6 +145,16 @@ class Plan {
   std::vector<int> frames_;
 };
 
+/// The motion of surfaces that a section cuts anew in every frame is not known.
+void check_section(const Job& job, const Resolver& method, bool is_animated) {
+  if (job.section.planes.empty() || !is_animated) return;
+  const bool has_motion = std::ranges::any_of(
+      job.aovs, [](const Aov* aov) { return aov->plane == &Planes::motion || aov->plane == &Planes::flow; });
+  if (has_motion || method.has_history())
+    throw Error(ErrorKind::Usage,
+                "--section of an animated model excludes --aov motion and flow, and methods that average frames");
+}
+
 /// A method with history needs all frames in order.
 void check_history(const Job& job, const Resolver& method) {
   if (!method.has_history() && job.sequence.warm_up > 0)
@@ -195,16 +208,36 @@ struct JobFrames::State {
     sink.has_read();
     check_passes(job, request_of(job, *method));
     check_history(job, *method);
+    check_section(job, *method, plan.is_animated());
     sequence.emplace(plan.sequence());
     // What all frames share and the scene decides, it decides at frame 0, whichever frames are rendered: nothing
     // flickers, and the parts of a sequence look alike.
     renderer.emplace(sequence->scene(0), std::move(method));
     job = resolve(std::move(job), renderer->scene().scene(), plan.tone_mapping());
     const float aspect = static_cast<float>(job.options.width) / static_cast<float>(job.options.height);
-    sequence->set_view(job.view, aspect);
+    set_camera(aspect);
     warnings = sequence->scene(plan.frames().front()).scene().warnings;
     set_brightness();
     warnings.insert(warnings.end(), plan.notes().begin(), plan.notes().end());
+  }
+
+  /// The camera of all frames, or of each.
+  void set_camera(float aspect) {
+    const SequenceArgs& s = job.sequence;
+    if (s.camera_path)
+      return sequence->set_views(
+          [this](double frame) { return job.sequence.camera_path->at(frame / job.sequence.rate, job.view); }, aspect);
+    if (s.views.empty()) return sequence->set_view(job.view, aspect);
+    sequence->set_views(
+        [this](double frame) {
+          const std::vector<ViewDirection>& views = job.sequence.views;
+          const auto last = static_cast<double>(views.size() - 1);
+          const ViewDirection& direction = views[static_cast<std::size_t>(std::clamp(frame, 0.0, last))];
+          View view = job.view;
+          view.azimuth = direction.azimuth, view.elevation = direction.elevation;
+          return view;
+        },
+        aspect);
   }
 
   /// As resolve does for a still image, of frame 0 and of those that are metered.
@@ -261,7 +294,9 @@ struct JobFrames::State {
     SceneView now = view(frame);
     renderer->set_scene(std::move(now.scene));
     out.camera = now.camera;
-    out.image = renderer->render(now.camera, settings);
+    // Views have nothing in common that a history could keep.
+    out.image = job.sequence.views.empty() ? renderer->render(now.camera, settings)
+                                           : renderer->render_still(now.camera, settings);
     return out;
   }
 
@@ -365,7 +400,7 @@ void render_sequence(Job job, std::unique_ptr<Resolver> method, JobSink& out, Su
       out.film_frame(picture.image);
     } else {
       format.has_alpha = picture.has_alpha;
-      if (!film) film = make_film_encoder(resolved.output, format);
+      if (!film) film = make_film_encoder(resolved.output, format, resolved.file.webp_quality);
       background.run(film->add(std::make_shared<const Rgba8Image>(std::move(picture.image))));
     }
   }

@@ -10,6 +10,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/metrics/backdrop.h"
 #include "zoneplate/metrics/ignored.h"
+#include "zoneplate/metrics/metrics.h"
 
 namespace zoneplate::metrics {
 namespace {
@@ -164,6 +165,16 @@ void check_sizes(const Picture& first, const Picture& next, std::size_t index, s
                                             index + 1, size_of(next), size_of(first)));
 }
 
+DisplayImage display_of(const Rgba8Image& image) {
+  DisplayImage out(image.width(), image.height());
+  for (std::size_t i = 0; i < out.values().size(); ++i) {
+    const Rgba8& c = image.values()[i];
+    const auto code = [](std::uint8_t value) { return static_cast<float>(value) / 255; };
+    out.values()[i] = {code(c.r), code(c.g), code(c.b), code(c.a)};
+  }
+  return out;
+}
+
 }  // namespace
 
 Comparison compare(const Comparands& pictures, std::span<const Choice> choices, Unfit unfit) {
@@ -223,6 +234,14 @@ std::vector<Choice> default_choices(std::span<const Metric> catalogue) {
 
 bool is_as_good(const Metric& metric, double value, double threshold) {
   return metric.better == Better::Lower ? value <= threshold : value >= threshold;
+}
+
+double measure(const Rgba8Image& reference, const Rgba8Image& test, std::string_view metric) {
+  const Choice choice = choose_metric(metrics(), metric);
+  const Comparands both{.count = 1,
+                        .reference = [&](std::size_t) { return make_picture(display_of(reference)); },
+                        .test = [&](std::size_t) { return make_picture(display_of(test)); }};
+  return compare(both, {&choice, 1}, Unfit::Refuse).results.front().value;
 }
 
 }  // namespace zoneplate::metrics

@@ -145,5 +145,27 @@ TEST(Threshold, LooksTheRightWay) {
   EXPECT_FALSE(is_as_good(psnr, std::numeric_limits<double>::quiet_NaN(), 40));
 }
 
+TEST(Measure, GivesTheValueOfAMetricByName) {
+  const Rgba8Image black(16, 16, {0, 0, 0, 255}), grey(16, 16, {51, 51, 51, 255});
+  EXPECT_NEAR(measure(black, grey, "mse"), 0.04, 1e-6);
+  EXPECT_NEAR(measure(black, grey, "psnr"), 10 * std::log10(1 / 0.04), 1e-4);
+  EXPECT_EQ(measure(grey, grey, "flip:ppd=30"), 0);
+}
+
+TEST(Measure, RefusesWhatCannotBeMeasured) {
+  const Rgba8Image image(16, 16), small(8, 16);
+  const auto kind_of = [&](const Rgba8Image& test, const char* metric) {
+    try {
+      measure(image, test, metric);
+    } catch (const Error& error) {
+      return error.kind();
+    }
+    return ErrorKind::Failed;
+  };
+  EXPECT_EQ(kind_of(image, "flap"), ErrorKind::Usage);
+  EXPECT_EQ(kind_of(small, "mse"), ErrorKind::Input);
+  EXPECT_EQ(kind_of(image, "flicker"), ErrorKind::Input);  // needs several frames
+}
+
 }  // namespace
 }  // namespace zoneplate::metrics

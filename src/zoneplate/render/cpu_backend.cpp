@@ -156,6 +156,7 @@ void check(const RenderOptions& o, const Request& request) {
     reject("soft shadows have at least one ray, and occlusion has a distance that is not negative");
   if (const ShadowMapOptions& map = o.shadows.map; map.size < 1 || map.size > 16384 || !(map.radius >= 0.5f))
     reject("a shadow map has 1 to 16384 texels a side and a filter of at least half a texel");
+  if (!(o.edges.width > 0 && o.edges.width <= 1024)) reject("lines along edges are up to 1024 pixels wide");
   if (request.samples.empty() || (request.rate == Rate::Surface && request.samples.size() > 64))
     reject("a pixel has 1 to 64 samples at rate surface, not " + std::to_string(request.samples.size()));
   if (request.draw && (request.writes_display8 || request.planes.samples || request.planes.sample_colors))

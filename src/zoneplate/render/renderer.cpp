@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <functional>
 #include <iterator>
 #include <utility>
 
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/edges/scene_edges.h"
 #include "zoneplate/image/dither.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/lens/lens_warp.h"
 #include "zoneplate/render/environment_background.h"
 #include "zoneplate/shade/cast/ground.h"
 
@@ -52,6 +55,18 @@ void cut_out(RenderedImage& image, const Crop& whole, const Crop& crop) {
   image.data.x = crop.x, image.data.y = crop.y;
 }
 
+/// Whether the image shows surfaces, and not the lines of their edges alone.
+bool draws_surfaces(const RenderOptions& o) { return o.edges.kind == EdgeKind::None || o.edges.has_surfaces; }
+
+void clear(LinearImage& image) { std::ranges::fill(image.values(), Linear{0, 0, 0, 0}); }
+
+bool is_distorted(const Camera& camera) { return camera.lens && camera.lens->is_distorted(); }
+
+Camera with_lens(Camera camera, const Lens& lens) {
+  camera.lens = lens;
+  return camera;
+}
+
 /// Whether planes of the next frame show what has changed since this one.
 bool reads_last_moment(const Planes& planes) { return planes.motion || planes.last_position || planes.was_visible; }
 
@@ -74,6 +89,7 @@ Renderer::Renderer(PreparedScene scene, std::unique_ptr<Resolver> method, std::u
     : scene_(std::move(scene)),
       method_(std::move(method)),
       backend_(std::move(backend)),
+      edges_(std::make_unique<SceneEdges>()),
       jitter_(named_pattern("halton", jitter_period)) {}
 
 Renderer::~Renderer() = default;
@@ -109,7 +125,8 @@ Request Renderer::request_for(const RenderSettings& settings) {
   if (request.frame && request.is_display_referred && settings.form == ImageForm::Linear)
     throw Error(ErrorKind::Usage, "the upscaler works after tone mapping, and the image is scene-linear");
   request.writes_display8 = request.resolves_per_pixel && settings.form == ImageForm::Display8 &&
-                            !settings.options.background && !request.frame;
+                            !settings.options.background && !request.frame &&
+                            settings.options.edges.kind == EdgeKind::None;
   return request;
 }
 
@@ -191,9 +208,30 @@ Renderer::Rounds Renderer::render_rounds(const Camera& camera, const Request& re
   return rounds;
 }
 
-/// Converts the method's linear image to the requested format.
-void Renderer::finish(LinearImage picture, const Frame& frame, ImageForm form, RenderedImage& out) {
+Plane<float> Renderer::edge_coverage(const Camera& camera, const RenderSettings& settings, const Request& request) {
+  const RenderOptions& options = settings.options;
+  if (options.edges.kind == EdgeKind::None) return {};
+  const Crop whole{0, 0, options.width, options.height};
+  const Crop part = padded_crop(options, request.frame ? 0 : request.halo).value_or(whole);
+  return edges_->coverage(scene_.shared_scene(), scene_.textures(),
+                          {.camera = camera,
+                           .aspect = aspect_of(options),
+                           .width = options.width,
+                           .height = options.height,
+                           .x = part.x,
+                           .y = part.y,
+                           .part_width = part.width,
+                           .part_height = part.height,
+                           .culls_back_faces = options.cull_back_faces},
+                          options.edges);
+}
+
+/// Converts the method's linear image to the requested format, with the lines over it.
+void Renderer::finish(LinearImage picture, const Frame& frame, const RenderSettings& settings,
+                      const Plane<float>& edges, RenderedImage& out) {
+  const ImageForm form = settings.form;
   if (form == ImageForm::Linear) {
+    if (!edges.empty()) draw_edges(edges, settings.options.edges, settings.options.display, picture);
     out.linear = std::move(picture);
     return;
   }
@@ -201,6 +239,7 @@ void Renderer::finish(LinearImage picture, const Frame& frame, ImageForm form, R
   DisplayImage display = make_display(picture, frame.display);
   out.counts.display_ms += watch.lap_ms();
   display = method_->post_process(std::move(display), frame);
+  if (!edges.empty()) draw_edges(edges, settings.options.edges, settings.options.display, display);
   out.counts.filter_ms += watch.lap_ms();
   if (form == ImageForm::Display16)
     out.display16 = quantize16(display);
@@ -228,7 +267,59 @@ Camera Renderer::seeing_ground(const Camera& camera, const RenderOptions& option
   return options.ground == GroundKind::Shadow ? GroundSquare(scene_.scene()).enclosing(camera) : camera;
 }
 
+/// The frame without distortion is larger than the image. It is tone-mapped before the warp, with 16 bits: filters of
+/// methods and the resolve of a pixel's samples before the curve or after it are those of the frame.
+RenderedImage Renderer::through_lens(const Lens& lens, const RenderSettings& settings,
+                                     const std::function<RenderedImage(const Lens&, const RenderSettings&)>& frame) {
+  const RenderOptions& o = settings.options;
+  const Crop part = o.crop.value_or(Crop{0, 0, o.width, o.height});
+  const LensWarp warp(lens, o.width, o.height, part.x, part.y, part.width, part.height);
+  const auto scale = static_cast<float>(warp.scale());
+  const LensWarp::Part& read = warp.frame_part();
+  RenderSettings own = settings;
+  own.options.width = warp.frame().width, own.options.height = warp.frame().height;
+  own.options.crop = Crop{read.x, read.y, read.width, read.height};
+  own.options.aspect = 0;
+  own.options.point_size *= scale, own.options.line_width *= scale, own.options.edges.width *= scale;
+  if (settings.form != ImageForm::Linear) own.form = ImageForm::Display16;
+  for (std::optional<Moment>* const other : {&own.options.last, &own.options.next})
+    if (*other) (*other)->camera.lens = warp.frame();
+  RenderedImage image = frame(warp.frame(), own);
+
+  RenderedImage out;
+  out.counts = image.counts;
+  if (settings.form == ImageForm::Linear) {
+    out.linear = warp.warped(image.linear);
+  } else {
+    const DisplayImage display = warp.warped(image.display16, o.display.raw);
+    if (settings.form == ImageForm::Display16)
+      out.display16 = quantize16(display);
+    else
+      out.display = settings.form == ImageForm::Display8Dithered ? quantize8_dithered(display) : quantize8(display);
+  }
+  out.data.x = part.x, out.data.y = part.y;
+  out.data.sample_triangle.resize(image.data.sample_triangle.size());
+  Frame::for_data_planes(image.data, out.data, [&](const auto& from, auto& to) { to = warp.nearest(from); });
+  out.data.motion = warp.nearest_steps(image.data.motion, -1, 0);
+  out.data.flow = warp.nearest_steps(image.data.flow, 0, 1);
+  for (std::size_t k = 0; k < out.data.light.size(); ++k) {
+    if (image.data.light[k].empty()) continue;
+    LinearImage light(read.width, read.height);
+    std::ranges::transform(image.data.light[k].values(), light.values().begin(), [](float3 c) {
+      return Linear{c.x, c.y, c.z, 1};
+    });
+    std::ranges::transform(warp.warped(light).values(), out.data.light[k].values().begin(), [](const Linear& c) {
+      return float3{c.r, c.g, c.b};
+    });
+  }
+  return out;
+}
+
 RenderedImage Renderer::render(const Camera& scene_camera, const RenderSettings& settings) {
+  if (is_distorted(scene_camera))
+    return through_lens(*scene_camera.lens, settings, [&](const Lens& lens, const RenderSettings& own) {
+      return render(with_lens(scene_camera, lens), own);
+    });
   const Camera camera = seeing_ground(scene_camera, settings.options);
   begin_frame(camera, settings);
   const Request request = request_for(settings);
@@ -243,9 +334,15 @@ RenderedImage Renderer::render(const Camera& scene_camera, const RenderSettings&
     const Stopwatch watch;
     LinearImage linear = method_->resolve(frame);
     // An upscaler in scene-linear light resolves to the image's size, with the environment already behind the frame.
-    if (!request.frame || request.is_display_referred) draw_behind(camera, options, linear);
+    const bool is_upscaled = request.frame && !request.is_display_referred;
+    if (!draws_surfaces(settings.options)) {
+      clear(linear);
+      draw_behind(camera, is_upscaled ? settings.options : options, linear);
+    } else if (!is_upscaled) {
+      draw_behind(camera, options, linear);
+    }
     out.counts.resolve_ms = watch.ms();
-    finish(std::move(linear), frame, settings.form, out);
+    finish(std::move(linear), frame, settings, edge_coverage(camera, settings, request), out);
   }
   const bool are_planes_requested = settings.planes.any();
   Frame data = rounds.take_data();
@@ -259,12 +356,19 @@ RenderedImage Renderer::render(const Camera& scene_camera, const RenderSettings&
 }
 
 RenderedImage Renderer::render_still(const Camera& camera, const RenderSettings& settings) {
+  if (is_distorted(camera))
+    return through_lens(*camera.lens, settings, [&](const Lens& lens, const RenderSettings& own) {
+      return render_still(with_lens(camera, lens), own);
+    });
   begin_sequence();
   RenderedImage image = render(camera, settings);
+  // Lines are in no history: frames between the first and the last need none.
+  RenderSettings settling = settings;
+  settling.options.edges.kind = EdgeKind::None;
   RenderCounts counts = image.counts;
   for (int i = 1; i < settling_frames_; ++i) {
     recycle(std::move(image.display));
-    image = render(camera, settings);
+    image = render(camera, i + 1 < settling_frames_ ? settling : settings);
     add(counts, image.counts);
     counts.resolve_ms += image.counts.resolve_ms, counts.display_ms += image.counts.display_ms;
     counts.filter_ms += image.counts.filter_ms;
@@ -276,6 +380,15 @@ RenderedImage Renderer::render_still(const Camera& camera, const RenderSettings&
 RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int)>& moment,
                                     const RenderSettings& settings) {
   SceneView view = moment(0);
+  if (is_distorted(view.camera))
+    return through_lens(*view.camera.lens, settings, [&](const Lens& lens, const RenderSettings& own) {
+      const auto without_distortion = [&](int i) {
+        SceneView at = i == 0 ? view : moment(i);
+        at.camera.lens = lens;
+        return at;
+      };
+      return render_mean(count, without_distortion, own);
+    });
   scene_ = std::move(view.scene);  // the ground of which the camera sees
   begin_frame(seeing_ground(view.camera, settings.options), settings);
   Request request = request_for(settings);
@@ -287,6 +400,7 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
 
   RenderedImage out;
   LinearImage sum;
+  Plane<float> edges;
   Rounds rounds;
   Camera camera;
   for (int i = 0; i < count; ++i) {
@@ -295,6 +409,13 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
     rounds = render_rounds(camera, request, options, out.counts);
     const Stopwatch watch;
     LinearImage picture = method_->resolve(rounds.frame);
+    if (!draws_surfaces(settings.options)) {
+      clear(picture);
+      draw_behind(camera, options, picture);
+    }
+    const Plane<float> covered = edge_coverage(camera, settings, request);
+    if (edges.empty()) edges = {covered.width(), covered.height(), 0.0f};
+    std::ranges::transform(edges.values(), covered.values(), edges.values().begin(), std::plus());
     if (i == 0) {
       sum = std::move(picture);
     } else {
@@ -306,7 +427,8 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
   }
   const float weight = 1 / static_cast<float>(count);
   for (Linear& c : sum.values()) c = c * weight;
-  finish(std::move(sum), rounds.frame, settings.form, out);
+  for (float& part : edges.values()) part *= weight;
+  finish(std::move(sum), rounds.frame, settings, edges, out);
   Frame data = rounds.take_data();
   end_frame(camera, reads_last_moment(request.planes), request, false, data);
   if (request.halo > 0 && options.crop && !request.frame) cut_out(out, *options.crop, *settings.options.crop);

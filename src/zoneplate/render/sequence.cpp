@@ -112,6 +112,11 @@ void Sequence::set_view(const View& view, float aspect) {
   still_ = choose_camera(all, view_, aspect);
 }
 
+void Sequence::set_views(std::function<View(double)> view_at, float aspect) {
+  view_at_ = std::move(view_at), aspect_ = aspect;
+  if (loader_.load) poses_ = all_poses();
+}
+
 const PreparedScene& Sequence::scene(double frame) {
   if (!loader_.load || (scene_ && frame_ == frame)) return *scene_;
   Scene loaded = loader_.load(seconds_of(frame));
@@ -134,6 +139,11 @@ Moment Sequence::moment(double frame) {
 bool Sequence::is_seen_from_all_sides() const { return timing_.turntable && !view_.position && !view_.index; }
 
 Camera Sequence::camera(const Scene& scene, double frame) const {
+  if (view_at_) {
+    const View view = view_at_(frame);
+    const Camera camera = choose_camera(loader_.load && !view.index ? poses_ : scene, view, aspect_);
+    return view.index ? camera : enclosing(camera, scene);
+  }
   Camera camera = view_.index && loader_.load ? choose_camera(scene, view_, aspect_) : still_;
   if (timing_.turntable)
     camera.world_from_camera = turned(static_cast<float>(tau * frame / *timing_.turntable)) * camera.world_from_camera;

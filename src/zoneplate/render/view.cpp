@@ -104,6 +104,15 @@ View turned_to_front(const Scene& scene, const View& view, float aspect) {
   return view;
 }
 
+/// The vertical angle of the greatest view around the axis that is inside the image; at least a quarter of its height
+/// counts, wherever the principal point is.
+float angle_around_axis(const Lens& lens, float aspect) {
+  const double x = std::min(lens.cx + 0.5, lens.width - lens.cx - 0.5) / lens.fx;
+  const double y = std::min(lens.cy + 0.5, lens.height - lens.cy - 0.5) / lens.fy;
+  const double slope = std::max(std::min(y, x / static_cast<double>(aspect)), lens.height / lens.fy / 8);
+  return 2 * atan2(static_cast<float>(slope), 1.0f);
+}
+
 Camera base_camera(const Scene& scene, const View& view, float aspect) {
   if (!view.index) {
     const Camera camera = fit_camera(scene, aspect, fit_of(view));
@@ -126,6 +135,16 @@ View facing_front(const Scene& scene, const View& view, float aspect) {
 }
 
 Camera choose_camera(const Scene& scene, const View& view, float aspect) {
+  if (view.lens) {
+    View without = view;
+    without.lens.reset();
+    without.view_angle = angle_around_axis(*view.lens, aspect);
+    Camera camera = choose_camera(scene, without, aspect);
+    if (camera.is_orthographic)
+      throw Error(ErrorKind::Usage, "a lens has a perspective camera, not an orthographic one");
+    camera.lens = view.lens;
+    return camera;
+  }
   Camera camera = base_camera(scene, view, aspect);
   const bool turns = (view.azimuth || view.elevation) && (view.index || view.position);
   const bool changes_lens = view.index && (view.view_angle || view.is_orthographic);

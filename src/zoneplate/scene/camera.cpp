@@ -93,6 +93,19 @@ void place(Camera& camera, const Axes& axes, Point origin, Point eye) {
       {float4{r.x, r.y, r.z, 0}, float4{a.x, a.y, a.z, 0}, float4{b.x, b.y, b.z, 0}, float4{t.x, t.y, t.z, 1}}};
 }
 
+/// The projection of a lens without its distortion: in an image of another aspect the calibrated one is centred, and
+/// touches two of its sides.
+float4x4 through_lens(const Lens& lens, float picture_aspect, float near, float far) {
+  const double wider = static_cast<double>(picture_aspect) * lens.height / lens.width;
+  const double x = wider > 1 ? 1 / wider : 1, y = wider < 1 ? wider : 1;
+  float4x4 m = perspective(1, 1, near, far);
+  m.column[0].x = static_cast<float>(x * 2 * lens.fx / lens.width);
+  m.column[1].y = static_cast<float>(y * 2 * lens.fy / lens.height);
+  m.column[2].x = static_cast<float>(x * (1 - 2 * (lens.cx + 0.5) / lens.width));
+  m.column[2].y = static_cast<float>(y * (2 * (lens.cy + 0.5) / lens.height - 1));
+  return m;
+}
+
 }  // namespace
 
 float4x4 Camera::clip_from_camera(float picture_aspect) const {
@@ -102,6 +115,7 @@ float4x4 Camera::clip_from_camera(float picture_aspect) const {
     const float height = narrower ? half_height * aspect / picture_aspect : half_height;
     return orthographic(height * picture_aspect, height, near, far);
   }
+  if (lens) return through_lens(*lens, picture_aspect, near, far);
   float4x4 m = perspective(vertical_fov, narrower ? aspect : picture_aspect, near, far);
   if (narrower) m.column[1].y = m.column[0].x * picture_aspect;
   return m;

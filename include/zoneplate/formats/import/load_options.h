@@ -12,18 +12,18 @@ namespace zoneplate {
 
 /// A file format that holds a scene.
 struct SceneFormat {
-  std::string_view extension;  ///< lower case, with its dot
-  std::string_view summary;    ///< one line for listings
+  std::string_view extension{};  ///< lower case, with its dot
+  std::string_view summary{};    ///< one line for listings
 };
 
 /// Selects a scene, a material variant and a time of a glTF file.
 struct SceneChoice {
   static constexpr int all_animations = -1;  ///< of `animation`: all of them at once
-  std::optional<int> scene;                  ///< index into the file's scenes; none: the file's default scene
-  std::string variant;                       ///< of KHR_materials_variants; empty: the default materials
-  std::optional<int> animation;              ///< index into the file's animations, or all of them; none: not animated
+  std::optional<int> scene{};                ///< index into the file's scenes; none: the file's default scene
+  std::string variant{};                     ///< of KHR_materials_variants; empty: the default materials
+  std::optional<int> animation{};            ///< index into the file's animations, or all of them; none: not animated
   double time = 0;                           ///< of the animation, in seconds; clamped to its time span
-  std::string animation_name;                ///< the first animation of this name, instead of an index; empty: none
+  std::string animation_name{};              ///< the first animation of this name, instead of an index; empty: none
 };
 
 /// Limits on the resources of a loader, and on what it accepts.

@@ -24,14 +24,14 @@ enum class Visibility {
 /// again where it is needed: capacities change the time, but no bit of an image.
 struct RasterCapacity {
   std::size_t layer_samples = std::size_t{1} << 16;  ///< samples of transparent layers, per thread
-  std::optional<std::size_t> screen_vertices;        ///< as `kept` of number_draws
+  std::optional<std::size_t> screen_vertices{};      ///< as `kept` of number_draws
 };
 
 /// The options of rasterization that do not depend on the target.
 struct RasterRules {
   EdgeRule edge_rule = EdgeRule::TopLeft;       ///< TopLeft, except for teaching
   Visibility visibility = Visibility::ZBuffer;  ///< ZBuffer, except for teaching
-  RasterCapacity capacity;                      ///< trades memory for time; changes no bit of an image
+  RasterCapacity capacity{};                    ///< trades memory for time; changes no bit of an image
   /// Called by any thread after each tile, with the fraction of tiles that are complete; null: not called.
   const std::function<void(double)>* progress = nullptr;
 };

@@ -13,11 +13,11 @@ namespace zoneplate {
 
 /// A row of the list of scenes that are made in code.
 struct BuiltinScene {
-  std::string name;       ///< as given on the command line, before any ':'
-  std::string summary;    ///< one line for `zoneplate list`
-  std::string params;     ///< its parameters with defaults, "triangles=10000", or empty
-  std::string failure;    ///< the class of artifacts that it shows ("sub-pixel"), or empty
-  std::string complaint;  ///< a description of the artifact, and the source of a user's report
+  std::string name{};       ///< as given on the command line, before any ':'
+  std::string summary{};    ///< one line for `zoneplate list`
+  std::string params{};     ///< its parameters with defaults, "triangles=10000", or empty
+  std::string failure{};    ///< the class of artifacts that it shows ("sub-pixel"), or empty
+  std::string complaint{};  ///< a description of the artifact, and the source of a user's report
 };
 
 /// The scenes that are made in code, in the order in which they are listed.

@@ -40,7 +40,7 @@ struct ShadowOptions {
   /// ShadowMethod::Soft: pixels between the points of a surface whose rays the fragments between them share where
   /// shadows are smooth; 1: every fragment has its own rays.
   int spacing = 1;
-  ShadowMapOptions map;  ///< ShadowMethod::Map
+  ShadowMapOptions map{};  ///< ShadowMethod::Map
 };
 
 /// The part of the environment that nearby surfaces hide from a point; the environment's light is multiplied by the

@@ -31,7 +31,7 @@ struct LevelOptions {
   /// The alpha cutoff of alpha-tested surfaces whose coverage the levels keep: each level's alpha is multiplied by a
   /// number with which the fraction of texels that pass is nearest to that of level 0.
   /// Source    Castaño, Computing Alpha Mipmaps, 2010.
-  std::optional<float> kept_cutoff;
+  std::optional<float> kept_cutoff{};
   /// Weights colours by alpha between levels, and gives entirely transparent texels, on all levels, the colour of what
   /// is visible around them: look-ups do not see the colours that they hide.
   bool weights_by_alpha = false;

@@ -193,7 +193,7 @@ std::vector<std::string> readable_paths_of(const CompareArgs& args, const TrialO
   for (const std::string& name : args.scenes)
     for (std::string& path : readable_paths(name, args.render.load)) out.push_back(std::move(path));
   if (!args.render.cache.empty()) out.push_back(args.render.cache);
-  if (!args.render.default_material.texture.empty()) out.push_back(args.render.default_material.texture);
+  for (std::string& path : args.render.default_material.files()) out.push_back(std::move(path));
   if (options.is_reference_file) out.push_back(options.reference);
   out.insert(out.end(), args.ignored.masks.begin(), args.ignored.masks.end());
   return out;

@@ -22,8 +22,11 @@
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/save.h"
 #include "zoneplate/codec/system/encoder_library.h"
+#include "zoneplate/image/auto_exposure.h"
+#include "zoneplate/image/tonemap.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/job/output/frame_name.h"
+#include "zoneplate/job/tone_args.h"
 #include "zoneplate/job/values.h"
 #include "zoneplate/metrics/backdrop.h"
 #include "zoneplate/metrics/file/picture_file.h"
@@ -44,8 +47,14 @@ struct FilterArgs {
   int bit_depth = 8, threads = 0;
   bool replaces_inputs = false;
   std::optional<float4> background;
+  std::optional<ToneMapping> tone_mapping;
+  std::optional<float> exposure;  ///< a factor
+  bool meters_exposure = false;
   std::optional<ProgressKind> progress;  ///< none: a bar on a terminal
   ReadingLimits limits;
+
+  /// Whether scene-linear images become display-referred ones.
+  bool is_display_transform() const { return tone_mapping || exposure || meters_exposure; }
 };
 
 /// True for a method that only needs the display-referred image of a frame.
@@ -88,9 +97,10 @@ std::unique_ptr<Resolver> make_filter(const std::string& method) {
 }
 
 Filters make_filters(const FilterArgs& args) {
-  if (args.method.empty() && args.upscaler.empty())
-    throw Error(ErrorKind::Usage, fmt::format("--anti-aliasing or --upscale is missing: one of {}, or one of {}",
-                                              filter_names(), upscaler_names()));
+  if (args.method.empty() && args.upscaler.empty() && !args.is_display_transform())
+    throw Error(ErrorKind::Usage,
+                fmt::format("--anti-aliasing, --upscale or --tone-mapping is missing: one of {}, or one of {}",
+                            filter_names(), upscaler_names()));
   Filters filters;
   if (!args.method.empty()) filters.antialiasing = make_filter(args.method);
   if (args.upscaler.empty()) {
@@ -180,9 +190,28 @@ void filter_linear(const FilterItem& item, Still still, const Filters& filters, 
   warn_of_left_out(item.output, item.input, save_light(item.output, image, still.file, {}, out), out);
 }
 
+/// The display-referred image of scene-linear light, which make_display shows: over the background, or with its alpha.
+metrics::Picture displayed(metrics::Picture picture, const FilterArgs& args, const FilterItem& item) {
+  if (!picture.is_scene_linear)
+    throw Error(ErrorKind::Usage,
+                fmt::format("{}: is a display-referred image; --tone-mapping and --exposure are for scene-linear ones",
+                            item.input));
+  if (is_linear_file(item.output))
+    throw Error(ErrorKind::Usage,
+                fmt::format("{}: is scene-linear, before --tone-mapping and --exposure: write a .png", item.output));
+  picture = metrics::in_srgb(std::move(picture));
+  const float exposure = args.meters_exposure ? auto_exposure(picture.linear) : args.exposure.value_or(1.0f);
+  const DisplayOptions options{.mapping = args.tone_mapping.value_or(ToneMapping::None),
+                               .exposure = exposure,
+                               .is_transparent = !args.background,
+                               .background = args.background.value_or(float4{0, 0, 0, 1})};
+  return metrics::make_picture(make_display(picture.linear, options));
+}
+
 void filter_image(const FilterItem& item, const Filters& filters, const FilterArgs& args, Delivery& out) {
   Still still = load_still(item.input, {args.layer, area_for(item.output, !filters.upscaler)}, out);
   metrics::Picture& picture = still.picture;
+  if (args.is_display_transform()) picture = displayed(std::move(picture), args, item);
   const bool is_laid = args.background && metrics::has_alpha(picture);
   picture = in_space_of(std::move(picture), is_laid ? FilteredValues::Light : FilteredValues::Codes, item.input,
                         item.output, out);
@@ -219,6 +248,10 @@ std::string sequence_method(const FilterArgs& args) {
     throw Error(ErrorKind::Usage, fmt::format("--anti-aliasing {}: filters a sequence; upscale its output in a second "
                                               "step, or give a temporal upscaler alone",
                                               args.method));
+  if ((is_temporal || has_history) && args.is_display_transform())
+    throw Error(
+        ErrorKind::Usage,
+        "--tone-mapping and --exposure do not go with methods with history: show their output in a second step");
   const bool has_data = !args.motion.empty() || !args.depth.empty() || !args.jitter.empty();
   if (has_data && !is_temporal && !has_history)
     throw Error(ErrorKind::Usage,
@@ -238,12 +271,13 @@ float2 parse_pair(const std::string& text) {
 Syntax make_syntax(FilterArgs& args) {
   Syntax syntax{
       .verb = "filter",
-      .summary = "Antialias existing images and frames of any renderer, and upscale them",
+      .summary = "Antialias, upscale and tone-map existing images and frames of any renderer",
       .operands = "IMAGES",
       .examples =
           "  zoneplate filter shot.png --aa smaa -o smooth.png\n"
           "  zoneplate filter shot.png --aa fxaa:preset=39,mix=light -o smooth.webp\n"
           "  zoneplate filter shots/ --aa cmaa2 -o smooth/\n"
+          "  zoneplate filter shot.exr --tone-mapping agx --exposure auto -o shot.png\n"
           "  zoneplate filter shot.png --aa smaa --upscale fsr1 --size 1920x1080 -o large.png\n"
           "  zoneplate filter frames/a.####.png --aa mlaa -o smooth/\n"
           "  zoneplate filter film.apng --aa smaa -o smooth.apng\n"
@@ -253,7 +287,8 @@ Syntax make_syntax(FilterArgs& args) {
       .notes =
           "IMAGES is a PNG, JPEG, WebP, GIF, TIFF, AVIF, JPEG XL, BMP or TGA file, a folder of them, or a sequence\n"
           "(name.####.png), or a scene-linear .hdr, .exr, .pfm, .tif or .jxl file, of which .exr and .pfm files are\n"
-          "written, and by antialiasing also display-referred ones. An animated PNG, GIF or WebP, or a video (.mp4,\n"
+          "written, and by antialiasing or --tone-mapping also display-referred ones. An animated PNG, GIF or WebP, or "
+          "a video (.mp4,\n"
           ".m4v, .mov, .mkv, .webm, .avi; by ffmpeg) is the sequence of its frames: the output is another animation,\n"
           "whose frames have the same times, or images, as out.####.png or in a folder.\n"
           "A file that is read is not replaced without --force.\n"
@@ -294,6 +329,19 @@ Syntax make_syntax(FilterArgs& args) {
       {"--background", "COLOR",
        "Background under images with alpha, for methods and formats without it; default: none, they keep alpha",
        "Options", false, [&](auto& text) { args.background = parse_color(text); }},
+      tone_mapping_option(args.tone_mapping, "shows scene-linear images, before the filters; default none", "Options"),
+      {"--exposure",
+       "STOPS",
+       "Exposure of scene-linear images that are shown, in stops, or auto: 95 % of the pixels have no channel above "
+       "0.8; "
+       "default 0",
+       "Options",
+       false,
+       [&](auto& text) {
+         args.exposure = parse_exposure(text);
+         args.meters_exposure = !args.exposure;
+       },
+       {"auto"}},
       {"--motion", "FILES", "EXR sequence with the motion of the frames; default: channels of the frames themselves",
        "Sequences", true, [&](auto& text) { args.motion = text; }},
       {"--motion-scale", "X,Y",
@@ -375,6 +423,10 @@ void filter_items(const FilterWork& work, Delivery& out) {
                             .background = args.background},
                            out);
   }
+  if (frames && args.is_display_transform())
+    throw Error(ErrorKind::Usage,
+                fmt::format("{}: is display-referred; --tone-mapping and --exposure are for scene-linear images",
+                            work.items.front().input));
   if (frames) return filter_frames(work, *frames, out);
   double done = 0;
   for (const FilterItem& item : work.items) {

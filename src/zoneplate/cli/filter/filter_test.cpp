@@ -67,6 +67,28 @@ TEST_F(FilterVerb, AnImageIsFilteredAsARenderingIs) {
   }
 }
 
+// Half floats of the EXR file are within one code of the renderer's own light.
+TEST_F(FilterVerb, ShowsSceneLinearImages) {
+  ASSERT_EQ(run("teapot -o light.exr --size 96x72"), 0) << output_;
+  for (const std::string curve : {"none", "aces", "neutral", "agx", "filmic"}) {
+    const std::string options = " --tone-mapping " + curve + " --exposure 0.5 --background '#405060'";
+    ASSERT_EQ(run("teapot -o rendered.png --size 96x72" + options), 0) << output_;
+    ASSERT_EQ(run("filter light.exr -o shown.png" + options), 0) << output_;
+    const Rgba8Image shown = png("shown.png").pixels, rendered = png("rendered.png").pixels;
+    int greatest = 0;
+    for (std::size_t i = 0; i < shown.values().size(); ++i)
+      greatest = std::max({greatest, std::abs(shown.values()[i].r - rendered.values()[i].r),
+                           std::abs(shown.values()[i].g - rendered.values()[i].g),
+                           std::abs(shown.values()[i].b - rendered.values()[i].b)});
+    EXPECT_LE(greatest, 1) << curve;
+  }
+  ASSERT_EQ(run("filter light.exr -o smooth.png --aa smaa --exposure auto --bit-depth 16"), 0) << output_;
+  EXPECT_EQ(run("filter rendered.png -o a.png --tone-mapping agx"), 2);
+  EXPECT_NE(output_.find("is a display-referred image"), std::string::npos) << output_;
+  EXPECT_EQ(run("filter light.exr -o a.exr --tone-mapping agx"), 2);
+  EXPECT_NE(output_.find("write a .png"), std::string::npos) << output_;
+}
+
 TEST_F(FilterVerb, UnchangedPixelsKeepSixteenBits) {
   Rgba16Image flat(8, 8, Rgba16{30001, 2, 65535, 65535});
   save("flat.png", encode_png(flat));

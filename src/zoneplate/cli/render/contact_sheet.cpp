@@ -104,7 +104,7 @@ Cell cell_of(const SheetArgs& args, const std::string& input, const std::string&
     render.input = input;
     std::vector<std::string> readable = readable_paths(input, render.load);
     for (std::string& path : environment_files(render)) readable.push_back(std::move(path));
-    if (!render.default_material.texture.empty()) readable.push_back(render.default_material.texture);
+    for (std::string& path : render.default_material.files()) readable.push_back(std::move(path));
     ItemProcess process({.name = input,
                          .load = render.load.limits,
                          .seconds = render.max_seconds,

@@ -50,7 +50,8 @@ std::string with_layer(const RenderArgs& args, const Aov& aov) {
 
 void add_files(const RenderArgs& args, std::uint64_t item, OutputFiles& files) {
   std::vector<std::string> inputs = environment_files(args);
-  inputs.insert(inputs.end(), {args.input, args.default_material.texture});
+  inputs.push_back(args.input);
+  for (std::string& path : args.default_material.files()) inputs.push_back(std::move(path));
   for (const std::string& read : inputs)
     if (is_picture_ending(extension_of(read))) files.add(read, item, true);
   if (!args.frame_place) {

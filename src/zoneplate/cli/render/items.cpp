@@ -29,7 +29,7 @@ ItemLimits limits_of(const std::vector<RenderArgs>& items, LimitedChildren* sibl
   for (const RenderArgs& item : items) {
     for (std::string& path : environment_files(item)) readable.push_back(std::move(path));
     if (CacheFolder::open(item.cache)) readable.push_back(item.cache);
-    if (!item.default_material.texture.empty()) readable.push_back(item.default_material.texture);
+    for (std::string& path : item.default_material.files()) readable.push_back(std::move(path));
   }
   return {.name = args.input == "-" ? "standard input" : args.input,
           .load = args.load.limits,

@@ -133,12 +133,13 @@ bool determines_image(const Option& option) {
   return option.group != "Batches" && option.group != "Running" && names_of(option).front() != "--output";
 }
 
-/// Sets an option as before, and notes it in `args.given` in place of an earlier value.
+/// Sets an option as before, and notes it in `args.given`, in place of an earlier value unless it repeats.
 std::function<void(const std::string&)> noting(RenderArgs& args, const Option& option) {
-  return [&args, set = option.set.set, name = names_of(option).front()](const std::string& text) {
+  return [&args, set = option.set.set, name = names_of(option).front(),
+          repeats = option.repeats](const std::string& text) {
     set(text);
     const std::size_t begin = ('\n' + args.given).find('\n' + name + '=');
-    if (begin != std::string::npos) args.given.erase(begin, args.given.find('\n', begin) + 1 - begin);
+    if (begin != std::string::npos && !repeats) args.given.erase(begin, args.given.find('\n', begin) + 1 - begin);
     std::string line = text;
     std::ranges::replace(line, '\n', ' ');
     args.given += name + '=' + line + '\n';

@@ -220,7 +220,8 @@ Scene load_ply(const std::string& path, const LoadLimits& limits) {
   warn(scene, budget, faces.too_short, "faces have fewer than 3 corners and are dropped");
   warn(scene, budget, faces.too_concave, "faces have too many corners to be cut rightly");
   if (mesh.topology == Topology::Points && are_splats(*found.vertices->element))
-    scene.warnings.push_back(budget.file() + ": looks like Gaussian splats: drawn as points");
+    scene.warnings.push_back(
+        budget.file() + ": looks like Gaussian splats: only their centres are drawn, as points of their mean colours");
   const std::size_t primitives = mesh.primitives();
   const bool has_normals = !mesh.normal.empty();
   if (!faces.corner_uv.empty() || !faces.corner_color.empty()) {

@@ -70,7 +70,9 @@ TEST(Ply, GaussianSplatsArePointsOfTheirColor) {
   EXPECT_EQ(m.color.at(1), (float4{decode_srgb(0.5f), decode_srgb(0.5f), 0, 1}));
   EXPECT_EQ(s.materials.at(0).base_color, (float4{1, 1, 1, 1}));
   ASSERT_EQ(s.warnings.size(), 1u);
-  EXPECT_TRUE(s.warnings[0].ends_with(": looks like Gaussian splats: drawn as points")) << s.warnings[0];
+  EXPECT_TRUE(s.warnings[0].ends_with(
+      ": looks like Gaussian splats: only their centres are drawn, as points of their mean colours"))
+      << s.warnings[0];
 }
 
 /// A pyramid whose coordinates have the given type and byte order.

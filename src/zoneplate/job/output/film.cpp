@@ -104,8 +104,10 @@ bool has_even_sides(const std::string& output) {
   return codec != nullptr && codec->has_even_sides;
 }
 
-std::unique_ptr<AnimationEncoder> make_film_encoder(const std::string& output, const AnimationFormat& format) {
-  return std::filesystem::path(output).extension() == ".webp" ? make_webp_encoder(format) : make_apng_encoder(format);
+std::unique_ptr<AnimationEncoder> make_film_encoder(const std::string& output, const AnimationFormat& format,
+                                                    std::optional<int> webp_quality) {
+  if (std::filesystem::path(output).extension() == ".webp") return make_webp_encoder(format, webp_quality);
+  return make_apng_encoder(format);
 }
 
 FfmpegFilm::FfmpegFilm(const std::string& output, int width, int height, const AnimationFormat& format,

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -30,8 +31,9 @@ bool has_even_sides(const std::string& output);
 /// The frames per second that a .gif has at most: browsers show delays below 2 hundredths of a second as 10.
 constexpr int most_gif_rate = 50;
 
-/// The encoder of a film that is not encoded by ffmpeg: WebP by its name, else APNG.
-std::unique_ptr<AnimationEncoder> make_film_encoder(const std::string& output, const AnimationFormat& format);
+/// The encoder of a film that is not encoded by ffmpeg: WebP by its name, lossless without a quality, else APNG.
+std::unique_ptr<AnimationEncoder> make_film_encoder(const std::string& output, const AnimationFormat& format,
+                                                    std::optional<int> webp_quality = std::nullopt);
 
 /// Encodes the frames of an animated PNG by ffmpeg as a film (is_encoded_by_ffmpeg), with their times.
 ///

@@ -44,6 +44,7 @@ LightDimming dimming_by(const LinearImage& lit, const LinearImage& unlit) {
 LinearImage metered_image(Renderer& renderer, const Camera& camera, RenderOptions options) {
   options.crop.reset();
   options.background.reset();
+  options.edges = {};
   const int longest = std::max(options.width, options.height);
   if (longest > most_side) {
     options.width = std::max(1, options.width * most_side / longest);

@@ -17,7 +17,6 @@
 namespace zoneplate {
 namespace {
 
-constexpr float cos_50 = 0.64278761f;
 constexpr std::size_t most_compared = 256, block = 4096;
 
 /// Computes the normalized sum of the triangles at each vertex, in order, and marks vertices with possible creases.
@@ -144,7 +143,8 @@ struct Other {
 /// Computes the normals at a vertex with creases.
 class BentVertex {
  public:
-  BentVertex(Mesh& mesh, std::vector<Other>& others) : mesh_(mesh), others_(others) {}
+  BentVertex(Mesh& mesh, float crease_cosine, std::vector<Other>& others)
+      : mesh_(mesh), crease_cosine_(crease_cosine), others_(others) {}
 
   void smooth(std::uint32_t v, std::span<const std::uint32_t> corners) {
     own_.clear(), shares_.clear();
@@ -167,7 +167,7 @@ class BentVertex {
     for (std::size_t i = 0; i < corners.size(); ++i) {
       Sum sum;
       for (std::size_t k = 0; k < corners.size(); ++k)
-        if (k == i || dot(own_[i], own_[k]) > cos_50) sum.add(shares_[k]);
+        if (k == i || dot(own_[i], own_[k]) > crease_cosine_) sum.add(shares_[k]);
       const float3 normal = direction(sum, own_[i]);
       if (i == 0) mesh_.normal[v] = normal;
       if (i != 0 && normal != mesh_.normal[v]) others_.push_back({corners[i], normal});
@@ -176,6 +176,7 @@ class BentVertex {
 
  private:
   Mesh& mesh_;
+  float crease_cosine_;
   std::vector<Other>& others_;
   Faces faces_;
   std::vector<float3> own_;
@@ -214,18 +215,20 @@ void split(Mesh& mesh, const std::vector<std::vector<Other>>& blocks) {
 
 }  // namespace
 
-void make_smooth_normals(Mesh& mesh) {
+void make_smooth_normals(Mesh& mesh, float crease_cosine) {
   assert(mesh.topology == Topology::Triangles && mesh.tangent.empty());
   mesh.normal.clear();
   reserve_large(mesh.normal, mesh.position.size());
   mesh.normal.resize(mesh.position.size());
   std::vector<char> is_bent(mesh.position.size());
   sum_all(mesh, is_bent);
+  // The marks are for triangles within half of 50° of their vertex's normal.
+  if (crease_cosine > smooth_crease_cosine) std::ranges::fill(is_bent, 1);
 
   const Corners corners = corners_of(mesh, is_bent);
   std::vector<std::vector<Other>> others((corners.vertex.size() + block - 1) / block);
   parallel_ranges(corners.vertex.size(), block, [&](std::size_t begin, std::size_t end) {
-    BentVertex vertex(mesh, others[begin / block]);
+    BentVertex vertex(mesh, crease_cosine, others[begin / block]);
     for (std::size_t i = begin; i < end; ++i)
       vertex.smooth(corners.vertex[i],
                     std::span(corners.list).subspan(corners.first[i], corners.first[i + 1] - corners.first[i]));

@@ -27,7 +27,9 @@ struct Cure {
 constexpr std::array<Cure, 3> cures = {
     {{"none", "No history", "Every frame is aliased at other pixels: the wires break into dashes that crawl."},
      {"taa:rectify=none,reject=none,rest=test,bias=0", "History follows the surfaces",
-      "Motion moves the history along. Filtered in every frame, it blurs."},
+      "Motion moves the history along. Catmull-Rom's filter in every frame blurs it, and falls below both colours "
+      "beside "
+      "edges: dark lines."},
      {"taa", "History is tested",
       "It must belong to the same surface, and lie among the colours around it: no ghosts, but wires that most frames "
       "miss are clipped away."}}};

@@ -128,7 +128,7 @@ void add_rows(const Scene& scene, const char* name, std::span<const std::pair<Sp
   }
   const double change = flicker(reference, shot(turned, reference_method, SpecularAntialiasing::None));
   table.rows.push_back({name, "256 samples", "", number(100 * change, 2) + " %", ""});
-  add(reference, fmt::format("256 samples a pixel\nThe reference. Flicker {}\u00a0%.", number(100 * change, 2)));
+  add(reference, fmt::format("256 samples per pixel\nThe reference. Flicker {}\u00a0%.", number(100 * change, 2)));
   figure.rows.push_back(std::move(pictures));
   if (!crops.empty()) figure.rows.push_back(std::move(crops));
 }
@@ -152,15 +152,20 @@ Lesson make(const DemoSize& size, const Settings&) {
       {Kind::Lean, "lean\nThe variances of the slopes widen the lobe."}};
   const std::pair<Kind, const char*> of_metal[] = {
       {Kind::None, "none\nCurved metal: highlights thinner than a pixel break into dots."},
-      {Kind::Geometric, "geometric\nThe change of the normal from pixel to pixel widens the lobe."}};
+      {Kind::Geometric,
+       "geometric\nThe change of the normal from pixel to pixel widens the lobe: it helps the spring and the smooth "
+       "metal. The "
+       "hammered ball has several highlights per pixel, which one wide lobe turns into brown patches."}};
   add_rows(sea(), "waves", of_sea, side, 1, {side / 2, side * 4 / 10}, figure, table);
   add_rows(metal(), "metal", of_metal, side, 2, {}, figure, table);
   figure.text = fmt::format(
-      "All images but the references with 8 coverage samples a pixel. The frames mark the regions that are enlarged "
+      "All images but the references with 8 coverage samples per pixel. The frames mark the regions that are enlarged "
       "{0} "
       "times; the metal is rendered at half the size and enlarged twice. Errors: root mean square of the difference in "
       "luminance, of linear light clamped to white; flicker: the same between two images, the camera turned by half a "
-      "pixel. Sources: Toksvig, Mipmapping Normal Maps, 2005; Olano and Baker, LEAN Mapping, 2010; Tokuyoshi and "
+      "pixel. The reference flickers too: its highlights move, and those of the aliased images are clamped to white "
+      "before and after. Sources: Toksvig, Mipmapping Normal Maps, 2005; Olano and Baker, LEAN Mapping, 2010; "
+      "Tokuyoshi and "
       "Kaplanyan, 2021.",
       factor);
   return {.frames = {figure}, .tables = {table}};
