@@ -22,8 +22,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", default="./zoneplate")
     parser.add_argument("-o", "--output", default="out/learned")
-    parser.add_argument("--scenes", type=int, default=160)
-    parser.add_argument("--steps", type=int, default=4000)
+    parser.add_argument("--scenes", type=int, default=112)
+    parser.add_argument("--steps", type=int, default=2000)
     parser.add_argument("--smoke", action="store_true", help="a run of some minutes that shows that all parts work")
     arguments = parser.parse_args()
     scenes, steps, ladder = arguments.scenes, arguments.steps, LADDER
