@@ -86,6 +86,7 @@ int main(int argc, char** argv) {
                                    "fsr3:scale=2",
                                    "sgsr2:scale=2",
                                    "taau:scale=2",
+                                   "learned:scale=2",
                                    "taau:scale=2,preset=karis"})
     for (const std::string scene : {"city", "panning-wires"})
       benchmark::RegisterBenchmark((scene + "/" + method).c_str(),

@@ -55,6 +55,7 @@ endfunction()
 make_table(library_sources scene/builtin makers scene/builtin/make.h BuiltinMaker zoneplate builtin_makers builtin_)
 make_table(library_sources antialias methods antialias/methods.h Method zoneplate::antialias methods "")
 make_table(library_sources upscale upscalers upscale/upscaler.h Upscaler zoneplate::upscale upscalers "")
+include(cmake/trained_weights.cmake)
 
 # Adds to the tests the source that defines the paths of base/paths_for_test.h.
 function(add_paths_for_tests program_file appetite_program)

@@ -185,7 +185,7 @@ TEST_F(FilterFiles, WhatIsNotFiniteDoesNotEnterTheHistory) {
     save_flat(fmt::format("z.{}.exr", i), 4), save_flat(fmt::format("v.{}.exr", i), 0);
   }
   for (const char* method : {"--aa taa", "--aa history-guided", "--upscale fsr2:scale=1.5", "--upscale taau:scale=2",
-                             "--upscale sgsr2:scale=2", "--upscale fsr3:scale=2"}) {
+                             "--upscale sgsr2:scale=2", "--upscale fsr3:scale=2", "--upscale learned"}) {
     const ProgramAnswer answer = run(fmt::format("c.#.exr --depth z.#.exr --motion v.#.exr {} -o out", method));
     EXPECT_EQ(answer.code, 0) << answer.out;
     EXPECT_TRUE(contains(answer.out, "c.2.exr: 2 pixels are not finite")) << answer.out;

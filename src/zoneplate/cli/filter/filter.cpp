@@ -256,7 +256,7 @@ std::string sequence_method(const FilterArgs& args) {
   if (has_data && !is_temporal && !has_history)
     throw Error(ErrorKind::Usage,
                 "--motion, --depth and --jitter are for methods with history: --aa taa or --upscale "
-                "fsr2, fsr3, taau or sgsr2");
+                "fsr2, fsr3, sgsr2, taau or learned");
   return is_temporal ? args.upscaler : has_history ? args.method : "";
 }
 
@@ -296,11 +296,12 @@ Syntax make_syntax(FilterArgs& args) {
           "value;\n"
           "images with alpha are filtered premultiplied. What has no alpha refuses them without a --background: JPEG, "
           "PFM,\n"
-          "fsr2, fsr3, taau and sgsr2. Of scene-linear images, the sRGB codes of their light are filtered.\n"
+          "fsr2, fsr3, sgsr2, taau and learned. Of scene-linear images, the sRGB codes of their light are filtered.\n"
           "Colour profiles are kept: filters work on the codes as they are. An image is turned as its Exif orientation "
           "says.\n"
           "\n"
-          "Methods with history (taa, history-guided, fsr2, fsr3, taau, sgsr2) filter the frames of a sequence in "
+          "Methods with history (taa, history-guided, fsr2, fsr3, sgsr2, taau, learned) filter the frames of a "
+          "sequence in "
           "order, as one shot "
           "without a cut. Each frame\n"
           "has one sample per pixel, jittered: --jitter is a text file with one line per frame, the sample's offset "

@@ -252,7 +252,8 @@ TEST_P(FilterUpscaler, TreatsFramesOfAnotherRendererAsOwnOnes) {
 }
 INSTANTIATE_TEST_SUITE_P(All, FilterUpscaler,
                          ::testing::Values(TemporalUpscaler{"fsr2", 70}, TemporalUpscaler{"taau", 70},
-                                           TemporalUpscaler{"sgsr2", 70}, TemporalUpscaler{"fsr3", 70}),
+                                           TemporalUpscaler{"sgsr2", 70}, TemporalUpscaler{"fsr3", 70},
+                                           TemporalUpscaler{"learned", 60}),
                          [](const auto& one) { return std::string(one.param.name); });
 
 TEST_F(FilterVerb, TemporalMethodsFilterTheFramesOfRender) {
@@ -298,7 +299,8 @@ TEST_F(FilterVerb, TemporalMethodsKeepAlphaOrRefuseIt) {
   const std::string frames = "teapot --turntable 90 --frames 2 --size 48x36 --aa none --aov depth,motion ";
   ASSERT_EQ(run(frames + "-o clear.####.exr"), 0) << output_;
   ASSERT_EQ(run(frames + "--background '#204060' -o laid.####.exr"), 0) << output_;
-  for (const char* method : {"--upscale fsr2", "--upscale fsr3", "--upscale sgsr2", "--upscale taau"}) {
+  for (const char* method :
+       {"--upscale fsr2", "--upscale fsr3", "--upscale sgsr2", "--upscale taau", "--upscale learned"}) {
     const std::string name = std::string(method).substr(10);
     EXPECT_EQ(run(std::string("filter clear.####.exr -o out ") + method), 2) << method;
     EXPECT_NE(
@@ -346,7 +348,7 @@ TEST_F(FilterVerb, SequencesThatDoNotFitAreRefused) {
       << output_;
   EXPECT_NE(message("raw.####.exr --upscale oracle-taau -o out", 2)
                 .find("--upscale: oracle-taau needs a scene, expected one of bilinear, bicubic, lanczos, fsr1, nis, "
-                      "sgsr1, fsr2, fsr3, sgsr2, taau"),
+                      "sgsr1, fsr2, fsr3, sgsr2, taau, learned"),
             std::string::npos)
       << output_;
   EXPECT_NE(message("raw.####.exr --aa taa --upscale fsr2 -o out", 2).find("antialiases itself"), std::string::npos)

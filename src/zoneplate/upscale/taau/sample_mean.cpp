@@ -13,7 +13,6 @@
 #include "zoneplate/antialias/temporal/resolve.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/elementary.h"
-#include "zoneplate/upscale/taau/sample_mean_rows.h"
 #include "zoneplate/upscale/taau/taau_axis.h"
 
 namespace zoneplate::upscale {
@@ -116,7 +115,6 @@ void SampleMean::find_kept(const TaauInput& frame, const LinearImage& color, con
   const int width = color.width(), height = color.height();
   const auto pixels = static_cast<std::size_t>(width);
   const std::vector<float> column = whole_numbers(width);
-  Plane<float> is_uncovered(width, height), is_steady(width, height), change(width, height);
   for_rows_of(height, [&](int y) {
     CompareRow row{.color = floats_of(color, y),
                    .nearest = followed.nearest.row(y).data(),
@@ -138,19 +136,19 @@ void SampleMean::find_kept(const TaauInput& frame, const LinearImage& color, con
                    .scale = {static_cast<float>(width_) / static_cast<float>(width),
                              static_cast<float>(height_) / static_cast<float>(height)},
                    .sample = {0.5f - frame.jitter.x, 0.5f - frame.jitter.y},
-                   .is_uncovered = is_uncovered.row(y).data(),
-                   .is_steady = is_steady.row(y).data(),
-                   .change = change.row(y).data(),
+                   .is_uncovered = followed.uncovered.row(y).data(),
+                   .is_steady = followed.steady.row(y).data(),
+                   .change = followed.change.row(y).data(),
                    .trend = now.trend.row(y).data()};
     for (int k = 0; k < 4; ++k) row.moved[k] = moved.side[k].values().data();
     SampleMeanKernels::of().compare(row, pixels);
   });
-  const Plane<float> restarts = restarts_of(change);
+  const Plane<float> restarts = restarts_of(followed.change);
   for_rows_of(height, [&](int y) {
     const WidenRow row{.follow_x = followed.x.row(y).data(),
                        .follow_y = followed.y.row(y).data(),
-                       .is_steady = is_steady.row(y).data(),
-                       .is_uncovered = is_uncovered.row(y).data(),
+                       .is_steady = followed.steady.row(y).data(),
+                       .is_uncovered = followed.uncovered.row(y).data(),
                        .restarts = restarts.row(y).data(),
                        .column = column.data(),
                        .y = y,
@@ -169,9 +167,11 @@ void SampleMean::find_kept(const TaauInput& frame, const LinearImage& color, con
     if (restarts.values()[i] > 0) now.trend.values()[i] = 0;
 }
 
-LinearImage SampleMean::resolved(const TaauInput& frame, const LinearImage& color, const Boxes& now,
-                                 const Followed& followed) {
-  const TaauAxis columns(width_, color.width(), frame.jitter.x), rows(height_, color.height(), frame.jitter.y);
+void SampleMean::for_output_rows(
+    const Known& known, const std::function<void(const SampleMeanFrame& frame, SampleMeanRow& row)>& body) const {
+  const LinearImage& color = known.color;
+  const float2 jitter = known.input.jitter;
+  const TaauAxis columns(width_, color.width(), jitter.x), rows(height_, color.height(), jitter.y);
   const bool is_first = history_.empty();
   const float scale_x = static_cast<float>(width_) / static_cast<float>(color.width());
   const float scale_y = static_cast<float>(height_) / static_cast<float>(color.height());
@@ -198,8 +198,8 @@ LinearImage SampleMean::resolved(const TaauInput& frame, const LinearImage& colo
   for (int k = 0; k < 3; ++k)
     for (const float offset : columns.offset) weights[k].push_back(weight(offset, k, common.scale[0]));
   const std::vector<float> column = whole_numbers(width_);
-  LinearImage out(width_, height_);
-  Plane<float> count(width_, height_);
+  const Boxes& now = known.boxes;
+  const Followed& followed = known.followed;
   for_rows_of(height_, [&](int y) {
     const auto i = static_cast<std::size_t>(y);
     const int middle = rows.around[1][i];
@@ -210,17 +210,22 @@ LinearImage SampleMean::resolved(const TaauInput& frame, const LinearImage& colo
                       .is_borrowed = followed.borrowed.row(middle).data(),
                       .kept = followed.kept.row(middle).data(),
                       .column = column.data(),
-                      .y = y,
-                      .resolved = floats_of(out, y),
-                      .count = count.row(y).data()};
+                      .y = y};
     for (int k = 0; k < 3; ++k) {
       row.color[k] = floats_of(color, rows.around[k][i]);
       row.columns[k] = columns.around[k].data(), row.weight_x[k] = weights[k].data();
       row.weight_y[k] = weight(rows.offset[i], k, common.scale[1]);
     }
-    SampleMeanKernels::of().resolve(common, row, column.size());
+    body(common, row);
   });
-  count_ = std::move(count);
+}
+
+LinearImage SampleMean::resolved(const Known& known, Plane<float>& count) {
+  LinearImage out(width_, height_);
+  for_output_rows(known, [&](const SampleMeanFrame& frame, SampleMeanRow& row) {
+    row.resolved = floats_of(out, row.y), row.count = count.row(row.y).data();
+    SampleMeanKernels::of().resolve(frame, row, static_cast<std::size_t>(width_));
+  });
   return out;
 }
 
@@ -233,7 +238,7 @@ LinearImage SampleMean::accumulate(const TaauInput& frame) {
     antialias::TemporalKernels::of().limit(floats_of(frame.color, y), floats_of(color, y), pixels);
   });
   const auto plane = [&] { return Plane<float>(width, height); };
-  Followed followed{plane(), plane(), plane(), plane(), plane()};
+  Followed followed{plane(), plane(), plane(), plane(), plane(), plane(), plane(), plane()};
   Boxes now{LinearImage(width, height), LinearImage(width, height), plane(), plane()};
   const std::vector<float> column = whole_numbers(width);
   for_rows_of(height, [&](int y) {
@@ -255,8 +260,10 @@ LinearImage SampleMean::accumulate(const TaauInput& frame) {
     SampleMeanKernels::of().survey(row, pixels);
   });
   if (!history_.empty()) find_kept(frame, color, Motions(frame), now, followed);
-  LinearImage out = resolved(frame, color, now, followed);
+  Plane<float> count(width_, height_);
+  LinearImage out = resolved({frame, color, now, followed}, count);
   history_ = out;
+  count_ = std::move(count);
   past_ = std::move(now);
   return out;
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+
 #include "zoneplate/image/rgb.h"
+#include "zoneplate/upscale/taau/sample_mean_rows.h"
 #include "zoneplate/upscale/taau/taau_core.h"
 
 namespace zoneplate::upscale {
@@ -20,13 +23,14 @@ class SampleMean {
   static constexpr int settling_periods = 1;
 
   SampleMean(int width, int height) : width_(width), height_(height) {}
+  virtual ~SampleMean() = default;
 
   /// The output after one more frame: scene-linear, of the size given to the constructor.
   ///
   /// Requires  frames of one size, at most the output's, until the next one that is first.
   LinearImage accumulate(const TaauInput& frame);
 
- private:
+ protected:
   /// What is known of each pixel of a frame.
   struct Boxes {
     LinearImage low, high;  ///< the extremes that history is clamped to
@@ -37,13 +41,31 @@ class SampleMean {
   struct Followed {
     Plane<float> nearest;  ///< reversed depth
     Plane<float> x, y, kept;
-    Plane<float> borrowed;  ///< 1 where they are not the pixels' own
+    Plane<float> borrowed;                   ///< 1 where they are not the pixels' own
+    Plane<float> uncovered, steady, change;  ///< as CompareRow has them
   };
+  /// A frame with what is known of it.
+  struct Known {
+    const TaauInput& input;
+    const LinearImage& color;  ///< in the range that is accumulated
+    const Boxes& boxes;
+    const Followed& followed;
+  };
+
+  /// The image of a frame, and the counts of its samples into `count`.
+  virtual LinearImage resolved(const Known& known, Plane<float>& count);
+  /// Calls body(frame, row) for each output row, which has its input but no output.
+  void for_output_rows(const Known& known,
+                       const std::function<void(const SampleMeanFrame& frame, SampleMeanRow& row)>& body) const;
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+
+ private:
   struct Motions;
 
   void find_kept(const TaauInput& frame, const LinearImage& color, const Motions& moved, Boxes& now,
                  Followed& followed) const;
-  LinearImage resolved(const TaauInput& frame, const LinearImage& color, const Boxes& now, const Followed& followed);
 
   int width_, height_;
   LinearImage history_;

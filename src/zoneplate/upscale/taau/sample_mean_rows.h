@@ -84,7 +84,7 @@ struct SampleMeanRow {
   const float* column;                                                 ///< 0, 1, 2, ...
   std::int32_t y;
 
-  float *resolved, *count;  ///< out: four floats per pixel, and one
+  float *resolved = nullptr, *count = nullptr;  ///< out: four floats per pixel, and one
 };
 
 /// The passes of SampleMean.

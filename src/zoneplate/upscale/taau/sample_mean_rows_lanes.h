@@ -173,54 +173,96 @@ template <class F>
   return {inside, count / (F(1.0f) + beyond / sum)};
 }
 
+/// The frame's pixels around those of an output row.
 template <class F>
-[[gnu::always_inline]] inline void resolve(const SampleMeanFrame& frame, const SampleMeanRow& row,
-                                           const TemporalRow& history_row, std::ptrdiff_t i) {
-  const F one(1.0f);
-  std::int32_t columns[3][F::lanes];
-  for (int c = 0; c < 3; ++c) F::Int::load(row.columns[c] + i).store(columns[c]);
-  const auto pixel = [&](const float* pixels, int c) {
-    Rgba<F> out;
-    load_pixels<F>([&](int lane) { return pixels + std::ptrdiff_t{4} * columns[c][lane]; }, out.c);
-    return out;
-  };
-  // The mean of the frame's samples: of differences from the middle one, so that equal samples have their own value.
-  const Rgba<F> middle = pixel(row.color[1], 1);
-  Rgba<F> sum = Rgba<F>::all(F(0.0f));
-  F weights(0.0f);
-  for (int k = 0; k < 9; ++k) {
-    const F weight = F::load(row.weight_x[k % 3] + i) * F(row.weight_y[k / 3]);
-    weights = weights + weight;
-    if (k != 4) sum = sum + (pixel(row.color[k / 3], k % 3) - middle) * weight;
+class FramePixels {
+ public:
+  [[gnu::always_inline]] FramePixels(const SampleMeanRow& row, std::ptrdiff_t i) : row_(row) {
+    for (int c = 0; c < 3; ++c) F::Int::load(row.columns[c] + i).store(columns_[c]);
   }
-  const Rgba<F> current = max(middle + sum * (one / weights), Rgba<F>::all(F(0.0f)));
+  /// Of a row of the frame, in the column that is the first, second or third of those around.
+  [[gnu::always_inline]] Rgba<F> at(const float* pixels, int c) const {
+    Rgba<F> out;
+    load_pixels<F>([&](int lane) { return pixels + std::ptrdiff_t{4} * columns_[c][lane]; }, out.c);
+    return out;
+  }
+  /// The mean of the frame's samples with weights weight_of(k), whose sum becomes `weights`: of differences from the
+  /// middle one, so that equal samples have their own value. A sum below `least` counts as that.
+  template <class WeightOf>
+  [[gnu::always_inline]] Rgba<F> mean(const WeightOf& weight_of, float least, F& weights) const {
+    const Rgba<F> middle = at(row_.color[1], 1);
+    Rgba<F> sum = Rgba<F>::all(F(0.0f));
+    weights = F(0.0f);
+    for (int k = 0; k < 9; ++k) {
+      const F weight = weight_of(k);
+      weights = weights + weight;
+      if (k != 4) sum = sum + (at(row_.color[k / 3], k % 3) - middle) * weight;
+    }
+    return max(middle + sum * (F(1.0f) / max(weights, F(least))), Rgba<F>::all(F(0.0f)));
+  }
+  /// The same with the weights of the distance.
+  [[gnu::always_inline]] Rgba<F> mean(F& weights, std::ptrdiff_t i) const {
+    return mean([&](int k) { return F::load(row_.weight_x[k % 3] + i) * F(row_.weight_y[k / 3]); }, 0, weights);
+  }
+
+ private:
+  const SampleMeanRow& row_;
+  std::int32_t columns_[3][F::lanes];
+};
+
+/// The history of an output row's pixels, and the number of its samples that counts.
+template <class F>
+struct Past {
+  Rgba<F> color;
+  F samples;
+  typename F::Bool is_inside, is_filtered;
+
+  /// The motion is that of the frame's pixels, in a row of them.
+  [[gnu::always_inline]] Past(const SampleMeanFrame& frame, const SampleMeanRow& row, const float* motion_x,
+                              const float* motion_y, std::ptrdiff_t i) {
+    const TemporalRow history_row{.column = row.column, .y = row.y, .width = frame.width, .height = frame.height};
+    const typename F::Int column = F::Int::load(row.columns[1] + i);
+    Followed<F> surface{};
+    surface.motion[0] = F::gather(motion_x, column) * F(frame.scale[0]);
+    surface.motion[1] = F::gather(motion_y, column) * F(frame.scale[1]);
+    const Source<F> source(surface, history_row, i);
+    constexpr TemporalParts parts{.filter = TemporalParts::Filter::CatmullRom5};
+    color = history_of(frame.history, history_row, parts, source, i);
+    const PastPixels<F> around = pixels_around(history_row, source, i);
+    const F right = source.fraction[0], below = source.fraction[1], zero(0.0f);
+    const auto count = [&](int dy) {
+      return mixed(around.value(frame.count, 0, dy), around.value(frame.count, 1, dy), right);
+    };
+    samples = mixed(count(0), count(1), below) * F::gather(row.kept, column);
+    is_inside = source.is_inside;
+    is_filtered = (right > zero) | (below > zero);
+  }
+};
+
+/// The greatest number of samples that counts.
+template <class F>
+[[gnu::always_inline]] inline F most_of(const SampleMeanFrame& frame, const SampleMeanRow& row,
+                                        typename F::Bool is_filtered, std::ptrdiff_t i) {
+  const F most = select(is_filtered, F(frame.most_filtered), F(frame.most));
+  const F borrowed = F::gather(row.is_borrowed, F::Int::load(row.columns[1] + i));
+  return select(borrowed > F(0.0f), min(most, F(frame.most_borrowed)), most);
+}
+
+template <class F>
+[[gnu::always_inline]] inline void resolve(const SampleMeanFrame& frame, const SampleMeanRow& row, std::ptrdiff_t i) {
+  const FramePixels<F> pixels(row, i);
+  F weights;
+  const Rgba<F> current = pixels.mean(weights, i);
   if (frame.is_first) {
     current.store(row.resolved + 4 * i), weights.store(row.count + i);
     return;
   }
-
-  const typename F::Int column = F::Int::load(row.columns[1] + i);
-  Followed<F> surface{};
-  surface.motion[0] = F::gather(row.follow_x, column) * F(frame.scale[0]);
-  surface.motion[1] = F::gather(row.follow_y, column) * F(frame.scale[1]);
-  const Source<F> source(surface, history_row, i);
-  constexpr TemporalParts parts{.filter = TemporalParts::Filter::CatmullRom5};
-  const Rgba<F> past = history_of(frame.history, history_row, parts, source, i);
-  const PastPixels<F> around = pixels_around(history_row, source, i);
-  const F right = source.fraction[0], below = source.fraction[1];
-  const auto count = [&](int dy) {
-    return mixed(around.value(frame.count, 0, dy), around.value(frame.count, 1, dy), right);
-  };
-  const F samples = mixed(count(0), count(1), below) * F::gather(row.kept, column);
-  const Kept<F> kept = clamped(past, samples, pixel(row.low, 1), pixel(row.high, 1));
-  const F zero(0.0f);
-  const auto is_filtered = (right > zero) | (below > zero);
-  F most = select(is_filtered, F(frame.most_filtered), F(frame.most));
-  most = select(F::gather(row.is_borrowed, column) > zero, min(most, F(frame.most_borrowed)), most);
-  const F all = min(kept.count, most) + weights;
+  const Past<F> past(frame, row, row.follow_x, row.follow_y, i);
+  const Kept<F> kept = clamped(past.color, past.samples, pixels.at(row.low, 1), pixels.at(row.high, 1));
+  const F all = min(kept.count, most_of<F>(frame, row, past.is_filtered, i)) + weights;
   const Rgba<F> mean = kept.color + (current - kept.color) * (weights / all);
-  select(source.is_inside, mean, current).store(row.resolved + 4 * i);
-  select(source.is_inside, all, weights).store(row.count + i);
+  select(past.is_inside, mean, current).store(row.resolved + 4 * i);
+  select(past.is_inside, all, weights).store(row.count + i);
 }
 
 }  // namespace sample_mean
@@ -242,10 +284,8 @@ template <class Full, class One>
 
 template <class Full, class One>
 [[gnu::flatten]] void resolve_samples(const SampleMeanFrame& frame, const SampleMeanRow& row, std::size_t n) {
-  const TemporalRow history_row{.column = row.column, .y = row.y, .width = frame.width, .height = frame.height};
-  for_row<Full, One>(n, [&]<class F>(std::size_t i) {
-    sample_mean::resolve<F>(frame, row, history_row, static_cast<std::ptrdiff_t>(i));
-  });
+  for_row<Full, One>(
+      n, [&]<class F>(std::size_t i) { sample_mean::resolve<F>(frame, row, static_cast<std::ptrdiff_t>(i)); });
 }
 
 template <class Full, class One>

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/upscale/learned/learned_mean.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/upscale/learned/learned_rows.h"
+#include "zoneplate/upscale/taau/taau_axis.h"
+
+namespace zoneplate::upscale {
+namespace {
+
+/// Which output pixels belong to a pixel of the frame along one axis, and the reverse: its sample is the nearest to
+/// them.
+struct Halves {
+  std::vector<std::int32_t> first,
+      second;                      ///< for each pixel of the frame, the output pixels before and after its sample
+  std::vector<std::int32_t> half;  ///< for each output pixel, 0 or 1: before or after the sample
+
+  Halves(const TaauAxis& axis, int from) {
+    const auto outputs = static_cast<std::int32_t>(axis.offset.size());
+    for (const float offset : axis.offset) half.push_back(offset < 0 ? 0 : 1);
+    // At the edges a pixel may have one alone: its nearest neighbours stand for the other.
+    for (std::vector<std::int32_t>* const list : {&first, &second}) {
+      const std::int32_t wanted = list == &first ? 0 : 1;
+      list->assign(static_cast<std::size_t>(from), -1);
+      for (std::int32_t o = 0; o < outputs; ++o) {
+        const auto at = static_cast<std::size_t>(o);
+        std::int32_t& found = (*list)[static_cast<std::size_t>(axis.around[1][at])];
+        if (half[at] == wanted && found < 0) found = o;
+      }
+    }
+    for (std::size_t i = 0; i < first.size(); ++i) {
+      if (first[i] < 0) first[i] = std::max(second[i], 0);
+      if (second[i] < 0) second[i] = first[i];
+    }
+  }
+};
+
+/// A history of each output pixel.
+struct Histories {
+  LinearImage color;
+  Plane<float> count, inside, filtered;
+  Histories(int width, int height)
+      : color(width, height), count(width, height), inside(width, height), filtered(width, height) {}
+  HistoryRow row(int y) {
+    return {&color.row(y).data()->r, count.row(y).data(), inside.row(y).data(), filtered.row(y).data()};
+  }
+};
+
+}  // namespace
+
+/// What is known of a frame, kept for the next one of its size: memory for each frame anew takes longer than the
+/// network.
+struct LearnedMean::Work {
+  LinearImage current;
+  Histories near, own;
+  NetworkFrame network;
+  Plane<float> unrest, past_unrest;
+
+  Work(int width, int height, int frame_width, int frame_height)
+      : current(width, height),
+        near(width, height),
+        own(width, height),
+        network(frame_width, frame_height),
+        unrest(frame_width, frame_height),
+        past_unrest(frame_width, frame_height) {}
+  GatheredRow row(int y) { return {&current.row(y).data()->r, near.row(y), own.row(y)}; }
+};
+
+LearnedMean::LearnedMean(int width, int height, const Network& network)
+    : SampleMean(width, height), network_(network) {}
+LearnedMean::~LearnedMean() = default;
+
+LinearImage LearnedMean::resolved(const Known& known, Plane<float>& count) {
+  const TaauInput& input = known.input;
+  const LinearImage& color = known.color;
+  const Boxes& boxes = known.boxes;
+  const Followed& followed = known.followed;
+  const int frame_width = color.width(), frame_height = color.height();
+  if (input.is_first || !work_) work_ = std::make_unique<Work>(width(), height(), frame_width, frame_height);
+  Work& work = *work_;
+  const auto pixels = static_cast<std::size_t>(width());
+  const TaauAxis columns(width(), frame_width, input.jitter.x), rows(height(), frame_height, input.jitter.y);
+  for_output_rows(known, [&](const SampleMeanFrame& frame, SampleMeanRow& row) {
+    const int middle = rows.around[1][static_cast<std::size_t>(row.y)];
+    LearnedKernels::of().gather(frame, row, input.motion_x.row(middle).data(), input.motion_y.row(middle).data(),
+                                work.row(row.y), pixels);
+  });
+
+  const Halves across(columns, frame_width), down(rows, frame_height);
+  std::vector<float> column(static_cast<std::size_t>(frame_width));
+  std::iota(column.begin(), column.end(), 0.0f);
+  const auto first_of = [](float jitter) {
+    const float place = 0.25f + jitter;
+    return place - std::floor(2 * place) / 2 - 0.5f;
+  };
+  std::swap(work.unrest, work.past_unrest);
+  parallel_ranges(static_cast<std::size_t>(frame_height), 8, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const int y = static_cast<int>(i);
+      const auto of = [&](const Plane<float>& plane) { return plane.row(y).data(); };
+      LearnedKernels::of().describe({.color = &color.row(y).data()->r,
+                                     .low = &boxes.low.row(y).data()->r,
+                                     .high = &boxes.high.row(y).data()->r,
+                                     .alike = of(boxes.alike),
+                                     .borrowed = of(followed.borrowed),
+                                     .steady = of(followed.steady),
+                                     .uncovered = of(followed.uncovered),
+                                     .kept = of(followed.kept),
+                                     .change = of(followed.change),
+                                     .trend = of(boxes.trend),
+                                     .follow_x = of(followed.x),
+                                     .follow_y = of(followed.y),
+                                     .nearest = of(followed.nearest),
+                                     .nearness = input.nearness.values().data(),
+                                     .past_unrest = work.past_unrest.values().data(),
+                                     .column = column.data(),
+                                     .y = y,
+                                     .width = frame_width,
+                                     .height = frame_height,
+                                     .first = {first_of(input.jitter.x), first_of(input.jitter.y)},
+                                     .scale = {2, 2},
+                                     .above = work.row(down.first[i]),
+                                     .below = work.row(down.second[i]),
+                                     .left = across.first.data(),
+                                     .right = across.second.data(),
+                                     .features = work.network.features.at(0, y),
+                                     .unrest = work.unrest.row(y).data()},
+                                    static_cast<std::size_t>(frame_width));
+    }
+  });
+  network_.correct(work.network);
+
+  constexpr int per_pixel = 4 * Network::corrections;
+  LinearImage out(width(), height());
+  for_output_rows(known, [&](const SampleMeanFrame& frame, SampleMeanRow& row) {
+    const auto y = static_cast<std::size_t>(row.y);
+    std::vector<std::int32_t> middle(pixels);
+    for (std::size_t x = 0; x < pixels; ++x)
+      middle[x] = columns.around[1][x] * per_pixel + Network::corrections * (2 * down.half[y] + across.half[x]);
+    const auto frame_row = static_cast<std::size_t>(rows.around[1][y]) * static_cast<std::size_t>(frame_width);
+    row.resolved = &out.row(row.y).data()->r, row.count = count.row(row.y).data();
+    LearnedKernels::of().blend(
+        frame, row, work.row(row.y),
+        {.corrections = work.network.corrections.data() + frame_row * per_pixel, .middle = middle.data()}, pixels);
+  });
+  return out;
+}
+
+}  // namespace zoneplate::upscale

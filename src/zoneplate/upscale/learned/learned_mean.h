@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+
+#include "zoneplate/upscale/learned/network.h"
+#include "zoneplate/upscale/taau/sample_mean.h"
+
+namespace zoneplate::upscale {
+
+/// SampleMean of frames of half the output's size, whose weights, count and clamp a network corrects. Corrections of 0
+/// leave SampleMean.
+///
+/// Exact     the same bits for any number of threads and any instruction set; one colour stays that colour.
+class LearnedMean : public SampleMean {
+ public:
+  LearnedMean(int width, int height, const Network& network = Network::trained());
+  ~LearnedMean() override;
+
+ private:
+  LinearImage resolved(const Known& known, Plane<float>& count) override;
+
+  struct Work;
+
+  const Network& network_;
+  std::unique_ptr<Work> work_;
+};
+
+}  // namespace zoneplate::upscale

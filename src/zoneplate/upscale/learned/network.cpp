@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// The network has two branches. At half the frame's resolution three convolutions of 3 × 3 pixels see 15 × 15 of them;
+// their 24 activations are 6 of each of four pixels. One convolution of each pixel alone keeps the frame's resolution.
+// A last one of 3 × 3 pixels joins both, and one per pixel makes the corrections.
+//
+// Numbers are integers in floats. A sum of at most 360 products of integers up to 127, with its bias, is below 2^24, so
+// that no order of additions rounds it; the constructor checks this. The one product with a scale is rounded once.
+#include "zoneplate/upscale/learned/network.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <functional>
+#include <string>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/upscale/learned/network_rows.h"
+#include "zoneplate/upscale/learned/trained.h"
+
+namespace zoneplate::upscale {
+namespace {
+
+constexpr std::string_view signature = "ZPLEARN1";
+
+constexpr int of_each = 6, own = 8;  ///< the activations of a pixel that the two branches make
+constexpr std::size_t per_pixel = 4 * Network::corrections;
+int halved(int size) { return (size + 1) / 2; }
+
+/// The form of each layer: inputs, outputs, side and stride.
+constexpr std::uint8_t forms[][4] = {
+    {Network::features, 16, 3, 2}, {16, 16, 3, 1}, {16, 24, 3, 1},
+    {Network::features, 8, 1, 1},  {14, 16, 3, 1}, {16, 4 * Network::corrections, 1, 1}};
+
+/// Reads little-endian numbers, and throws at the end.
+class Bytes {
+ public:
+  Bytes(std::span<const std::uint8_t> bytes, std::string_view name) : bytes_(bytes), name_(name) {}
+  std::span<const std::uint8_t> take(std::size_t count) {
+    if (bytes_.size() < count) fail("ends too early");
+    const auto out = bytes_.first(count);
+    bytes_ = bytes_.subspan(count);
+    return out;
+  }
+  std::uint32_t number() {
+    const auto b = take(4);
+    return b[0] | std::uint32_t{b[1]} << 8 | std::uint32_t{b[2]} << 16 | std::uint32_t{b[3]} << 24;
+  }
+  bool is_empty() const { return bytes_.empty(); }
+  [[noreturn]] void fail(std::string_view what) const {
+    throw Error(ErrorKind::Input, fmt::format("{}: weights of a network: {}", name_, what));
+  }
+
+ private:
+  std::span<const std::uint8_t> bytes_;
+  std::string_view name_;
+};
+
+Convolution read_layer(Bytes& file, const std::uint8_t (&form)[4]) {
+  const auto found = file.take(4);
+  if (!std::equal(found.begin(), found.end(), form))
+    file.fail(fmt::format("a layer has {} inputs, {} outputs, side {} and stride {}, expected {}, {}, {} and {}",
+                          found[0], found[1], found[2], found[3], form[0], form[1], form[2], form[3]));
+  Convolution out{.inputs = form[0], .outputs = form[1], .side = form[2], .stride = form[3]};
+  const auto outputs = static_cast<std::size_t>(out.outputs);
+  for (std::size_t o = 0; o < outputs; ++o) {
+    const std::uint32_t bits = file.number();
+    float scale = 0;
+    std::memcpy(&scale, &bits, sizeof scale);
+    if (!(scale > 0 && scale < 1e6f)) file.fail("a scale is not a positive number");
+    out.scale.push_back(scale);
+  }
+  std::vector<double> greatest;
+  for (std::size_t o = 0; o < outputs; ++o) {
+    const auto bias = static_cast<std::int32_t>(file.number());
+    out.bias.push_back(static_cast<float>(bias));
+    greatest.push_back(std::abs(static_cast<double>(bias)));
+  }
+  const std::size_t products = static_cast<std::size_t>(out.inputs) * form[2] * form[2];
+  out.weights.resize(products * outputs);
+  for (std::size_t o = 0; o < outputs; ++o) {
+    const auto weights = file.take(products);
+    for (std::size_t k = 0; k < products; ++k) {
+      const int weight = static_cast<std::int8_t>(weights[k]);
+      out.weights[k * outputs + o] = static_cast<float>(weight);
+      greatest[o] += std::abs(weight) * double{Network::levels};
+    }
+    if (greatest[o] >= 1 << 24) file.fail("a sum may exceed 2^24");
+  }
+  return out;
+}
+
+/// Applies a layer. Activations of `to` are written from channel `channel` on.
+void convolve(const Convolution& layer, const Activations& from, Activations& to, int channel) {
+  const int reach = layer.side / 2;
+  parallel_ranges(static_cast<std::size_t>(to.height), 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const int y = static_cast<int>(i);
+      ConvolutionRow row{.inputs = layer.inputs,
+                         .outputs = layer.outputs,
+                         .side = layer.side,
+                         .stride = layer.stride,
+                         .weights = layer.weights.data(),
+                         .scale = layer.scale.data(),
+                         .bias = layer.bias.data(),
+                         .is_last = false,
+                         .output = to.at(0, y) + channel,
+                         .output_channels = to.channels};
+      for (int k = 0; k < layer.side; ++k) row.input[k] = from.at(-reach, y * layer.stride + k - reach);
+      NetworkKernels::of().convolve(row, static_cast<std::size_t>(to.width));
+    }
+  });
+  to.close();
+}
+
+}  // namespace
+
+Activations::Activations(int w, int h, int c)
+    : width(w),
+      height(h),
+      channels(c),
+      values(static_cast<std::size_t>(w + 2) * static_cast<std::size_t>(h + 2) * static_cast<std::size_t>(c)) {}
+
+void Activations::close() {
+  for (int y = 0; y < height; ++y) {
+    std::copy_n(at(0, y), channels, at(-1, y));
+    std::copy_n(at(width - 1, y), channels, at(width, y));
+  }
+  const std::ptrdiff_t row = std::ptrdiff_t{width + 2} * channels;
+  std::copy_n(at(-1, 0), row, at(-1, -1));
+  std::copy_n(at(-1, height - 1), row, at(-1, height));
+}
+
+const Network& Network::trained() {
+  static const Network network(trained_weights(), "the program's own");
+  return network;
+}
+
+Network::Network(std::span<const std::uint8_t> bytes, std::string_view name) {
+  Bytes file(bytes, name);
+  const auto start = file.take(signature.size());
+  if (!std::equal(start.begin(), start.end(), signature.begin())) file.fail("does not begin with ZPLEARN1");
+  for (int k = 0; k < layer_count; ++k) layers_[k] = read_layer(file, forms[k]);
+  for (float& scale : layers_[Out].scale) scale /= levels;
+  if (!file.is_empty()) file.fail("goes on after the last layer");
+}
+
+NetworkFrame::NetworkFrame(int width, int height)
+    : features(width, height, Network::features),
+      corrections(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * per_pixel),
+      half_{{halved(width), halved(height), 16},
+            {halved(width), halved(height), 16},
+            {halved(width), halved(height), 24}},
+      joined_(width, height, of_each + own),
+      last_(width, height, 16) {}
+
+void Network::correct(NetworkFrame& frame) const {
+  const int width = frame.features.width, height = frame.features.height;
+  frame.features.close();
+  convolve(layers_[Wide0], frame.features, frame.half_[0], 0);
+  convolve(layers_[Wide1], frame.half_[0], frame.half_[1], 0);
+  convolve(layers_[Wide2], frame.half_[1], frame.half_[2], 0);
+  convolve(layers_[Own], frame.features, frame.joined_, of_each);
+  const Activations& wide = frame.half_[2];
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x)
+      for (int c = 0; c < of_each; ++c) frame.joined_.at(x, y)[c] = wide.at(x / 2, y / 2)[4 * c + 2 * (y % 2) + x % 2];
+  frame.joined_.close();
+  convolve(layers_[Joined], frame.joined_, frame.last_, 0);
+  const Convolution& out = layers_[Out];
+  parallel_ranges(static_cast<std::size_t>(height), 4, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t y = begin; y < end; ++y) {
+      const ConvolutionRow row{.input = {frame.last_.at(0, static_cast<int>(y))},
+                               .inputs = out.inputs,
+                               .outputs = out.outputs,
+                               .side = 1,
+                               .stride = 1,
+                               .weights = out.weights.data(),
+                               .scale = out.scale.data(),
+                               .bias = out.bias.data(),
+                               .is_last = true,
+                               .output = frame.corrections.data() + y * static_cast<std::size_t>(width) * per_pixel,
+                               .output_channels = out.outputs};
+      NetworkKernels::of().convolve(row, static_cast<std::size_t>(width));
+    }
+  });
+}
+
+}  // namespace zoneplate::upscale

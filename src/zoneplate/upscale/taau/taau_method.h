@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "zoneplate/signal/samples.h"
+#include "zoneplate/upscale/jittered_frame.h"
+#include "zoneplate/upscale/taau/taau_core.h"
+
+namespace zoneplate::upscale {
+
+/// Asks for jittered frames, and accumulates them in a `Core`, as Taau.
+template <class Core>
+class TaauMethod : public Resolver {
+ public:
+  /// `name` is for messages.
+  TaauMethod(std::string_view name, double scale, double bias)
+      : name_(name), scale_(scale), bias_(bias), jitter_(halton_sequence(phases(scale))) {}
+
+  bool has_history() const override { return true; }
+  Request request(const FrameContext& context) override {
+    context_ = context;
+    sample_ = sample_of(context, jitter_[static_cast<std::size_t>(context.index) % jitter_.size()]);
+    Request request;
+    request.samples = {sample_};
+    request.planes.depth = request.planes.motion = true;
+    request.frame = frame_size(context, scale_);
+    request.footprint = footprint_of(scale_, bias_);
+    request.settling_frames = Core::settling_periods * static_cast<int>(jitter_.size());
+    return request;
+  }
+
+  LinearImage resolve(Frame& frame) override {
+    const ImageExtent& image = context_.image;
+    if (context_.is_first || !core_) core_.emplace(image.width, image.height);
+    complete_background(frame, context_, sample_, std::numeric_limits<float>::infinity());
+    const int width = frame.color.width(), height = frame.color.height();
+    TaauInput input{.color = over_background(std::move(frame.color), frame.display, name_),
+                    .nearness = std::move(frame.reversed_depth),
+                    .motion_x = Plane<float>(width, height),
+                    .motion_y = Plane<float>(width, height),
+                    .jitter = {(128 - sample_.x) / 256.0f, (128 - sample_.y) / 256.0f},
+                    .is_first = context_.is_first};
+    std::ranges::transform(frame.motion.values(), input.motion_x.values().begin(), &float2::x);
+    std::ranges::transform(frame.motion.values(), input.motion_y.values().begin(), &float2::y);
+    return cropped(core_->accumulate(input), image.crop);
+  }
+
+ private:
+  /// 8 samples per output pixel.
+  static int phases(double scale) { return std::max(static_cast<int>(8 * scale * scale), 1); }
+
+  std::string_view name_;
+  double scale_, bias_;
+  SamplePattern jitter_;
+  FrameContext context_;
+  SamplePosition sample_;
+  std::optional<Core> core_;
+};
+
+}  // namespace zoneplate::upscale
