@@ -41,8 +41,8 @@ class AnimationReader {
   virtual AnimationFrame next() = 0;
 };
 
-/// Opens an animated PNG, GIF or WebP of more than one frame; null for other bytes. The bytes and `name`, the prefix of
-/// error messages, outlive the reader.
+/// Opens an animated PNG, GIF or WebP of more than one frame; null for other bytes. The bytes outlive the reader;
+/// `name` is the prefix of error messages.
 ///
 /// Errors    ErrorKind::Input with `name` in front: corrupt, truncated, frames of more than `max_pixels` pixels.
 std::unique_ptr<AnimationReader> open_animation(std::span<const std::uint8_t> bytes, const std::string& name,

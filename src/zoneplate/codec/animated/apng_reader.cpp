@@ -147,7 +147,7 @@ class Chunks {
     if (get_png_word(data) != sequence_++) fail("its frames are not in order");
   }
 
-  const std::string& name_;
+  std::string name_;
   const std::uint64_t max_pixels_;
   int2 size_;
   View header_, palette_, transparency_;
@@ -206,7 +206,7 @@ class ApngReader final : public AnimationReader {
       return png.pixels;
   }
 
-  const std::string& name_;
+  const std::string name_;
   const Chunks chunks_;
   const AnimationInfo info_;
   FrameCanvas<Pixel> canvas_;

@@ -299,7 +299,7 @@ class GifReader final : public AnimationReader {
   }
 
   const View bytes_;
-  const std::string& name_;
+  const std::string name_;
   const Blocks blocks_;
   const AnimationInfo info_;
   FrameCanvas<Rgba8> canvas_;

@@ -63,7 +63,7 @@ class WebpReader final : public AnimationReader {
     throw Error(ErrorKind::Input, name_ + ": WebP animation: " + cause);
   }
 
-  const std::string& name_;
+  const std::string name_;
   std::unique_ptr<WebPAnimDecoder, Close> decoder_;
   AnimationInfo info_;
   int end_ = 0;  ///< of the frame before, in milliseconds
