@@ -185,6 +185,18 @@ TEST_F(JobOptions, ImagesInMemoryHaveThePixelsOfFiles) {
   EXPECT_TRUE(exists("a.depth.png"));
 }
 
+TEST_F(JobOptions, LightInMemoryMayHaveAlpha) {
+  const Owned<zoneplate_job> job = job_of({{"resolution", "48,40"}, {"no-background", ""}});
+  const Owned<zoneplate_scene> scene = load(job, "teapot");
+  zoneplate_image* image = nullptr;
+  ASSERT_EQ(zoneplate_job_render(job.get(), scene.get(), nullptr, ZONEPLATE_LINEAR, &image), ZONEPLATE_OK)
+      << zoneplate_error_text();
+  const Owned<zoneplate_image> owned(image);
+  zoneplate_array array{};
+  ASSERT_EQ(zoneplate_image_array(image, zoneplate_image_name(image, 0), &array), ZONEPLATE_OK);
+  EXPECT_EQ(static_cast<const float*>(array.data)[3], 0);
+}
+
 TEST_F(JobOptions, FramesHaveThePixelsOfFiles) {
   for (const auto& [model, options] :
        {std::pair{"teapot", std::vector<OptionText>{{"resolution", "48,40"}, {"turntable", "3"}}},

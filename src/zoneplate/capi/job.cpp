@@ -145,7 +145,9 @@ namespace {
 
 /// The job of images in memory, whose form is that of files of its output.
 Job in_memory(const zoneplate_job& job, const zoneplate_scene& scene, zoneplate_form form) {
-  constexpr const char* outputs[] = {"image.png", "image.png", "image.pfm"};
+  // Light with alpha is that of an .exr, which has alpha unless a background is given.
+  const bool has_alpha = job.job.display.is_transparent || (job.job.background && job.job.background->w < 1);
+  const char* const outputs[] = {"image.png", "image.png", has_alpha ? "image.exr" : "image.pfm"};
   if (job.job.bit_depth == 16 && form != ZONEPLATE_SRGB16)
     throw Error(ErrorKind::Usage, "bit-depth: is 16, and the form of the image is another one");
   Job out = job.of(scene, at(outputs, form, "form"));

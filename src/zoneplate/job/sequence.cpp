@@ -372,13 +372,16 @@ void render_sequence(Job job, std::unique_ptr<Resolver> method, JobSink& out, Su
   AnimationFormat format = film_format(resolved.sequence.rate);
   std::unique_ptr<AnimationEncoder> film;
   Background background;
+  const auto is_finished = [&finished = resolved.sequence.finished](int frame) {
+    return std::binary_search(finished.begin(), finished.end(), frame);
+  };
   for (const int frame : frames.frames()) {
     const std::string stage = fmt::format("frame {} of {}", frames.done() + 1, count);
     const auto part = [&] { return static_cast<double>(frames.done()) / static_cast<double>(count); };
     const double begin = part(), end = begin + 1 / static_cast<double>(count);
     out.progress(stage, begin);
     const std::string output = is_numbered ? output_path(resolved, frame, -1) : resolved.output;
-    if (std::ranges::binary_search(resolved.sequence.finished, frame)) {
+    if (is_finished(frame)) {
       frames.skip();
       continue;
     }

@@ -134,7 +134,8 @@ std::vector<std::array<float3, 3>> fill_outlines(const std::vector<OutlineSegmen
     std::erase_if(active, [&](const Rise& r) { return r.high.v <= v; });
     for (; next < rises.size() && rises[next].low.v <= v; ++next)
       if (rises[next].high.v > v) active.push_back(rises[next]);
-    std::ranges::stable_sort(active, {}, [&](const Rise& r) { return r.u_at(middle); });
+    std::stable_sort(active.begin(), active.end(),  // the library of Emscripten has none of ranges
+                     [&](const Rise& a, const Rise& b) { return a.u_at(middle) < b.u_at(middle); });
     int winding = 0;
     for (std::size_t left = 0, i = 0; i < active.size(); ++i) {
       if (winding == 0) left = i;
