@@ -225,8 +225,10 @@ test('npx zoneplate', () => {
   const halves = run('metrics', 'made.png', 'native.png', '--metric', 'mae', '--ignore', '0,0,80,120', '--ignore=80,0,40,120', '--json');
   const half = run('metrics', 'made.png', 'native.png', '--metric', 'mae', '--ignore', '0,0,80,120', '--json');
   assert.notDeepEqual(JSON.parse(halves.stdout).metrics, JSON.parse(half.stdout).metrics);
-  for (const verb of execFileSync(program, ['--help'], { encoding: 'utf8' }).matchAll(/^  zoneplate ([a-z-]+) /gm))
-    if (!['render', 'info', 'metrics', 'list'].includes(verb[1])) assert.match(run(verb[1], 'a').stderr, /no verb of this package/, verb[1]);
+  const verbs = /local verbs='([^']+)'/.exec(execFileSync(program, ['completions', 'bash'], { encoding: 'utf8' }))[1].split(' ');
+  assert.ok(verbs.length > 10);
+  for (const verb of verbs)
+    if (!['render', 'info', 'metrics', 'list'].includes(verb)) assert.match(run(verb, 'a').stderr, /no verb of this package/, verb);
   assert.match(run('list', 'methods').stdout.toString(), /^smaa /m);
   for (const [args, status, text] of [[['compare', 'teapot'], 2, /compare: no verb of this package; the native program zoneplate has it/],
     [['teapot', '-o', 'a.png', '--turntable', '4'], 2, /no option '--turntable' in this package/], [['none.glb', '-o', 'a.png'], 3, /none\.glb: no such file/],
