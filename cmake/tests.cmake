@@ -7,7 +7,7 @@ include(GoogleTest)
 file(GLOB appetite_sources CONFIGURE_DEPENDS fuzz/appetite*.cpp)
 add_executable(fuzz_appetite ${appetite_sources})
 target_link_libraries(fuzz_appetite PRIVATE zoneplate_flags ${fmt} z)
-target_compile_options(fuzz_appetite PRIVATE -O0)
+target_compile_options(fuzz_appetite PRIVATE ${built_quickly})
 compile_folders_together(fuzz_appetite)
 
 add_executable(zoneplate_tests ${test_sources} ${whole_tests})

@@ -70,13 +70,17 @@ endif()
 foreach(each IN LISTS compilers)
   run(${each} -std=c++20 -Wall -Wextra -Werror -Wno-unused-variable -Wno-unused-but-set-variable -fsyntax-only
       -I${place}/installed/include ${place}/calls.cpp)
+  if(each STREQUAL compiler)
+    continue() # builds the examples with these warnings below
+  endif()
   foreach(program load_and_save arrays_to_pixels textured_shader several_shaders course_shaders own_method)
     run(${each} -std=c++20 -Wall -Wextra -Werror -fsyntax-only -I${place}/installed/include
         ${source}/examples/${program}.cpp)
   endforeach()
 endforeach()
 
-build_project(${source}/examples ${place}/examples -DBUILD_SHARED_LIBS=ON)
+build_project(${source}/examples ${place}/examples -DBUILD_SHARED_LIBS=ON
+              "-DCMAKE_CXX_FLAGS=${flags} -Wall -Wextra -Werror")
 run(${place}/examples/load_and_save ${source}/examples/triangle.gltf model.png)
 expect_picture(model.png)
 run(${place}/examples/render_in_c ${source}/examples/triangle.gltf from_c.png)
