@@ -260,7 +260,7 @@ TEST_F(DocumentFigures, DISABLED_AreThoseOfTheCommandsOfTheDocuments) {
     const Comparison& found = comparisons.at(table.command);
     for (std::size_t r = 1; r < table.rows.size(); ++r) {
       const std::vector<std::string>& row = table.rows[r];
-      const std::string method = std::regex_replace(row[0], std::regex("`"), "");
+      const std::string method = without_scale(std::regex_replace(row[0], std::regex("`"), ""));
       for (std::size_t column = 1; column < row.size(); ++column, ++figures) {
         const auto& [metric, factor] = table.metrics.at(table.is_mean ? column - 1 : 0);
         const std::vector<double> values = found.figures(metric, method);

@@ -101,7 +101,7 @@ TEST(Edges, SurfacesHideLinesBehindThem) {
   EdgeOptions edges{.kind = EdgeKind::Features, .color = black, .has_surfaces = false};
   Rgba8Image image = image_of(scene, pixel_camera(), settings_with(edges));
   EXPECT_NEAR(darkness_of_column(image, width / 2 + 5), 2, 0.03);   // the large one alone
-  EXPECT_NEAR(darkness_of_column(image, width / 2 + 25), 2, 0.03);  // the part of the small one beside it
+  EXPECT_NEAR(darkness_of_column(image, width / 2 + 25), 2, 0.03);  // where the small box extends beyond it
   edges.hides = false;
   image = image_of(scene, pixel_camera(), settings_with(edges));
   EXPECT_NEAR(darkness_of_column(image, width / 2 + 5), 4, 0.06);

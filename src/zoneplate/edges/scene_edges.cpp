@@ -146,7 +146,6 @@ class EdgeChoice {
 
 /// What hides an edge: the context of its rays.
 struct Hiders {
-  const Scene& scene;
   const std::vector<PlacedMesh>& meshes;
   const Viewpoint& viewpoint;
   OpacityOfHits opacity;
@@ -363,7 +362,7 @@ Plane<float> SceneEdges::coverage(const std::shared_ptr<const Scene>& scene, con
     const std::vector<MeshEdge>& edges = edges_[static_cast<std::size_t>(scene->instances[instance].mesh)];
     const PlacedMesh& mesh = meshes[instance];
     LineMaker maker(view, viewpoint, stroke, options.hides && !bvh_->nodes().empty() ? &*bvh_ : nullptr);
-    Hiders hiders{*scene, meshes, viewpoint, opacity.of_hits(), instance};
+    Hiders hiders{meshes, viewpoint, opacity.of_hits(), instance};
     for (std::size_t i = begin; i < end; ++i) {
       if (!choice.takes(edges[i], mesh)) continue;
       hiders.edge = &edges[i];

@@ -20,11 +20,7 @@ constexpr double greatest = 1e9;
 
 std::vector<double> numbers_of(const std::string& text) {
   std::vector<double> out;
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', at), text.size());
-    out.push_back(parse_number(text.substr(at, comma - at), -greatest, greatest));
-    at = comma + 1;
-  }
+  for (const std::string& number : split_list(text)) out.push_back(parse_number(number, -greatest, greatest));
   return out;
 }
 

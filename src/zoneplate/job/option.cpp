@@ -17,10 +17,8 @@ OptionSetter whole(int low, int high, std::function<void(int)> set) {
 }
 
 OptionSetter angle(double low, double high, std::function<void(float)> set) {
-  return {[=](const std::string& text) {
-            set(static_cast<float>(parse_number(text, low, high) * 3.14159265358979323846 / 180));
-          },
-          ValueKind::Number, low, high};
+  return {[=](const std::string& text) { set(radians_of(parse_number(text, low, high))); }, ValueKind::Number, low,
+          high};
 }
 
 Option choice_option(std::string names, std::string value, std::string meaning, std::string group, bool is_basic,
@@ -35,15 +33,7 @@ Option choice_option(std::string names, std::string value, std::string meaning, 
           .choices = choices};
 }
 
-std::vector<std::string> names_of(const Option& option) {
-  std::vector<std::string> out;
-  for (std::size_t at = 0; at < option.names.size();) {
-    const std::size_t comma = std::min(option.names.find(',', at), option.names.size());
-    out.push_back(option.names.substr(at, comma - at));
-    at = comma + 1;
-  }
-  return out;
-}
+std::vector<std::string> names_of(const Option& option) { return split_list(option.names); }
 
 const Option* find_option(const std::vector<Option>& options, std::string_view name) {
   const auto found = std::ranges::find_if(options, [&](const Option& option) {

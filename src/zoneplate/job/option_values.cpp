@@ -43,12 +43,7 @@ float3 parse_up(const std::string& text) {
 
 Crop parse_crop(const std::string& text) {
   std::vector<int> numbers;
-  std::size_t at = 0;
-  while (at <= text.size()) {
-    const std::size_t comma = std::min(text.find(',', at), text.size());
-    numbers.push_back(parse_whole(text.substr(at, comma - at), 0, max_side));
-    at = comma + 1;
-  }
+  for (const std::string& number : split_list(text)) numbers.push_back(parse_whole(number, 0, max_side));
   if (numbers.size() != 4 || numbers[2] == 0 || numbers[3] == 0)
     throw Error(ErrorKind::Usage, fmt::format("'{}' is not a rectangle x,y,width,height", text));
   return {numbers[0], numbers[1], numbers[2], numbers[3]};
@@ -87,10 +82,7 @@ Choices aov_names() {
 std::vector<const Aov*> parse_aovs(const std::string& text) {
   const std::vector<std::string_view> names = aov_names();
   std::vector<const Aov*> found;
-  std::size_t at = 0;
-  while (at <= text.size()) {
-    const std::size_t comma = std::min(text.find(',', at), text.size());
-    const std::string name = text.substr(at, comma - at);
+  for (const std::string& name : split_list(text)) {
     if (name == "all" || name == "light") {
       for (const Aov& aov : aovs()) {
         Planes planes;
@@ -101,7 +93,6 @@ std::vector<const Aov*> parse_aovs(const std::string& text) {
     } else {
       found.push_back(&aovs()[parse_choice(name, names)]);
     }
-    at = comma + 1;
   }
   return found;
 }

@@ -15,11 +15,11 @@
 #include "zoneplate/job/look/edge_args.h"
 #include "zoneplate/job/look/shadow_args.h"
 #include "zoneplate/job/look/solid_texture.h"
-#include "zoneplate/job/look/view_args.h"
 #include "zoneplate/job/option_values.h"
 #include "zoneplate/job/section_args.h"
 #include "zoneplate/job/tone_args.h"
 #include "zoneplate/job/values.h"
+#include "zoneplate/job/view_args.h"
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/upscale/upscaler.h"
 

@@ -82,6 +82,8 @@ int parse_whole(const std::string& text, int low, int high) {
   return *value;
 }
 
+float radians_of(double degrees) { return static_cast<float>(degrees * 3.14159265358979323846 / 180); }
+
 double3 parse_triple(const std::string& text) {
   const auto numbers = numbers_in<double>(text);
   if (!numbers || numbers->size() != 3) refuse_text(text, "three numbers x,y,z");
@@ -127,18 +129,25 @@ std::uint64_t parse_bytes(const std::string& text) {
   return *value << shift;
 }
 
-std::vector<std::string> split_specs(const std::string& text) {
+std::vector<std::string> split_list(const std::string& text) {
   std::vector<std::string> items;
   for (std::size_t start = 0; start <= text.size();) {
     const std::size_t end = std::min(text.size(), text.find(',', start));
-    const std::string item = text.substr(start, end - start);
+    items.push_back(text.substr(start, end - start));
+    start = end + 1;
+  }
+  return items;
+}
+
+std::vector<std::string> split_specs(const std::string& text) {
+  std::vector<std::string> items;
+  for (const std::string& item : split_list(text)) {
     const bool is_parameter = item.find('=') != std::string::npos && item.find(':') == std::string::npos;
     if (is_parameter && !items.empty()) {
       items.back() += ',' + item;
     } else {
       items.push_back(item);
     }
-    start = end + 1;
   }
   return items;
 }

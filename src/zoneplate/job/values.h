@@ -19,6 +19,8 @@ namespace zoneplate {
 double parse_number(const std::string& text, double low, double high);
 int parse_whole(const std::string& text, int low, int high);
 
+float radians_of(double degrees);
+
 /// "x,y,z": three numbers that are finite as floats.
 double3 parse_triple(const std::string& text);
 
@@ -31,6 +33,9 @@ float4 parse_color(const std::string& text);
 
 /// A number of bytes with an optional K, M or G (powers of 1024), at least 1.
 std::uint64_t parse_bytes(const std::string& text);
+
+/// Splits "a,b" at commas; of an empty text, one empty item.
+std::vector<std::string> split_list(const std::string& text);
 
 /// Splits "psnr,flip:ppd=30,x=1" at commas; a `name=value` without a colon belongs to the previous item.
 std::vector<std::string> split_specs(const std::string& text);

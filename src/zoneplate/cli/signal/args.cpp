@@ -156,11 +156,7 @@ void print_result(const SignalArgs& args, const std::string& text, const Json::O
 
 std::vector<int> parse_whole_list(const std::string& text, int low, int high) {
   std::vector<int> numbers;
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', at), text.size());
-    numbers.push_back(parse_whole(text.substr(at, comma - at), low, high));
-    at = comma + 1;
-  }
+  for (const std::string& number : split_list(text)) numbers.push_back(parse_whole(number, low, high));
   return numbers;
 }
 

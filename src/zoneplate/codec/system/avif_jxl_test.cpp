@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <avif/avif.h>
 #include <gtest/gtest.h>
-#include <jxl/encode.h>
-
-#include <memory>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/codec/color/icc.h"
 #include "zoneplate/codec/system/avif.h"
 #include "zoneplate/codec/system/jxl.h"
+#include "zoneplate/codec/system/jxl_file_for_test.h"
 #include "zoneplate/codec/system/system_format.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/os/library.h"
@@ -107,42 +105,9 @@ TEST(Avif, DeepBoxesAreNotFollowed) {
 
 TEST(Jxl, CodesOfOtherSpacesHaveAProfile) {
   if (!open_library(Library::Jxl)) GTEST_SKIP() << "libjxl is not installed";
-  const SharedLibrary library(Library::Jxl, "test");
-  decltype(&JxlEncoderCreate) make = library.find("JxlEncoderCreate");
-  decltype(&JxlEncoderDestroy) destroy = library.find("JxlEncoderDestroy");
-  decltype(&JxlEncoderInitBasicInfo) init_info = library.find("JxlEncoderInitBasicInfo");
-  decltype(&JxlEncoderSetBasicInfo) set_info = library.find("JxlEncoderSetBasicInfo");
-  decltype(&JxlEncoderSetColorEncoding) set_color = library.find("JxlEncoderSetColorEncoding");
-  decltype(&JxlEncoderFrameSettingsCreate) make_settings = library.find("JxlEncoderFrameSettingsCreate");
-  decltype(&JxlEncoderSetFrameLossless) set_lossless = library.find("JxlEncoderSetFrameLossless");
-  decltype(&JxlEncoderAddImageFrame) add = library.find("JxlEncoderAddImageFrame");
-  decltype(&JxlEncoderCloseInput) close = library.find("JxlEncoderCloseInput");
-  decltype(&JxlEncoderProcessOutput) process = library.find("JxlEncoderProcessOutput");
-  const auto decoded = [&](std::uint32_t channels, JxlPrimaries primaries, JxlTransferFunction curve,
-                           bool is_lossless) {
-    const std::unique_ptr<JxlEncoder, void (*)(JxlEncoder*)> encoder(make(nullptr), destroy);
-    JxlBasicInfo info;
-    init_info(&info);
-    info.xsize = info.ysize = 8, info.bits_per_sample = 8, info.num_color_channels = channels;
-    info.uses_original_profile = is_lossless ? JXL_TRUE : JXL_FALSE;
-    EXPECT_EQ(set_info(encoder.get(), &info), JXL_ENC_SUCCESS);
-    JxlColorEncoding color{};
-    color.color_space = channels == 1 ? JXL_COLOR_SPACE_GRAY : JXL_COLOR_SPACE_RGB;
-    color.white_point = JXL_WHITE_POINT_D65, color.primaries = primaries, color.transfer_function = curve;
-    color.rendering_intent = JXL_RENDERING_INTENT_RELATIVE;
-    EXPECT_EQ(set_color(encoder.get(), &color), JXL_ENC_SUCCESS);
-    JxlEncoderFrameSettings* const settings = make_settings(encoder.get(), nullptr);
-    EXPECT_EQ(set_lossless(settings, is_lossless ? JXL_TRUE : JXL_FALSE), JXL_ENC_SUCCESS);
-    const Bytes codes(std::size_t{64} * channels, 200);
-    const JxlPixelFormat format{channels, JXL_TYPE_UINT8, JXL_NATIVE_ENDIAN, 0};
-    EXPECT_EQ(add(settings, &format, codes.data(), codes.size()), JXL_ENC_SUCCESS);
-    close(encoder.get());
-    Bytes file(1 << 16);
-    std::uint8_t* next = file.data();
-    std::size_t left = file.size();
-    EXPECT_EQ(process(encoder.get(), &next, &left), JXL_ENC_SUCCESS);
-    file.resize(file.size() - left);
-    return decode_jxl(file, "a", 100);
+  const auto decoded = [](std::uint32_t channels, JxlPrimaries primaries, JxlTransferFunction curve, bool is_lossless) {
+    return decode_jxl(
+        jxl_of({.channels = channels, .primaries = primaries, .curve = curve, .is_lossless = is_lossless}), "a", 100);
   };
   const StoredImage wide = decoded(3, JXL_PRIMARIES_P3, JXL_TRANSFER_FUNCTION_SRGB, true);
   EXPECT_EQ(icc_pixels(wide.profile), "RGB ");

@@ -13,7 +13,7 @@
 
 namespace zoneplate::upscale {
 
-/// Asks for jittered frames, and accumulates them in a `Core`, as Taau.
+/// Requests jittered frames, and accumulates them in a `Core`, as Taau.
 template <class Core>
 class TaauMethod : public Resolver {
  public:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/job/look/view_args.h"
+#include "zoneplate/job/view_args.h"
 
 #include <fmt/format.h>
 
@@ -9,6 +9,7 @@
 #include "zoneplate/base/spec.h"
 #include "zoneplate/formats/import/import_budget.h"
 #include "zoneplate/formats/json/json.h"
+#include "zoneplate/job/values.h"
 #include "zoneplate/math/double3.h"
 #include "zoneplate/os/file.h"
 
@@ -22,8 +23,6 @@ struct NamedDirection {
 // iso: all three axes are equally long in a parallel projection, at an elevation of atan(1/√2).
 constexpr NamedDirection directions[] = {{"front", 0, 0}, {"right", 90, 0},   {"back", 180, 0},     {"left", -90, 0},
                                          {"top", 0, 90},  {"bottom", 0, -90}, {"iso", 45, 35.26439}};
-
-float radians_of(double degrees) { return static_cast<float>(degrees * 3.14159265358979323846 / 180); }
 
 /// The velocity of a member at key i.
 double3 velocity(const std::vector<KeyView>& keys, std::size_t i, double3 KeyView::*member) {
@@ -49,13 +48,10 @@ std::vector<std::string_view> view_names() {
 
 std::vector<ViewDirection> parse_views(const std::string& text) {
   std::vector<ViewDirection> out;
-  for (std::size_t at = 0; at <= text.size();) {
-    const std::size_t comma = std::min(text.find(',', at), text.size());
-    const std::string name = text.substr(at, comma - at);
+  for (const std::string& name : split_list(text)) {
     const auto row = std::ranges::find(directions, name, &NamedDirection::name);
     if (row == std::end(directions)) refuse_name("view", name, view_names());
     out.push_back({radians_of(row->azimuth), radians_of(row->elevation)});
-    at = comma + 1;
   }
   return out;
 }
