@@ -16,6 +16,7 @@
 #include <cstring>
 #include <filesystem>
 #include <memory>
+#include <string_view>
 #include <system_error>
 #include <utility>
 
@@ -115,6 +116,17 @@ void check_kind(const std::string& path, const struct stat& status) {
   if (S_ISCHR(status.st_mode) || S_ISBLK(status.st_mode)) refuse("a device");
 }
 
+/// Throws if an open file is the text that Git LFS keeps in its place until it is fetched.
+void check_is_fetched(int fd, const std::string& path, const struct stat& status) {
+  constexpr std::string_view pointer = "version https://git-lfs.github.com/spec/";
+  constexpr off_t size_limit = 1024;  // of Git LFS's specification
+  if (!S_ISREG(status.st_mode) || status.st_size >= size_limit) return;
+  std::array<char, pointer.size()> begin{};
+  if (::pread(fd, begin.data(), begin.size(), 0) == ssize_t{begin.size()} &&
+      std::string_view(begin.data(), begin.size()) == pointer)
+    throw Error(ErrorKind::Input, path + ": is a pointer of Git LFS to a file that is not fetched: see `git lfs pull`");
+}
+
 }  // namespace
 
 void check_is_file(const std::string& path) {
@@ -143,6 +155,7 @@ FileBytes::FileBytes(int fd, const std::string& path, std::uint64_t limit) {
   struct stat status {};
   if (fd < 0 || ::fstat(fd, &status) != 0) throw read_error(path, cause_of(errno));
   check_kind(path, status);
+  check_is_fetched(fd, path, status);
 
   // A file of known size is mapped; other inputs are read.
   if (S_ISREG(status.st_mode) && status.st_size > 0 && path != "-") {
@@ -168,6 +181,7 @@ void read_parts(const std::string& path, const std::function<bool(std::span<cons
   struct stat status {};
   if (fd < 0 || ::fstat(fd, &status) != 0) throw read_error(path, cause_of(errno));
   check_kind(path, status);
+  check_is_fetched(fd, path, status);
   std::vector<std::uint8_t> part(std::size_t{1} << 20);
   for (bool wants_more = true; wants_more;) {
     const std::size_t size = read_some(fd, part.data(), part.size(), path);

@@ -15,7 +15,8 @@ namespace zoneplate {
 ///
 /// The mapping counts as memory of the process (os/memory_limit.h).
 /// A FIFO, a device or a socket is refused at once, unless it is an open descriptor: "-", /dev/stdin or /dev/fd/N.
-/// Errors    ErrorKind::Input naming the file and the cause: missing, not a file, not readable, larger than `limit`.
+/// Errors    ErrorKind::Input naming the file and the cause: missing, not a file, not readable, larger than `limit`, a
+///           pointer of Git LFS.
 ///           For a file that is truncated while it is mapped: os/mapped_file_guard.h.
 class FileBytes {
  public:

@@ -159,6 +159,18 @@ TEST_F(File, SaysWhyItCannotBeRead) {
   EXPECT_NE(error_of(ErrorKind::Input, [&] { FileBytes("/proc/self/maps", 1); }).find("larger"), std::string::npos);
 }
 
+TEST_F(File, APointerOfGitLfsIsNotTheFile) {
+  const std::string text = "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a2146 (and more)\nsize 12345\n";
+  const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+  save_bytes(path("a.glb"), bytes);
+  const std::string refusal =
+      path("a.glb") + ": is a pointer of Git LFS to a file that is not fetched: see `git lfs pull`";
+  EXPECT_EQ(error_of(ErrorKind::Input, [&] { FileBytes(path("a.glb")); }), refusal);
+  EXPECT_EQ(error_of(ErrorKind::Input, [&] { read_parts(path("a.glb"), [](auto) { return true; }); }), refusal);
+  save_bytes(path("begin"), bytes.first(30));
+  EXPECT_EQ(loaded(path("begin")), std::vector<std::uint8_t>(bytes.begin(), bytes.begin() + 30));
+}
+
 TEST_F(File, SaysWhyItCannotBeWritten) {
   EXPECT_EQ(error_of(ErrorKind::Output, [&] { save_bytes(path("none/a.png"), made(1)); }),
             path("none/a.png") + ": cannot be written: no directory " + path("none"));
