@@ -21,7 +21,8 @@ fs.mkdirSync(folder, { recursive: true });
 for (const name of fs.readdirSync(path.join(root, 'node/package'))) fs.copyFileSync(path.join(root, 'node/package', name), at(name));
 for (const name of ['zoneplate.js', 'zoneplate.wasm']) fs.copyFileSync(path.join(build, name), at(name));
 for (const name of ['LICENSE', 'THIRD_PARTY.md']) fs.copyFileSync(path.join(root, name), at(name));
-fs.copyFileSync(path.join(root, 'docs/node.md'), at('README.md'));
+// The document without its image and without links to other documents, which a package does not have.
+fs.writeFileSync(at('README.md'), read('docs/node.md').replace(/^!\[.*\n\n/gm, '').replace(/\[([^\]]*)\]\((?!\w+:)[^)]*\)/g, '$1'));
 
 // The licences of the libraries whose code it contains.
 fs.mkdirSync(at('licenses'));

@@ -32,7 +32,9 @@ def platform_of(module):
 
 
 def metadata(version):
-    readme = (ROOT / "docs/python.md").read_text()
+    # The document without its image and without links to other documents, which a package does not have.
+    readme = re.sub(r"^!\[.*\n\n", "", (ROOT / "docs/python.md").read_text(), flags=re.MULTILINE)
+    readme = re.sub(r"\[([^\]]*)\]\((?!\w+:)[^)]*\)", r"\1", readme)
     return (
         f"Metadata-Version: 2.1\nName: zoneplate\nVersion: {version}\nSummary: {SUMMARY}\nLicense: Apache-2.0\n"
         "Requires-Python: >=3.11\nRequires-Dist: numpy\nDescription-Content-Type: text/markdown\n"

@@ -51,7 +51,7 @@ function addressOf(link, source, name) {
   return path.relative(path.dirname(name), known) + (fragment ? `#${fragment}` : '');
 }
 
-/// Where a visitor goes who does not read: below the first paragraph of the first page.
+/// Where a visitor goes who does not read: below the images of the first page.
 const doors = `<ul class="cards doors">${[['playground/index.html', 'Playground', 'Render scenes and models in this browser by two methods, and compare them pixel by pixel.'],
   ['lessons/index.html', 'Lessons', 'Artifacts and their remedies, side by side, with measurements and parameters to change.'],
   ['gallery/index.html', 'Gallery', 'Scenes in which antialiasing fails, by several methods, with errors and costs.']]
@@ -60,13 +60,19 @@ const doors = `<ul class="cards doors">${[['playground/index.html', 'Playground'
 function writeDocuments() {
   for (const { source, name, title } of documents) {
     const body = rendered(fs.readFileSync(path.join(root, source), 'utf8'), (link) => addressOf(link, source, name));
-    writePage(name, title, name === 'index.html' ? body.replace('</p>', () => `</p>${doors}`) : body, name);
+    writePage(name, title, name === 'index.html' ? body.replace('</table></div>', () => `</table></div>${doors}`) : body, name);
   }
 }
 
 // ---- lessons and gallery: pages that the program writes
 
 const card = (href, title, text, image) => `<a class="card" href="${href}">${image ? `<img src="${image}" alt="" loading="lazy">` : ''}<strong>${escapeText(title)}</strong><span>${escapeText(text)}</span></a>`;
+
+/// Adds the way back to a page of the program. Its bytes are kept.
+function addWayBack(name, title) {
+  const page = fs.readFileSync(at(name), 'latin1');
+  fs.writeFileSync(at(name), page.replace('<body>', () => `<body>\n<p style="margin: .75rem 1rem 0"><a href="index.html">&larr; ${title}</a></p>`), 'latin1');
+}
 
 /// A link to the first step of a lesson of the playground.
 const liveLink = (name, text) => `<a class="live" href="../playground/index.html#lesson=${name}&amp;${escapeText(new URLSearchParams(lessonOf(name).steps[0].state).toString())}">${text}</a>`;
@@ -76,6 +82,7 @@ function writeLessons() {
   const listed = run('demo', '--help').split('\nLessons:\n')[1].split('\n').map((line) => /^ {2}([a-z-]+) {2,}(.*)$/.exec(line)).filter((match) => match && match[1] !== 'all');
   const cards = listed.map(([, name, summary]) => {
     run('demo', name, '--html', `lessons/${name}.html`, '-o', `lessons/${name}.png`);
+    addWayBack(`lessons/${name}.html`, 'Lessons');
     const drawn = `<a class="live" href="../playground/index.html#demo=${name}">Change its parameters</a>`;
     const live = drawn + (lessonOf(name) ? liveLink(name, 'Continue step by step') : '');
     index.push({ page: `lessons/${name}.html`, title: 'Lessons', heading: name, text: summary });
@@ -94,6 +101,7 @@ function writeGallery() {
     const options = look.split(',').filter(Boolean).flatMap((item) => [`--${item.split('=')[0]}`, item.split('=')[1]]);
     const more = frames ? ['--frames', String(frames)] : ['--turns', '1'];
     run('compare', scene, '--aa', methods, '--size', size, '--html', `gallery/${scene}.html`, '--quiet', ...more, ...options);
+    addWayBack(`gallery/${scene}.html`, 'Gallery');
     run('render', scene, '--aa', 'none', '--size', '320x180', '-o', `gallery/${scene}.png`, '--quiet', ...options);
     const { summary, artifact } = scenes.find(({ name }) => name === scene), about = artifact || summary;
     index.push({ page: `gallery/${scene}.html`, title: 'Gallery', heading: scene, text: about });

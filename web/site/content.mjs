@@ -11,7 +11,7 @@ export const failures = [
 
 /// The documents in the order of reading, in groups; those that are in none come last.
 export const documentGroups = [
-  ['Start', ['README.md', 'docs/images.md', 'docs/ci.md', 'docs/farms.md', 'docs/formats.md', 'docs/playground.md', 'docs/python.md', 'docs/node.md', 'docs/library.md', 'docs/api.md']],
+  ['Start', ['README.md', 'docs/images.md', 'docs/ci.md', 'docs/farms.md', 'docs/formats.md', 'docs/playground.md', 'docs/python.md', 'docs/node.md', 'docs/api.md']],
   ['Antialiasing', ['docs/compare.md', 'docs/reference.md', 'docs/post-process.md', 'docs/temporal.md', 'docs/upscaling.md', 'docs/sdf.md']],
   ['Textures and light', ['docs/textures.md', 'docs/environment.md', 'docs/shadows.md']],
   ['Design', ['docs/architecture.md', 'docs/performance.md', 'docs/optimization.md']],

@@ -20,7 +20,8 @@ export function rendered(markdown, addressOf) {
     })
     // Options do not break after their hyphens.
     .replace(/(?<!<pre>)<code>([^<]*)<\/code>/g, (_, text) => `<code>${text.replace(/(?<![^\s])-[\w-]{1,29}(?![\w-])/g, '<span>$&</span>')}</code>`)
-    .replace(/<img src="([^"]*)"/g, (_, link) => `<img src="${addressOf(link) ?? link}"`)
+    // A click shows an image in its own size.
+    .replace(/<img src="([^"]*)"([^>]*)>/g, (_, link, rest) => ((address) => `<a href="${address}"><img src="${address}"${rest}></a>`)(addressOf(link) ?? link))
     .replace(/<th([^>]*)><\/th>/g, '<td$1></td>')
     .replace(/<pre>/g, '<pre tabindex="0">')
     .replace(/<table>/g, '<div class="table" tabindex="0"><table>').replace(/<\/table>/g, '</table></div>');

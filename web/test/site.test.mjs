@@ -30,6 +30,7 @@ test('no link of a document is broken', () => {
       ++links;
     }
   assert.ok(links > 500, `${links} links`);
+  for (const page of pages.filter((name) => /^(lessons|gallery)\/(?!index)/.test(name))) assert.ok(read(page).includes('<a href="index.html">'), `${page} leads nowhere`);
 });
 
 for (const [kind, addressOf] of [['a file', (name) => path.join(site, name)], ['a server', (name) => `${server.address}/${name}`]]) {
@@ -64,7 +65,7 @@ test('a page of the playground that is a file states what to do', async () => {
 });
 
 test('no page is wider than a narrow window', async () => {
-  for (const name of ['index.html', 'docs/textures.html', 'lessons/index.html', 'gallery/index.html']) {
+  for (const name of pages.filter((page) => !/^(playground\/|(lessons|gallery)\/(?!index))/.test(page))) {
     const page = await browser.page({ width: 390, height: 800 });
     await page.open(path.join(site, name));
     assert.ok(await page.evaluate('document.documentElement.scrollWidth') <= 390, name);
