@@ -2,11 +2,12 @@
 # The fuzz targets of libFuzzer, fuzz_<format>, and the program that writes their seeds. They need clang.
 #
 # They take in the readers alone, and no child process, which would hide from the sanitizers (fuzz/child_seam.cpp).
-set(fuzzed_sources ${library_sources} ${readers})
-list(FILTER fuzzed_sources INCLUDE REGEX "^src/zoneplate/(base|os|math|image|signal|sdf|codec|scene|formats)/|/builtin_makers_table")
-list(FILTER fuzzed_sources EXCLUDE REGEX "formats/gltf/draco\\.cpp$|os/limited_child\\.cpp$")
-set(fuzzed_simd_sources ${simd_sources})
-list(FILTER fuzzed_simd_sources INCLUDE REGEX "^src/zoneplate/(base|os|math|image|signal|sdf|codec|scene|formats)/")
+set(fuzzed_rooms base os math image signal sdf codec scene formats)
+sources_of(fuzzed_sources ${fuzzed_rooms})
+list(REMOVE_ITEM fuzzed_sources src/zoneplate/formats/gltf/draco.cpp src/zoneplate/os/limited_child.cpp)
+list(APPEND fuzzed_sources ${generated}/builtin_makers_table.cpp)
+list(TRANSFORM fuzzed_rooms REPLACE "(.+)" "src/zoneplate/\\1/*_simd.cpp" OUTPUT_VARIABLE fuzzed_kernels)
+file(GLOB_RECURSE fuzzed_simd_sources RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS ${fuzzed_kernels})
 
 add_library(zoneplate_fuzzed STATIC ${fuzzed_sources} fuzz/draco_seam.cpp fuzz/child_seam.cpp)
 foreach(isa IN LISTS isas)
@@ -38,8 +39,8 @@ foreach(format IN LISTS fuzz_formats)
   target_link_libraries(fuzz_${format} PRIVATE zoneplate_fuzzed)
   target_link_options(fuzz_${format} PRIVATE -fsanitize=fuzzer)
 endforeach()
-add_executable(fuzz_item fuzz/item_fuzz.cpp src/zoneplate/cli/process/item_messages.cpp src/zoneplate/cli/render/packed_summary.cpp
-               src/zoneplate/cli/percents.cpp)
+add_executable(fuzz_item fuzz/item_fuzz.cpp src/zoneplate/process/item_messages.cpp src/zoneplate/process/packed_summary.cpp
+               src/zoneplate/process/percents.cpp)
 target_link_libraries(fuzz_item PRIVATE zoneplate_fuzzed)
 target_link_options(fuzz_item PRIVATE -fsanitize=fuzzer)
 add_executable(fuzz_seeds fuzz/seeds.cpp)
@@ -49,5 +50,6 @@ target_link_libraries(fuzz_seeds PRIVATE zoneplate_fuzzed ${tiff_library})
 # The default target builds the fuzz targets alone. The shared library would not even link: clang's sanitizers are part of
 # a program, never of a library.
 list(TRANSFORM isas PREPEND zoneplate_ OUTPUT_VARIABLE kernels)
-set_target_properties(zoneplate zoneplate_objects zoneplate_readers zoneplate_shared ${kernels} zoneplate_cli zoneplate_program
+set_target_properties(zoneplate zoneplate_objects zoneplate_readers zoneplate_shared ${kernels} zoneplate_process zoneplate_imaging
+                      zoneplate_evaluate zoneplate_lessons zoneplate_cli zoneplate_program
                       PROPERTIES EXCLUDE_FROM_ALL ON)

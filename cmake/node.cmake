@@ -15,9 +15,10 @@ set_source_files_properties(src/zoneplate/codec/exr/exr.cpp src/zoneplate/codec/
 # The package defines it itself.
 set_source_files_properties(src/zoneplate/shade/environment/prepare_studio.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 
-set(package_sources ${all_sources})
-list(FILTER package_sources INCLUDE REGEX "^src/zoneplate/(capi|codec|formats|job|metrics)/|report/(json|scene_contents)\\.cpp$")
-list(FILTER package_sources EXCLUDE REGEX "_(simd|test)\\.cpp$|formats/(assimp|font)/|/(draco|in_child)\\.cpp$")
+sources_of(package_sources capi codec formats job metrics)
+sources_of(left_out formats/assimp formats/font)
+list(REMOVE_ITEM package_sources ${left_out} src/zoneplate/formats/gltf/draco.cpp src/zoneplate/codec/system/in_child.cpp)
+list(APPEND package_sources src/zoneplate/report/json.cpp src/zoneplate/report/scene_contents.cpp)
 make_table(package_sources metrics metrics metrics/metrics.h Metric zoneplate::metrics metrics "")
 add_executable(zoneplate_node EXCLUDE_FROM_ALL node/native/module.cpp node/native/libraries.cpp
                node/native/flip_kernels.cpp web/file_bytes.cpp ${package_sources})

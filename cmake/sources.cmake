@@ -22,17 +22,25 @@ target_include_directories(zoneplate_flags INTERFACE ${CMAKE_CURRENT_SOURCE_DIR}
 configure_file(cmake/version.h.in ${generated}/zoneplate/version.h)
 
 # Sources are found by their place and name: foo.cpp, foo_simd.cpp (once per instruction set), foo_test.cpp.
-file(GLOB_RECURSE all_sources RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS src/zoneplate/*.cpp)
-set(library_sources ${all_sources})
-list(FILTER library_sources EXCLUDE REGEX "^src/zoneplate/cli/|_test\\.cpp$|_simd\\.cpp$")
-set(simd_sources ${all_sources})
-list(FILTER simd_sources INCLUDE REGEX "_simd\\.cpp$")
-set(test_sources ${all_sources})
-list(FILTER test_sources INCLUDE REGEX "_test\\.cpp$")
-set(cli_sources ${all_sources})
-list(FILTER cli_sources INCLUDE REGEX "^src/zoneplate/cli/")
-list(FILTER cli_sources EXCLUDE REGEX "_test\\.cpp$|_simd\\.cpp$|/main\\.cpp$")
+file(GLOB_RECURSE all_kernels RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS src/zoneplate/*_simd.cpp)
+file(GLOB_RECURSE all_tests RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS src/zoneplate/*_test.cpp)
+set(simd_sources ${all_kernels})
+set(test_sources ${all_tests})
 file(GLOB whole_tests RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS tests/*_test.cpp)
+
+# The other sources of these folders of src/zoneplate and of the folders in them.
+function(sources_of sources)
+  list(TRANSFORM ARGN PREPEND src/zoneplate/ OUTPUT_VARIABLE patterns)
+  list(TRANSFORM patterns APPEND /*.cpp)
+  file(GLOB_RECURSE found RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS ${patterns})
+  list(REMOVE_ITEM found ${all_kernels} ${all_tests})
+  set(${sources} ${found} PARENT_SCOPE)
+endfunction()
+sources_of(all_sources .)
+# The rooms of the program, which are libraries of their own (CMakeLists.txt).
+sources_of(program_sources process batch imaging evaluate lessons cli)
+set(library_sources ${all_sources})
+list(REMOVE_ITEM library_sources ${program_sources})
 
 set_source_files_properties(src/zoneplate/scene/geometry/smooth_normals.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS -fno-math-errno) # roots in vectors, of the same bits
 
@@ -118,7 +126,7 @@ function(compile_folders_together target)
   foreach(source IN LISTS sources)
     get_filename_component(folder ${source} DIRECTORY)
     if(source MATCHES "/codec/[^/]+$|/codec/(animated|bitmap|ktx2)/|/scene/builtin/" OR
-       (source MATCHES "/antialias/|/metrics/|/cli/demo/" AND NOT source MATCHES "_test\\.cpp$"))
+       (source MATCHES "/antialias/|/metrics/|/lessons/" AND NOT source MATCHES "_test\\.cpp$"))
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     else()
       string(MAKE_C_IDENTIFIER "${folder}" group)

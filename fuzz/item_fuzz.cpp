@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "zoneplate/cli/process/item_messages.h"
-#include "zoneplate/cli/render/packed_summary.h"
+#include "zoneplate/process/item_messages.h"
+#include "zoneplate/process/packed_summary.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace zoneplate;

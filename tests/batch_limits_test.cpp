@@ -11,7 +11,7 @@
 
 #include "measured_run.h"
 #include "zoneplate/base/paths_for_test.h"
-#include "zoneplate/cli/program_for_test.h"
+#include "zoneplate/os/program_for_test.h"
 
 namespace {
 

@@ -17,9 +17,9 @@
 
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/paths_for_test.h"
-#include "zoneplate/cli/demo/demo.h"
-#include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/cli/verbs.h"
+#include "zoneplate/lessons/demo.h"
+#include "zoneplate/os/program_for_test.h"
 #include "zoneplate/report/json_for_test.h"
 #include "zoneplate/upscale/upscaler.h"
 #include "zoneplate/version.h"
@@ -103,7 +103,7 @@ TEST(Documents, TheReadmeNamesEveryVerbLessonMethodAndUpscaler) {
   };
   for (const zoneplate::cli::Verb& verb : zoneplate::cli::all_verbs())
     EXPECT_NE(readme.find("zoneplate " + std::string(verb.name)), std::string::npos) << verb.name;
-  for (const zoneplate::cli::Demo& lesson : zoneplate::cli::demos()) expect_named(lesson.name);
+  for (const zoneplate::lessons::Demo& lesson : zoneplate::lessons::demos()) expect_named(lesson.name);
   for (const zoneplate::Method& method : zoneplate::antialias::methods()) expect_named(method.name);
   for (const zoneplate::Upscaler& upscaler : zoneplate::upscale::upscalers()) expect_named(upscaler.name);
   EXPECT_EQ(readme.find("Not supported yet"), std::string::npos);

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "zoneplate/base/paths_for_test.h"
-#include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/codec/exr/exr_encode.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/os/cache_folder.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/os/program_for_test.h"
 
 namespace zoneplate {
 namespace {

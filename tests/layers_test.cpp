@@ -12,6 +12,7 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -35,7 +36,25 @@ std::vector<std::string> lines_of(const fs::path& path) {
 std::vector<std::string> rooms() {
   std::vector<std::string> out;
   for (const std::string& line : lines_of(source / "layers.txt"))
-    if (!line.empty() && line[0] != '#') out.push_back(line);
+    if (!line.empty() && line[0] != '#' && line[0] != '!') out.push_back(line);
+  return out;
+}
+
+/// Whether a folder is a room or in one.
+bool is_within(const std::string& folder, const std::string& room) {
+  return folder == room || folder.starts_with(room + '/');
+}
+
+/// The lines `! room: ...` of layers.txt: rooms of which a room includes nothing itself.
+std::map<std::string, std::vector<std::string>> forbidden_rooms() {
+  std::map<std::string, std::vector<std::string>> out;
+  for (const std::string& line : lines_of(source / "layers.txt")) {
+    if (!line.starts_with("! ")) continue;
+    const std::size_t colon = line.find(':');
+    std::stringstream words(line.substr(colon + 1));
+    std::vector<std::string>& of_room = out[line.substr(2, colon - 2)];
+    for (std::string word; words >> word;) of_room.push_back(word);
+  }
   return out;
 }
 
@@ -134,6 +153,24 @@ TEST(Layers, NoIncludePointsUp) {
     }
   }
   EXPECT_GT(includes, 2000);
+}
+
+TEST(Layers, NoIncludeIsForbidden) {
+  const auto forbidden = forbidden_rooms();
+  EXPECT_TRUE(forbidden.contains("cli"));
+  const std::vector<std::string> order = rooms();
+  int files = 0;
+  for (const auto& [room, others] : forbidden)
+    for (const std::string& other : others) {
+      EXPECT_GT(std::ranges::count_if(order, [&](auto& listed) { return is_within(listed, other); }), 0) << other;
+      for (const fs::path& file : source_files()) {
+        if (is_test(file) || !is_within(file.parent_path(), room)) continue;
+        ++files;
+        for (const std::string& header : includes_of(file))
+          EXPECT_FALSE(is_within(fs::path(header).parent_path(), other)) << file << " includes " << header;
+      }
+    }
+  EXPECT_GT(files, 100);
 }
 
 TEST(Layers, PublicHeadersIncludePublicHeadersAlone) {

@@ -13,10 +13,10 @@
 #include <string>
 #include <vector>
 
-#include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/codec/exr/exr.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/formats/gltf/maker_for_test.h"
+#include "zoneplate/os/program_for_test.h"
 #include "zoneplate/report/json_for_test.h"
 
 namespace zoneplate {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "zoneplate/base/paths_for_test.h"
-#include "zoneplate/cli/program_for_test.h"
+#include "zoneplate/os/program_for_test.h"
 #include "zoneplate/report/html_page_for_test.h"
 
 namespace zoneplate {

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "zoneplate/base/utf8.h"
-#include "zoneplate/cli/program_for_test.h"
+#include "zoneplate/os/program_for_test.h"
 #include "zoneplate/os/sandbox.h"
 
 namespace zoneplate {

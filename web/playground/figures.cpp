@@ -11,7 +11,7 @@
 
 #include "answer.h"
 #include "zoneplate/base/error.h"
-#include "zoneplate/cli/demo/demo.h"
+#include "zoneplate/lessons/demo.h"
 #include "zoneplate/report/plot.h"
 #include "zoneplate/report/typeface.h"
 
@@ -29,7 +29,7 @@ Rgba8Image plot_picture(const Plot&, const PlotSize&, int) { return {}; }
 
 Json::Array figure_rows() {
   Json::Array out;
-  for (const cli::Demo& demo : cli::demos())
+  for (const lessons::Demo& demo : lessons::demos())
     out.push_back(Json::Object{{"name", demo.name}, {"summary", demo.summary}, {"params", params_of(demo.params)}});
   return out;
 }
@@ -42,14 +42,14 @@ std::vector<Rgba8Image>& drawn() {
   return images;
 }
 
-/// The scene of the lesson (cli/demo/demo.h), and its images as places in the module's memory, four bytes per pixel.
+/// The scene of the lesson (lessons/demo.h), and its images as places in the module's memory, four bytes per pixel.
 Json::Object draw(const std::string& text, int panel) {
   const std::string name = text.substr(0, text.find(':'));
-  const auto demo = std::ranges::find(cli::demos(), name, &cli::Demo::name);
-  if (demo == cli::demos().end()) throw Error(ErrorKind::Usage, name + ": no lesson of this name");
+  const auto demo = std::ranges::find(lessons::demos(), name, &lessons::Demo::name);
+  if (demo == lessons::demos().end()) throw Error(ErrorKind::Usage, name + ": no lesson of this name");
   const Settings settings("lesson", demo->params, text);
   drawn().clear();
-  Json scene = cli::page_scene({name, demo->make({panel}, settings)}, [](const Rgba8Image& image) {
+  Json scene = lessons::page_scene({name, demo->make({panel}, settings)}, [](const Rgba8Image& image) {
     drawn().push_back(image);
     return drawn().size() - 1;
   });

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/args.h"
 #include "zoneplate/cli/log.h"
-#include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/formats/assimp/assimp.h"
 #include "zoneplate/formats/load.h"
+#include "zoneplate/job/option_values.h"
 #include "zoneplate/job/output/aov_file.h"
 #include "zoneplate/job/values.h"
 #include "zoneplate/report/json.h"
+#include "zoneplate/report/report_version.h"
 #include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/scene/texture_filter.h"
 #include "zoneplate/upscale/upscaler.h"
@@ -41,7 +41,7 @@ std::string catalogue_text(std::string text, std::span<const Row> rows) {
 }
 
 std::string methods_text() {
-  return catalogue_text("Antialiasing methods (--anti-aliasing NAME:PARAMETER=VALUE,...):\n", antialias::methods());
+  return catalogue_text("Antialiasing methods (--anti-aliasing NAME:PARAMETER=VALUE,...):\n", method_catalogue());
 }
 
 std::string upscalers_text() {
@@ -79,7 +79,7 @@ Json catalogue_json(std::span<const Row> catalogue) {
   return rows;
 }
 
-Json methods_json() { return catalogue_json(antialias::methods()); }
+Json methods_json() { return catalogue_json(method_catalogue()); }
 Json upscalers_json() { return catalogue_json(upscale::upscalers()); }
 
 std::string scenes_text() {

@@ -63,8 +63,6 @@ std::string expat_version() {
 
 }  // namespace
 
-std::string program_name() { return fmt::format("{} {}", version, commit); }
-
 std::string version_text() {
   return fmt::format(
       "zoneplate {} ({}, {})\n"

@@ -9,7 +9,4 @@ namespace zoneplate::cli {
 /// that the program is linked with.
 std::string version_text();
 
-/// The version and the commit of this program: "1.2.0 0123456789ab". Programs of one name make the same files.
-std::string program_name();
-
 }  // namespace zoneplate::cli

@@ -61,6 +61,8 @@ int parse_quality(const std::string& text) {
   return static_cast<int>(parse_choice(text, {"fast", "default", "best"}));
 }
 
+std::span<const Method> method_catalogue() { return antialias::methods(); }
+
 Choices method_names() {
   std::vector<std::string_view> names;
   for (const Method& method : antialias::methods()) names.push_back(method.name);

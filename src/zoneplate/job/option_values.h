@@ -2,16 +2,20 @@
 // The values of render's options: parsers, and the names that options take.
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "zoneplate/job/job.h"
 #include "zoneplate/job/option.h"
+#include "zoneplate/render/method.h"
 
 namespace zoneplate {
 
 Choices stdout_formats();
+/// The antialiasing methods.
+std::span<const Method> method_catalogue();
 Choices method_names();
 Choices upscaler_names();
 Choices aov_names();

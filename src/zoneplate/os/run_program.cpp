@@ -118,7 +118,7 @@ class Child {
     // A process group of its own, so that the programs that it starts are killed with it.
     posix_spawnattr_t attributes;
     ::posix_spawnattr_init(&attributes);
-    // SIGTERM is for this process alone, which may finish its work first (cli/process/grace_period.h): an engine sends
+    // SIGTERM is for this process alone, which may finish its work first (process/grace_period.h): an engine sends
     // it to all. The program is ended by SIGKILL.
     sigset_t blocked;
     ::sigemptyset(&blocked), ::sigaddset(&blocked, SIGTERM);

@@ -7,12 +7,13 @@
 #include <filesystem>
 #include <iterator>
 
-#include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
-#include "zoneplate/cli/process/exr_layer.h"
+#include "zoneplate/cli/common_options.h"
+#include "zoneplate/evaluate/compare/methods.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/job/values.h"
 #include "zoneplate/metrics/metrics.h"
+#include "zoneplate/process/exr_layer.h"
 #include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/upscale/upscaler.h"
 
@@ -64,34 +65,6 @@ constexpr const char* notes =
     "of the same run. A method whose turns take more than 1.5 s gets fewer turns, as the report states. Memory is the\n"
     "increase of the process's resident memory in the first turn, with the history: a method needs it for each frame.\n"
     "All other results are the same on every machine.\n";
-
-bool is_method(std::string_view text) {
-  const std::string_view name = text.substr(0, text.find(':'));
-  return std::ranges::any_of(antialias::methods(), [&](const Method& m) { return m.name == name; });
-}
-
-/// Every method with its defaults and all of its variants.
-std::vector<std::string> all_methods() {
-  std::vector<std::string> out;
-  for (const Method& m : antialias::methods()) {
-    if (m.is_reference) continue;
-    out.emplace_back(m.name);
-    for (const std::string_view v : m.variants) out.push_back(fmt::format("{}:{}", m.name, v));
-  }
-  return out;
-}
-
-std::vector<std::string> methods_of(const std::string& text) {
-  std::vector<std::string> out;
-  for (const std::string& item : split_specs(text)) {
-    const std::vector<std::string> own = item == "all" ? all_methods() : std::vector{item};
-    for (const std::string& m : own) {
-      upscale::make_method(m);  // throws if it is invalid
-      if (std::ranges::find(out, m) == out.end()) out.push_back(m);
-    }
-  }
-  return out;
-}
 
 /// The default reference is valid for all scenes, at a quarter of the cost of `converged`. `analytic` is exact for
 /// edges, but it shades each surface of a pixel once and tests alpha on a grid, so that textures, highlights and alpha
@@ -168,7 +141,7 @@ Syntax compare_syntax(CompareArgs& args) {
 
 TrialOptions trial_options(const CompareArgs& args) {
   TrialOptions out{
-      .methods = methods_of(args.methods), .turns = args.turns, .metrics = metrics_of(args.metrics, args.frames)};
+      .methods = compared_methods(args.methods), .turns = args.turns, .metrics = metrics_of(args.metrics, args.frames)};
   out.reference = args.reference.empty() ? usual_reference : args.reference;
   if (!args.layer.empty() && is_method(out.reference))
     throw Error(ErrorKind::Usage, "--layer: requires --reference with an EXR image");

@@ -5,23 +5,17 @@
 #include <vector>
 
 #include "zoneplate/cli/args.h"
-#include "zoneplate/cli/compare/trial.h"
-#include "zoneplate/cli/process/ignore_args.h"
 #include "zoneplate/cli/render/args.h"
+#include "zoneplate/evaluate/compare/comparison.h"
 
 namespace zoneplate::cli {
 
 /// The arguments of `zoneplate compare`.
-struct CompareArgs {
+struct CompareArgs : CompareOptions {
   RenderArgs render;  ///< size, view, lights, tone mapping, limits: the options of `zoneplate render`
-  std::vector<std::string> scenes, command;
-  IgnoreArgs ignored;
-  std::string methods = "all", reference, layer, page, metrics;
+  std::string methods = "all", reference, metrics;
   bool replaces = false;  ///< an earlier comparison in the folder of the output
-
-  /// The beginning of the paths of its files.
-  std::string folder() const { return render.output + '/'; }
-  int turns = 3, frames = 1;
+  int turns = 3;
 };
 
 /// The applicable options of `render`, and the verb's own.

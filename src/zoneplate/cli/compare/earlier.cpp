@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/cli/packed.h"
 #include "zoneplate/formats/json/json.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/process/packed.h"
 
 namespace zoneplate::cli {
 namespace {

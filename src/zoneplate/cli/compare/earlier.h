@@ -5,7 +5,7 @@
 #include <set>
 #include <string>
 
-#include "zoneplate/cli/process/confined.h"
+#include "zoneplate/cli/confined.h"
 
 namespace zoneplate::cli {
 

@@ -12,24 +12,17 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/batch/items.h"
 #include "zoneplate/cli/args.h"
+#include "zoneplate/cli/common_options.h"
+#include "zoneplate/cli/confined.h"
 #include "zoneplate/cli/log.h"
-#include "zoneplate/cli/packed.h"
-#include "zoneplate/cli/process/confined.h"
-#include "zoneplate/cli/render/items.h"
+#include "zoneplate/cli/render/args.h"
 #include "zoneplate/cli/verbs.h"
-#include "zoneplate/codec/inspect/color_space.h"
-#include "zoneplate/codec/system/system_format.h"
-#include "zoneplate/formats/import/image_file.h"
-#include "zoneplate/formats/json/json.h"
-#include "zoneplate/image/orientation.h"
+#include "zoneplate/evaluate/fidelity.h"
 #include "zoneplate/job/options.h"
 #include "zoneplate/job/values.h"
 #include "zoneplate/math/angle.h"
-#include "zoneplate/metrics/compare.h"
-#include "zoneplate/metrics/file/picture_file.h"
-#include "zoneplate/metrics/metrics.h"
-#include "zoneplate/os/file.h"
 #include "zoneplate/report/table.h"
 
 namespace zoneplate::cli {
@@ -42,16 +35,6 @@ struct FidelityArgs {
   std::vector<std::string> peers = {"model-viewer", "filament", "babylon", "gltf-sample-viewer"};
   int threads = 0;
   ReadingLimits limits;
-};
-
-/// A view of a model in the light of an image.
-struct Scenario {
-  std::string name, model, environment;
-  float theta = 0, phi = 90, radius = 1;  ///< of the camera about the target, in degrees; phi from the up axis
-  float3 target{0, 0, 0};
-  float view_angle = 45;
-  bool has_background = false;
-  int2 size{0, 0};  ///< of the peers' images
 };
 
 /// The scene that all peers render: camera as <model-viewer>, no lights but the image, three.js' ACES curve. Most peers
@@ -87,81 +70,6 @@ std::vector<std::string> render_arguments(const Scenario& s, const FidelityArgs&
   else
     words.insert(words.end(), {"--no-background", "--opaque-glass"});
   return words;
-}
-
-/// The list of the file: a JSON array, or the member "scenarios" of an object.
-std::vector<Scenario> read_scenarios(const std::string& path, const LoadLimits& limits) {
-  const FileBytes file(path, limits.memory);
-  ImportBudget budget(path, limits);
-  JsonValue whole{.kind = JsonValue::Kind::Object, .keys = {"scenarios"}};
-  JsonValue value = parse_json(file.bytes(), budget);
-  const bool is_list = value.kind == JsonValue::Kind::List;
-  if (is_list) whole.items.push_back(std::move(value));
-  const JsonView view(is_list ? whole : value, path);
-  std::vector<Scenario> out;
-  for (std::size_t i = 0; i < view.count("scenarios"); ++i) {
-    const JsonView from = view.element("scenarios", i, "scenario");
-    Scenario& s = out.emplace_back();
-    s.name = from.text("name"), s.model = from.text("model");
-    s.environment = from.text("environment", from.text("lighting"));
-    if (s.name.empty() || s.model.empty() || s.environment.empty())
-      from.fail("needs a name, a model and an environment");
-    const JsonView orbit = from.object("orbit"), target = from.object("target");
-    s.theta = orbit.number("theta", 0.0f), s.phi = orbit.number("phi", 90.0f), s.radius = orbit.number("radius", 1.0f);
-    s.target = {target.number("x", 0.0f), target.number("y", 0.0f), target.number("z", 0.0f)};
-    s.view_angle = from.number("verticalFoV", 45.0f);
-    s.has_background = from.flag("renderSkybox", false);
-  }
-  return out;
-}
-
-double yiq_decibels(const metrics::Picture& reference, const metrics::Picture& test) {
-  const std::vector<metrics::Choice> metric = {metrics::choose_metric(metrics::metrics(), "yiq_rms:empty=1")};
-  const metrics::Comparands pictures{
-      .count = 1, .reference = [&](std::size_t) { return reference; }, .test = [&](std::size_t) { return test; }};
-  return metrics::compare(pictures, metric, metrics::Unfit::Refuse).results.at(0).value;
-}
-
-/// The intersection of what two images cover over the union.
-double alpha_overlap(const metrics::Picture& a, const metrics::Picture& b) {
-  double both = 0, either = 0;
-  for (int y = 0; y < a.display.height(); ++y)
-    for (int x = 0; x < a.display.width(); ++x) {
-      const double p = a.display(x, y).a, q = b.display(x, y).a;
-      both += std::min(p, q), either += std::max(p, q);
-    }
-  return either > 0 ? both / either : 1;
-}
-
-double median_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t n = values.size();
-  return n % 2 == 1 ? values[n / 2] : (values[n / 2 - 1] + values[n / 2]) / 2;
-}
-
-/// How a rendered image compares with those of the peers, and they with each other.
-struct Verdict {
-  std::string nearest;
-  double decibels = 0, median = 0, bound = 0, overlap = 0;
-  bool is_good() const { return decibels <= bound && overlap >= least_overlap; }
-  static constexpr double least_overlap = 0.995, always_good = -24, margin = 2;
-};
-
-Verdict judge(const metrics::Picture& ours, const std::map<std::string, metrics::Picture>& peers) {
-  Verdict v;
-  v.decibels = 1e300;
-  for (const auto& [name, peer] : peers) {
-    const double decibels = yiq_decibels(peer, ours);
-    if (decibels < v.decibels) v.decibels = decibels, v.nearest = name;
-    v.overlap = std::max(v.overlap, alpha_overlap(peer, ours));
-  }
-  std::vector<double> among_peers;
-  for (const auto& [name, test] : peers)
-    for (const auto& [other, reference] : peers)
-      if (name != other) among_peers.push_back(yiq_decibels(reference, test));
-  v.median = among_peers.empty() ? Verdict::always_good : median_of(among_peers);
-  v.bound = std::max(Verdict::always_good, v.median + Verdict::margin);
-  return v;
 }
 
 /// The folder that the scenarios' paths are relative to: that of the file, or the one above.
@@ -220,85 +128,28 @@ ConfinedRun confined_run(const FidelityArgs& args, const std::string& file, std:
   return {.name = file, .limits = args.limits, .readable = std::move(readable), .outputs = {}};
 }
 
-/// Reads the scenarios in a confined process.
 std::vector<Scenario> confined_scenarios(const FidelityArgs& args, const std::string& file) {
-  const std::vector<std::uint8_t> bytes = run_confined(confined_run(args, file, {file}), [&](Delivery& out) {
-    std::vector<Scenario> scenarios;
-    out.read(file, [&] { scenarios = read_scenarios(file, out.limits()); });
-    Packer packer;
-    packer.value(std::uint64_t{scenarios.size()});
-    for (const Scenario& s : scenarios) {
-      packer.text(s.name), packer.text(s.model), packer.text(s.environment);
-      packer.value(s.theta), packer.value(s.phi), packer.value(s.radius), packer.value(s.target);
-      packer.value(s.view_angle), packer.value(std::uint8_t{s.has_background});
-    }
-    out.set_result(std::move(packer).bytes());
-  });
-  Unpacker unpacker(bytes);
-  std::vector<Scenario> scenarios;
-  for (auto n = unpacker.value<std::uint64_t>(); n > 0; --n) {
-    Scenario& s = scenarios.emplace_back();
-    s.name = unpacker.text(), s.model = unpacker.text(), s.environment = unpacker.text();
-    s.theta = unpacker.value<float>(), s.phi = unpacker.value<float>(), s.radius = unpacker.value<float>();
-    s.target = unpacker.value<float3>(), s.view_angle = unpacker.value<float>();
-    s.has_background = unpacker.value<std::uint8_t>() != 0;
-  }
-  return scenarios;
+  return unpack_scenarios(
+      run_confined(confined_run(args, file, {file}), [&](Delivery& out) { read_scenarios(file, out); }));
 }
 
-metrics::Picture load_image(const std::string& path, Delivery& out) {
-  metrics::Picture picture;
-  out.read(path, [&] { picture = metrics::load_picture(path, out.limits().pixels); });
-  out.warn_of_flaw(picture.flaw), out.warn_of_flaw(picture.color_flaw);
-  return picture;
-}
-
-/// The size of an image as it is shown, which a confined process reads: from the header if it states that.
 int2 confined_size(const FidelityArgs& args, const std::string& image) {
-  const std::vector<std::uint8_t> bytes = run_confined(confined_run(args, image, {image}), [&](Delivery& out) {
-    std::optional<int2> size;
-    out.read(image, [&] {
-      const FileBytes file(image, out.limits().memory);
-      // The headers of TIFF, AVIF and JPEG XL state no orientation that would be read without the library.
-      if (!find_system_format(file.bytes())) size = find_image_size(file.bytes());
-      if (size && swaps_sides(read_file_color(file.bytes()).orientation)) std::swap(size->x, size->y);
-    });
-    if (!size) {
-      const metrics::Picture picture = load_image(image, out);
-      size = {picture.width(), picture.height()};
-    }
-    Packer packer;
-    packer.value(*size);
-    out.set_result(std::move(packer).bytes());
-  });
-  const int2 size = Unpacker(bytes).value<int2>();
+  const int2 size = unpack_size(
+      run_confined(confined_run(args, image, {image}), [&](Delivery& out) { read_shown_size(image, out); }));
   if (size.x < 1 || size.y < 1) throw Error(ErrorKind::Input, image + ": has no pixels");
   return size;
 }
 
-/// Compares the rendered image with those of the peers, in a confined process.
-Verdict confined_verdict(const FidelityArgs& args, const std::string& output,
-                         const std::map<std::string, std::string>& peers) {
+FidelityVerdict confined_verdict(const FidelityArgs& args, const std::string& output,
+                                 const std::map<std::string, std::string>& peers) {
   std::vector<std::string> readable{output};
   for (const auto& [name, image] : peers) readable.push_back(image);
-  const std::vector<std::uint8_t> bytes = run_confined(confined_run(args, output, readable), [&](Delivery& out) {
-    std::map<std::string, metrics::Picture> pictures;
-    for (const auto& [name, image] : peers) pictures.emplace(name, load_image(image, out));
-    const Verdict v = judge(load_image(output, out), pictures);
-    Packer packer;
-    packer.text(v.nearest);
-    packer.value(v.decibels), packer.value(v.median), packer.value(v.bound), packer.value(v.overlap);
-    out.set_result(std::move(packer).bytes());
-  });
-  Unpacker unpacker(bytes);
-  Verdict v{.nearest = unpacker.text()};
-  v.decibels = unpacker.value<double>(), v.median = unpacker.value<double>(), v.bound = unpacker.value<double>();
-  v.overlap = unpacker.value<double>();
-  return v;
+  return unpack_verdict(
+      run_confined(confined_run(args, output, readable), [&](Delivery& out) { judge_fidelity(output, peers, out); }));
 }
 
 /// Renders a scenario as `zoneplate render` does, and compares it.
-Verdict verdict_of(const FidelityArgs& args, const std::string& file, Scenario scenario) {
+FidelityVerdict verdict_of(const FidelityArgs& args, const std::string& file, Scenario scenario) {
   if (scenario.name.find('/') != std::string::npos || scenario.name == "." || scenario.name == "..")
     throw Error(ErrorKind::Input,
                 fmt::format("{}: scenario '{}': its name is not that of a file", file, scenario.name));
@@ -307,10 +158,9 @@ Verdict verdict_of(const FidelityArgs& args, const std::string& file, Scenario s
   const std::string output = (fs::path(args.output) / (scenario.name + ".png")).string();
   std::optional<RenderArgs> render =
       parse_render_args(render_arguments(scenario, args, find_root(args, file, scenario), output));
-  render->progress = ProgressKind::None;
   render->load.limits = args.limits.load;
   render->max_seconds = args.limits.seconds, render->is_sandboxed = args.limits.is_sandboxed;
-  RenderItems({*render}).next();
+  RenderItems({*render}, {.warn = say_warning}).next();
   return confined_verdict(args, output, peers);
 }
 
@@ -332,7 +182,7 @@ void run_fidelity(std::span<const std::string> arguments) {
   Table table{{"scenario", "nearest", "dB", "peers' median", "bound", "overlap", "result"}, {}};
   int failed = 0;
   for (const Scenario& scenario : scenarios) {
-    Verdict v;
+    FidelityVerdict v;
     with_threads(args.threads, [&] { v = verdict_of(args, file, scenario); });
     if (!v.is_good()) ++failed;
     table.rows.push_back({scenario.name, v.nearest, fmt::format("{:.2f}", v.decibels), fmt::format("{:.2f}", v.median),

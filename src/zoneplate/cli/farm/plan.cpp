@@ -19,14 +19,14 @@
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/base/size_text.h"
-#include "zoneplate/cli/batch/ledger.h"
+#include "zoneplate/batch/item_files.h"
+#include "zoneplate/batch/ledger.h"
 #include "zoneplate/cli/render/batch.h"
 #include "zoneplate/cli/render/batch_items.h"
-#include "zoneplate/cli/render/item_files.h"
-#include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/job/render_job.h"
 #include "zoneplate/job/values.h"
+#include "zoneplate/report/report_version.h"
 
 namespace zoneplate::cli {
 namespace {

@@ -13,14 +13,14 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/cli/batch/ledger.h"
-#include "zoneplate/cli/process/confined.h"
+#include "zoneplate/batch/item_files.h"
+#include "zoneplate/batch/ledger.h"
+#include "zoneplate/batch/program_name.h"
+#include "zoneplate/cli/confined.h"
 #include "zoneplate/cli/render/batch_items.h"
-#include "zoneplate/cli/render/item_files.h"
-#include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/verbs.h"
-#include "zoneplate/cli/version.h"
 #include "zoneplate/job/picture.h"
+#include "zoneplate/report/report_version.h"
 
 namespace zoneplate::cli {
 namespace {

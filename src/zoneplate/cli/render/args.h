@@ -1,40 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <functional>
-#include <limits>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "zoneplate/batch/item.h"
+#include "zoneplate/batch/shard.h"
 #include "zoneplate/cli/args.h"
-#include "zoneplate/cli/batch/shard.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/progress.h"
 #include "zoneplate/job/check.h"
-#include "zoneplate/job/job.h"
 
 namespace zoneplate::cli {
 
 /// The arguments of `zoneplate render`.
-struct RenderArgs : Job {
-  std::uint64_t number = 0;         ///< of the item in its batch
+struct RenderArgs : BatchItem {
   std::vector<std::string> inputs;  ///< all inputs; `input` is the first
   std::string manifest;
   bool has_placeholders = false;  ///< the output's name depends on its input
   std::string shard_text;         ///< --shard as it is given; empty: all items
   Shard shard;                    ///< set from it by parse_render_args
-  bool skip_existing = false;
-  std::string ledger;  ///< folder of cli/batch/ledger.h; empty: none is kept
-  int retries = 0;     ///< of an item whose failure need not happen again
-  double grace = 0;    ///< seconds after SIGTERM in which an item may be finished
-  std::string given;   ///< the options that determine the images, as they were given, in lines "--size=512"
-  double max_seconds = std::numeric_limits<double>::infinity();  ///< limit of a whole item
-  bool is_sandboxed = true;                                      ///< if the kernel supports sandboxes
-  bool is_dry_run = false;                                       ///< report the items, and render none
-  std::string preset;                                            ///< section of the configuration; empty: none
+  int retries = 0;                ///< of an item whose failure need not happen again
+  bool is_dry_run = false;        ///< report the items, and render none
+  std::string preset;             ///< section of the configuration; empty: none
   bool reads_config = true;
   bool prints_json = false;
   Verbosity verbosity = Verbosity::Normal;

@@ -5,9 +5,9 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/spec.h"
-#include "zoneplate/cli/batch/input_names.h"
-#include "zoneplate/cli/batch/ledger.h"
-#include "zoneplate/cli/batch/output_name.h"
+#include "zoneplate/batch/input_names.h"
+#include "zoneplate/batch/ledger.h"
+#include "zoneplate/batch/output_name.h"
 #include "zoneplate/cli/config/config.h"
 #include "zoneplate/cli/render/args.h"
 #include "zoneplate/codec/save.h"
@@ -98,7 +98,7 @@ std::optional<RenderArgs> parse_render_args(std::span<const std::string> argumen
   parse(syntax, arguments);
   take_manifest(args, syntax.found_operands);
   args.shard = shard_of(args);
-  args.inputs = with_folders_listed(syntax.found_operands);
+  args.inputs = with_folders_listed(syntax.found_operands, say_warning);
   if (!args.manifest.empty()) {
     if (!args.inputs.empty())
       throw Error(ErrorKind::Usage, "--manifest lists the inputs: remove " + args.inputs.front());

@@ -16,18 +16,18 @@
 #include "zoneplate/base/clock.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/cli/batch/input_names.h"
-#include "zoneplate/cli/batch/output_files.h"
-#include "zoneplate/cli/batch/output_name.h"
-#include "zoneplate/cli/process/grace_period.h"
-#include "zoneplate/cli/process/item_error.h"
-#include "zoneplate/cli/render/item_files.h"
-#include "zoneplate/cli/render/items.h"
-#include "zoneplate/cli/render/job_report.h"
-#include "zoneplate/cli/report_version.h"
+#include "zoneplate/batch/input_names.h"
+#include "zoneplate/batch/item_files.h"
+#include "zoneplate/batch/items.h"
+#include "zoneplate/batch/job_report.h"
+#include "zoneplate/batch/output_files.h"
+#include "zoneplate/batch/output_name.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/job/render_job.h"
 #include "zoneplate/os/memory_limit.h"
+#include "zoneplate/process/grace_period.h"
+#include "zoneplate/process/item_error.h"
+#include "zoneplate/report/report_version.h"
 
 namespace zoneplate::cli {
 namespace {
@@ -52,7 +52,6 @@ class Batch {
   void add(const std::string& name, std::uint64_t number, const Make& make) {
     try {
       RenderArgs args = make();
-      args.progress = ProgressKind::None;
       const bool is_alike = !groups_.empty() && groups_.back().is_open(args);
       if (!is_alike) add_group().is_ahead = can_be_ahead(args);
       groups_.back().items.push_back({name, number, std::move(args), nullptr});
@@ -108,14 +107,14 @@ class Batch {
 
   void start(Group& group) {
     group.is_started = true;
-    std::vector<RenderArgs> to_render;
+    std::vector<BatchItem> to_render;
     for (Item& item : group.items) {
       item.is_rendered = !item.error && !common_.is_dry_run && !is_finished(item.args, ledger_);
       if (item.is_rendered) to_render.push_back(item.args);
     }
     if (to_render.empty()) return;
     group.threads = threads_ / static_cast<int>(std::min(most_at_once_, groups_.size()));
-    group.process.emplace(std::move(to_render), &processes_, ledger_);
+    group.process.emplace(std::move(to_render), RunEvents{.warn = say_warning}, &processes_, ledger_);
     with_threads(group.threads, [&] { group.process->start_ahead(); });
   }
 
@@ -179,7 +178,8 @@ class Batch {
   // In a process of its own.
   Summary next_attempt(const Item& item) {
     Summary summary;
-    with_threads(threads_, [&] { summary = RenderItems({item.args}, &processes_, ledger_).next(); });
+    with_threads(threads_,
+                 [&] { summary = RenderItems({item.args}, {.warn = say_warning}, &processes_, ledger_).next(); });
     return summary;
   }
 
@@ -218,7 +218,7 @@ class Batch {
     return line;
   }
 
-  // The word for the cause (cli/process/item_error.h), and the message.
+  // The word for the cause (process/item_error.h), and the message.
   static std::pair<std::string, std::string> cause_of(const std::string& name, const std::exception_ptr& error) {
     try {
       std::rethrow_exception(error);

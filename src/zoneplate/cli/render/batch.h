@@ -17,7 +17,7 @@ namespace zoneplate::cli {
 /// For consecutive items with the same input, the model is read once. As many models as there are threads are processed
 /// at once, unless their memory limits together exceed the machine's memory; the threads are divided among them. A
 /// failing item does not affect the others, even if its process is killed (items.h).
-/// With a ledger (cli/batch/ledger.h), files and results are recorded there, and what it records as whole is skipped.
+/// With a ledger (batch/ledger.h), files and results are recorded there, and what it records as whole is skipped.
 /// Errors    PartialFailure if some items failed, after all others are complete; Terminated after SIGTERM, within the
 ///           period of grace; ErrorKind::Usage for the manifest, and for a ledger of another batch.
 void render_batch(const RenderArgs& args);

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "zoneplate/cli/batch/ledger.h"
-#include "zoneplate/cli/batch/manifest.h"
+#include "zoneplate/batch/ledger.h"
+#include "zoneplate/batch/manifest.h"
 #include "zoneplate/cli/render/args.h"
 
 namespace zoneplate::cli {

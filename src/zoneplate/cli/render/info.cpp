@@ -5,17 +5,18 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/utf8.h"
 #include "zoneplate/cli/args.h"
+#include "zoneplate/cli/common_options.h"
+#include "zoneplate/cli/confined.h"
 #include "zoneplate/cli/log.h"
-#include "zoneplate/cli/packed.h"
-#include "zoneplate/cli/process/confined.h"
-#include "zoneplate/cli/process/item_process.h"
-#include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/job/import_time.h"
 #include "zoneplate/job/options.h"
 #include "zoneplate/job/values.h"
+#include "zoneplate/process/item_process.h"
+#include "zoneplate/process/packed.h"
 #include "zoneplate/report/json.h"
+#include "zoneplate/report/report_version.h"
 #include "zoneplate/report/scene_contents.h"
 
 namespace zoneplate::cli {
@@ -61,7 +62,7 @@ void run_info(std::span<const std::string> arguments) {
   ItemProcess process({.name = input == "-" ? "standard input" : input,
                        .load = options.limits,
                        .seconds = max_seconds,
-                       .is_sandboxed = uses_sandbox(is_sandboxed),
+                       .is_sandboxed = uses_sandbox(is_sandboxed, say_warning),
                        .readable = readable_paths(input, options)},
                       1, [&](std::size_t, ItemSender& sender) {
                         Scene scene;

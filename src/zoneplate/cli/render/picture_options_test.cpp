@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/codec/animated/animation_reader.h"
 #include "zoneplate/codec/png.h"
+#include "zoneplate/os/program_for_test.h"
 
 namespace zoneplate {
 namespace {

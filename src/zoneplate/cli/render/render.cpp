@@ -3,13 +3,13 @@
 
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/cli/batch/input_names.h"
+#include "zoneplate/batch/input_names.h"
+#include "zoneplate/batch/item_files.h"
+#include "zoneplate/batch/items.h"
+#include "zoneplate/batch/job_report.h"
 #include "zoneplate/cli/render/batch.h"
-#include "zoneplate/cli/render/item_files.h"
-#include "zoneplate/cli/render/items.h"
-#include "zoneplate/cli/render/job_report.h"
-#include "zoneplate/cli/usage.h"
 #include "zoneplate/cli/verbs.h"
+#include "zoneplate/os/usage.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {
@@ -29,6 +29,13 @@ void print_summary(const RenderArgs& args, const Summary& summary) {
         fmt::format("{}: {} × {}, {:.2f} s", summary.output, summary.width, summary.height, summary.total_ms() / 1000));
   if (!args.prints_json) return;
   print_report(Json(summary_json(args, summary)).text() + '\n', args.output == "-");
+}
+
+Summary render_item(const RenderArgs& args) {
+  Progress progress(args.progress ? *args.progress : parse_progress("auto"));
+  RunEvents events{.warn = say_warning};
+  if (progress.is_shown()) events.progress = [&](std::string_view stage, double done) { progress.begin(stage, done); };
+  return RenderItems({args}, std::move(events)).next();
 }
 
 }  // namespace
@@ -55,7 +62,7 @@ void run_render(std::span<const std::string> arguments) {
     return;
   }
   Summary summary;
-  with_isa(args.isa, [&] { with_threads(args.threads, [&] { summary = RenderItems({args}).next(); }); });
+  with_isa(args.isa, [&] { with_threads(args.threads, [&] { summary = render_item(args); }); });
   if (args.verbosity != Verbosity::Quiet)
     for (const std::string& warning : summary.warnings) say_warning(warning);
   print_summary(args, summary);

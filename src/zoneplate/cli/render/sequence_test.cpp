@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "zoneplate/cli/program_for_test.h"
 #include "zoneplate/codec/exr/exr.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/formats/gltf/maker_for_test.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/os/program_for_test.h"
 
 namespace zoneplate::cli {
 namespace {

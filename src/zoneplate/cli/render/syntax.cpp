@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
-#include "zoneplate/cli/process/confined.h"
+#include "zoneplate/cli/common_options.h"
+#include "zoneplate/cli/confined.h"
 #include "zoneplate/cli/render/args.h"
 #include "zoneplate/cli/render/environment_cache.h"
 #include "zoneplate/job/option_values.h"

@@ -1,40 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "zoneplate/cli/signal/args.h"
-#include "zoneplate/math/vec.h"
-#include "zoneplate/sdf/language/scene_file.h"
+#include "zoneplate/imaging/sdf/shape_scene.h"
+#include "zoneplate/imaging/sdf/show_field.h"
 
 namespace zoneplate::cli {
 
-/// The options of subcommands that take a scene of shapes.
-struct ShapeSceneArgs : SignalArgs {
-  std::optional<int2> size;
-  double scale = 1;
-  std::string font;  ///< a file; empty: DejaVu Sans
-};
-
 /// --size, --scale and --font.
-std::vector<Option> shape_scene_options(ShapeSceneArgs& args);
+std::vector<Option> shape_scene_options(ShapeSceneOptions& args);
 
-/// The outlines of `text` in scenes; the font is read when the first text needs it.
-std::function<sdf::Outline(std::string_view, double)> text_outlines(const ShapeSceneArgs& args);
-
-/// Reads the scene: a file, or - for stdin.
-///
-/// Errors    ErrorKind::Input, also for a file of more than 256 MiB.
-sdf::SceneFile load_shape_scene(const std::string& operand, const sdf::SceneFileOptions& options, Delivery& out);
-
-/// The pixels of the scene's canvas, or of its shapes with a margin; scaled, or fitted to the chosen size.
-///
-/// Errors    ErrorKind::Input for a scene without a canvas and without a finite shape; ErrorKind::Usage for an image of
-///           more than 2^28 pixels.
-sdf::Raster raster_of(const sdf::SceneFile& scene, const ShapeSceneArgs& args, const std::string& operand);
+/// The options --show and --spacing, which set `args`; `unit` names the field's unit in the help.
+std::vector<Option> field_view_options(FieldViewArgs& args, const std::string& unit);
 
 /// The paragraphs of the help about the language of scenes.
 std::string shape_scene_notes();

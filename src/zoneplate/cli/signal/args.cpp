@@ -8,14 +8,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/cli/filter/color.h"
-#include "zoneplate/cli/filter/items.h"
-#include "zoneplate/cli/process/exr_layer.h"
-#include "zoneplate/cli/report_version.h"
-#include "zoneplate/cli/signal/show.h"
-#include "zoneplate/codec/png.h"
-#include "zoneplate/codec/save.h"
-#include "zoneplate/image/transfer.h"
+#include "zoneplate/cli/common_options.h"
 #include "zoneplate/job/values.h"
 #include "zoneplate/signal/pattern/pattern.h"
 
@@ -32,38 +25,28 @@ void check_name(const std::string& path, std::initializer_list<std::string_view>
               fmt::format("--output: {}: expected a name that ends in {}, or -", path, fmt::join(endings, " or ")));
 }
 
-void save_values(const std::string& path, const Signal& values, Delivery& out) {
-  const metrics::ImageFile& file = values.origin.file;
-  const ExrStorage storage{.type = ExrType::Float, .is_converted = is_converted(values)};
-  warn_of_left_out(path, file.name, save_light(path, values.image, file, storage, out), out);
-}
-
 }  // namespace
 
-std::vector<Option> output_options(SignalArgs& args, const std::string& output_meaning) {
+std::vector<Option> output_options(SignalOptions& args, const std::string& output_meaning) {
   return {{"--output,-o", "FILE", output_meaning, group, true, [&](auto& text) { args.output = text; }},
           {"--json", "", "Print the result as one line of JSON", group, true, [&](auto&) { args.prints_json = true; }},
           {"--threads,-t", "N", "Maximum number of threads; 0, the default: the CPUs allowed by affinity and quota",
            group, false, [&](auto& text) { args.threads = parse_whole(text, 0, 1024); }}};
 }
 
-std::vector<Option> signal_options(SignalArgs& args, const std::string& output_meaning) {
+std::vector<Option> signal_options(SignalOptions& args, const std::string& output_meaning) {
   std::vector<Option> options = output_options(args, output_meaning);
   for (Option& option : limit_options(args.limits)) options.push_back(std::move(option));
   return options;
 }
 
-std::vector<Option> image_options(SignalArgs& args, const std::string& output_meaning) {
+std::vector<Option> image_options(SignalOptions& args, const std::string& output_meaning) {
   std::vector<Option> options = signal_options(args, output_meaning);
   options.insert(options.begin(), layer_option(args.layer));
   return options;
 }
 
-SignalChoice signal_choice(const SignalArgs& args, bool keeps_size) {
-  return {args.uses_codes, {args.layer, area_for(args.output, keeps_size)}};
-}
-
-void run_subcommand(const SignalArgs& args, const std::vector<std::string>& inputs,
+void run_subcommand(const SignalOptions& args, const std::vector<std::string>& inputs,
                     const std::vector<std::string>& more_outputs, const std::function<void(Delivery&)>& work) {
   ConfinedRun run{.name = inputs.empty() ? "the run" : inputs.front(), .limits = args.limits, .readable = inputs};
   run.outputs = more_outputs;
@@ -71,7 +54,7 @@ void run_subcommand(const SignalArgs& args, const std::vector<std::string>& inpu
   with_threads(args.threads, [&] { run_confined(run, work); });
 }
 
-Option codes_option(SignalArgs& args) {
+Option codes_option(SignalOptions& args) {
   return {"--codes", "",    "Compute on the stored sRGB codes, as many programs do, instead of in linear light",
           group,     false, [&](auto&) { args.uses_codes = true; }};
 }
@@ -111,48 +94,6 @@ std::string image_notes() {
 void check_picture_name(const std::string& path) { check_name(path, {".png"}); }
 void check_result_name(const std::string& path) { check_name(path, {".png", ".pfm", ".exr"}); }
 void check_plot_name(const std::string& path) { check_name(path, {".svg", ".png"}); }
-
-void save_picture(const std::string& path, const Rgba8Image& picture, Delivery& out, const ColorProfile& profile) {
-  const bool is_opaque =
-      std::all_of(picture.values().begin(), picture.values().end(), [](Rgba8 c) { return c.a == 255; });
-  out.save(path, encode_png(picture, {.has_alpha = !is_opaque, .profile = profile}));
-}
-
-void save_result(const std::string& path, const LinearImage& values, const std::function<Rgba8Image()>& picture,
-                 Delivery& out) {
-  save_signal(path, {values}, out, picture);
-}
-
-void save_signal(const std::string& path, const Signal& values, Delivery& out,
-                 const std::function<Rgba8Image()>& picture) {
-  const RgbSpacePtr &space = values.meaning.space, &original = values.origin.space;
-  const bool are_codes = values.meaning.are_codes, is_light_file = is_linear_file(path);
-  if (picture && !is_light_file) return save_picture(path, picture(), out);
-  const std::string ending = is_light_file ? extension_of(path) : ".png";
-  const bool is_stated = space && can_hold(ending, space->profile);
-  const bool is_kept = is_stated || (is_light_file && are_codes && space);
-  if (original && !original->is_standard && !is_kept)
-    warn_of_conversion(values.origin.file.name, *original,
-                       can_hold(ending, original->profile)
-                           ? "gives light but no codes"
-                           : fmt::format("{} cannot state", path == "-" ? "a PNG" : path),
-                       !is_light_file ? clamped_srgb
-                       : are_codes    ? "sRGB codes"
-                                      : rec709_light,
-                       out);
-  if (is_light_file) return save_values(path, is_kept ? values : in_rec709(values), out);
-  if (!is_stated) return save_picture(path, shown(in_rec709(values).image, are_codes), out);
-  const Rgba8Image codes =
-      are_codes || space->is_standard ? shown(values.image, are_codes) : quantize8(codes_of(values.image, *space));
-  save_picture(path, codes, out, space->profile);
-}
-
-void print_result(const SignalArgs& args, const std::string& text, const Json::Object& json, Delivery& out) {
-  Json::Object report{{"format", args.report}, {"version", report_version}};
-  report.insert(report.end(), json.begin(), json.end());
-  const std::string line = args.prints_json ? Json(std::move(report)).text() + '\n' : text;
-  if (args.output != "-" || args.prints_json) out.print_report(line, args.output == "-");
-}
 
 std::vector<int> parse_whole_list(const std::string& text, int low, int high) {
   std::vector<int> numbers;

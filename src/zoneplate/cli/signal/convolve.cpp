@@ -1,210 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // zoneplate signal convolve: convolution of an image or a list of numbers with a kernel, in space, by its spectrum, or
 // both.
-#include <fmt/format.h>
-
-#include <cmath>
-#include <optional>
-
-#include "zoneplate/base/clock.h"
+#include "zoneplate/imaging/signal/convolve.h"
 #include "zoneplate/base/error.h"
-#include "zoneplate/base/parallel.h"
-#include "zoneplate/base/utf8.h"
-#include "zoneplate/cli/signal/alpha.h"
-#include "zoneplate/cli/signal/convolve.h"
-#include "zoneplate/cli/signal/load.h"
-#include "zoneplate/cli/signal/show.h"
+#include "zoneplate/cli/signal/args.h"
 #include "zoneplate/cli/signal/signal.h"
 #include "zoneplate/job/values.h"
-#include "zoneplate/signal/filter/convolve.h"
 
 namespace zoneplate::cli {
 namespace {
-
-/// The difference of two computations of the same result.
-struct Difference {
-  double greatest = 0;
-  int x = 0, y = 0;
-};
-
-Difference difference(const LinearImage& a, const LinearImage& b) {
-  Difference out;
-  for (int y = 0; y < a.height(); ++y)
-    for (int x = 0; x < a.width(); ++x) {
-      const Linear &p = a(x, y), &q = b(x, y);
-      for (const float d : {p.r - q.r, p.g - q.g, p.b - q.b, p.a - q.a})
-        if (std::abs(static_cast<double>(d)) > out.greatest) out = {std::abs(static_cast<double>(d)), x, y};
-    }
-  return out;
-}
-
-double range_of(const LinearImage& image) {
-  float low = image.values()[0].r, high = low;
-  for (const Linear& c : image.values()) low = std::min({low, c.r, c.g, c.b}), high = std::max({high, c.r, c.g, c.b});
-  return static_cast<double>(high) - static_cast<double>(low);
-}
-
-template <class T>
-Plane<T> in_space(const Plane<T>& image, const KernelChoice& kernel, Border border) {
-  return kernel.is_separable() ? convolve_separable(image, kernel.taps, kernel.taps, {.border = border})
-                               : convolve(image, kernel.weights, {.border = border});
-}
-
-LinearImage convolved(const LinearImage& image, const KernelChoice& kernel, Border border, Via via) {
-  const auto way = [&](const auto& plane, Border rule) {
-    return via == Via::Space ? in_space(plane, kernel, rule) : convolve_by_fourier(plane, kernel.weights, rule);
-  };
-  LinearImage out = way(image, border);
-  if (border == Border::Zero) set_alpha(out, way(alpha_of(image), Border::Clamp));
-  return out;
-}
-
-struct Results {
-  LinearImage image;  ///< the image that is written
-  double space_ms = 0, frequency_ms = 0;
-  std::optional<Difference> apart;  ///< difference of the two computations
-  /// Difference between this border rule and the product of the unpadded spectra, which is the rule wrap.
-  std::optional<Difference> bare;
-};
-
-Results convolved(const ConvolveArgs& args, const LinearImage& image, const KernelChoice& kernel) {
-  Results out;
-  LinearImage by_product;
-  const Stopwatch watch;
-  if (args.via != Via::Frequency) out.image = convolved(image, kernel, args.border, Via::Space);
-  out.space_ms = watch.ms();
-  if (args.via == Via::Space) return out;
-  by_product = convolved(image, kernel, args.border, Via::Frequency);
-  out.frequency_ms = watch.ms() - out.space_ms;
-  if (args.via == Via::Frequency) {
-    out.image = std::move(by_product);
-    return out;
-  }
-  out.apart = difference(out.image, by_product);
-  if (args.border != Border::Wrap)
-    out.bare = difference(out.image, convolve_by_fourier(image, kernel.weights, Border::Wrap));
-  return out;
-}
-
-std::string text_of(const std::string& input, const ConvolveArgs& args, const LinearImage& image,
-                    const KernelChoice& kernel, const Results& results) {
-  std::string text = fmt::format("{}, {} × {} with {} ({} × {} weights, sum {:.6g}), border {}\n", printable(input),
-                                 image.width(), image.height(), kernel.name, kernel.weights.width(),
-                                 kernel.weights.height(), kernel.sum(), name_of(args.border));
-  if (!results.apart) return text;
-  const double range = range_of(image), relative = range > 0 ? results.apart->greatest / range : 0;
-  text += fmt::format(
-      "  in space {:.1f} ms, by the spectra {:.1f} ms\n"
-      "  greatest difference {:.3g} ({:.3g} of the range) at pixel {},{}\n",
-      results.space_ms, results.frequency_ms, results.apart->greatest, relative, results.apart->x, results.apart->y);
-  if (results.bare)
-    text += fmt::format("  the product of the spectra without padding would be {:.3g} off at pixel {},{}\n",
-                        results.bare->greatest, results.bare->x, results.bare->y);
-  return text;
-}
-
-Json::Object json_of(const std::string& input, const ConvolveArgs& args, const LinearImage& image,
-                     const KernelChoice& kernel, const Results& results) {
-  Json::Object json{{"input", input},
-                    {"output", args.output},
-                    {"width", image.width()},
-                    {"height", image.height()},
-                    {"kernel", kernel.name},
-                    {"kernel_width", kernel.weights.width()},
-                    {"kernel_height", kernel.weights.height()},
-                    {"kernel_sum", kernel.sum()},
-                    {"border", name_of(args.border)}};
-  const auto add = [&](const char* name, const std::optional<Difference>& d) {
-    if (d) json.emplace_back(name, Json::Object{{"greatest", d->greatest}, {"x", d->x}, {"y", d->y}});
-  };
-  if (results.apart) json.emplace_back("range", range_of(image));
-  add("difference", results.apart);
-  add("difference_of_bare_product", results.bare);
-  if (results.apart)
-    json.emplace_back("ms", Json::Object{{"space", results.space_ms}, {"frequency", results.frequency_ms}});
-  return json;
-}
-
-/// The result of a kernel with sum 0 is.
-bool is_signed(const KernelChoice& kernel) { return std::abs(kernel.sum()) < 1e-6; }
-
-Rgba8Image picture_of(const ConvolveArgs& args, const KernelChoice& kernel, const LinearImage& result) {
-  return is_signed(kernel) ? shown_around_grey(result) : shown(result, args.uses_codes);
-}
-
-/// The weights as grey levels, surrounded by weights of 0; the greatest is white. If some are negative, mid-grey is 0.
-Rgba8Image kernel_picture(const Plane<float>& weights, int2 size) {
-  float low = 0, greatest = 0;
-  for (const float w : weights.values()) low = std::min(low, w), greatest = std::max(greatest, std::abs(w));
-  const auto level = [&](float w) { return low < 0 ? 0.5f + 0.5f * w / greatest : greatest > 0 ? w / greatest : 0.0f; };
-
-  // Squares in the middle, as large as a margin allows; if there are more weights than pixels, the nearest weight is
-  // used.
-  const double cell =
-      0.75 * std::min(static_cast<double>(size.x) / weights.width(), static_cast<double>(size.y) / weights.height());
-  const auto place = [&](int x, int pixels, int count) {
-    return static_cast<int>(std::floor((x + 0.5 - pixels / 2.0) / cell + count / 2.0));
-  };
-  LinearImage image(size.x, size.y);
-  for (int y = 0; y < size.y; ++y)
-    for (int x = 0; x < size.x; ++x) {
-      const int i = place(x, size.x, weights.width()), j = place(y, size.y, weights.height());
-      const bool is_inside = i >= 0 && j >= 0 && i < weights.width() && j < weights.height();
-      const float v = level(is_inside ? weights(i, j) : 0);
-      image(x, y) = {v, v, v, 1};
-    }
-  return shown(image, true);
-}
-
-/// The spectrum of the kernel on a plane of the image's size.
-Spectrum spectrum_of(const Plane<float>& weights, int width, int height) {
-  Plane<double> plane(width, height);
-  for (int y = 0; y < weights.height(); ++y)
-    for (int x = 0; x < weights.width(); ++x)
-      plane(border_index(x, width, Border::Wrap), border_index(y, height, Border::Wrap)) +=
-          static_cast<double>(weights(x, y));
-  return fourier(plane);
-}
-
-Rgba8Image figure_of(const std::string& input, const ConvolveArgs& args, const LinearImage& image,
-                     const KernelChoice& kernel, const LinearImage& result) {
-  const Spectrum of_image = fourier(luminance(image)), of_result = fourier(luminance(result));
-  const Spectrum of_kernel = spectrum_of(kernel.weights, image.width(), image.height());
-  // With a common scale in decibels, the third image is the sum of the other two.
-  const double image_peak = strongest_magnitude(of_image), kernel_peak = strongest_magnitude(of_kernel);
-  return compose(
-      {.title = fmt::format("{} with {}", title_of(input), kernel.name),
-       .rows = {{{fitted(shown(image, args.uses_codes)), "Image\nThe input."},
-                 {kernel_picture(kernel.weights, panel_size(image.width(), image.height())),
-                  fmt::format("Kernel\n{} × {} weights, enlarged, with a border of zeros.", kernel.weights.width(),
-                              kernel.weights.height())},
-                 {fitted(picture_of(args, kernel, result)),
-                  "Convolution\nEach pixel is a weighted sum of its neighbourhood."}},
-                {{magnitude_panel(of_image, {.peak = image_peak}),
-                  "Spectrum of the image\nFrequency 0 in the middle, ½ cycle per pixel at the edges; 80 dB from black "
-                  "to the maximum."},
-                 {magnitude_panel(of_kernel, {.peak = kernel_peak}),
-                  "Spectrum of the kernel\nOn the same frequency scale."},
-                 {magnitude_panel(of_result, {.peak = image_peak * kernel_peak}),
-                  "Spectrum of the convolution\nThe product of the other two."}}},
-       .text = {}});
-}
-
-void convolve_image(const ConvolveArgs& args, const std::string& input, Delivery& out) {
-  Signal signal = load_as_stored(input, signal_choice(args, true), out);
-  if (args.is_side_by_side) signal = in_rec709(std::move(signal));
-  const LinearImage& image = signal.image;
-  const KernelChoice& kernel = args.kernel;
-  const Results results = convolved(args, image, kernel);
-  if (!args.output.empty() && args.is_side_by_side)
-    save_picture(args.output, figure_of(input, args, image, kernel, results.image), out);
-  else if (!args.output.empty() && is_signed(kernel))
-    save_signal(args.output, {results.image, signal.meaning, signal.origin}, out,
-                [&] { return picture_of(args, kernel, results.image); });
-  else if (!args.output.empty())
-    save_signal(args.output, {results.image, signal.meaning, signal.origin}, out);
-  print_result(args, text_of(input, args, image, kernel, results), json_of(input, args, image, kernel, results), out);
-}
 
 Plane<double> parse_values(const std::string& text) {
   Plane<double> values = parse_number_rows(text);
@@ -212,7 +16,7 @@ Plane<double> parse_values(const std::string& text) {
   return values;
 }
 
-Syntax make_syntax(ConvolveArgs& args) {
+Syntax make_syntax(ConvolutionOptions& args) {
   std::string notes =
       "Kernels: a name, as gaussian:sigma=2 (along rows and columns, its weights scaled to sum 1); numbers,\n"
       "as \"1/4 1/2 1/4\" (along rows) or \"-1 0 1; -2 0 2; -1 0 1\"; or a text file of numbers, row by row.\n"
@@ -266,7 +70,7 @@ Syntax make_syntax(ConvolveArgs& args) {
 }  // namespace
 
 void run_signal_convolve(std::span<const std::string> arguments) {
-  ConvolveArgs args;
+  ConvolutionOptions args;
   Syntax syntax = make_syntax(args);
   if (!parse(syntax, arguments)) return;
   if (args.values && !syntax.found_operands.empty())
@@ -275,11 +79,8 @@ void run_signal_convolve(std::span<const std::string> arguments) {
   args.values            ? check_plot_name(args.output)
   : args.is_side_by_side ? check_picture_name(args.output)
                          : check_result_name(args.output);
-  run_subcommand(args, {args.values ? args.kernel_file : input, args.kernel_file}, {}, [&](Delivery& out) {
-    if (!args.kernel_file.empty())
-      out.read(args.kernel_file, [&] { args.kernel = parse_kernel_choice(args.kernel_file); });
-    args.values ? convolve_row(args, out) : convolve_image(args, input, out);
-  });
+  run_subcommand(args, {args.values ? args.kernel_file : input, args.kernel_file}, {},
+                 [&](Delivery& out) { convolve_signal(input, args, out); });
 }
 
 }  // namespace zoneplate::cli

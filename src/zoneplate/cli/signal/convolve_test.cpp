@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/signal/kernel.h"
-#include "zoneplate/cli/signal/load.h"
 #include "zoneplate/cli/signal/signal.h"
 #include "zoneplate/cli/signal/signal_for_test.h"
+#include "zoneplate/imaging/signal/kernel.h"
+#include "zoneplate/imaging/signal/load.h"
 
 namespace zoneplate::cli {
 namespace {

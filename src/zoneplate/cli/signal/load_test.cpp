@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/signal/load.h"
+#include "zoneplate/imaging/signal/load.h"
 
-#include "zoneplate/cli/signal/show.h"
 #include "zoneplate/cli/signal/signal_for_test.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/imaging/signal/show.h"
 #include "zoneplate/signal/pattern/pattern.h"
 
 namespace zoneplate::cli {

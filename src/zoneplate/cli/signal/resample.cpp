@@ -1,59 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // zoneplate signal resample: resamples an image on another grid.
-#include <fmt/format.h>
-
-#include <cmath>
-
+#include "zoneplate/imaging/signal/resample.h"
 #include "zoneplate/base/error.h"
-#include "zoneplate/base/parallel.h"
-#include "zoneplate/base/utf8.h"
 #include "zoneplate/cli/signal/args.h"
-#include "zoneplate/cli/signal/load.h"
-#include "zoneplate/cli/signal/reduce.h"
-#include "zoneplate/cli/signal/show.h"
 #include "zoneplate/cli/signal/signal.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/imaging/signal/reduce.h"
 
 namespace zoneplate::cli {
 namespace {
 
-constexpr int greatest_side = 32768;
-
-struct ResampleArgs : SignalArgs {
-  std::string size, kernel = "lanczos3";
-  Border border = Border::Clamp;
-  bool is_side_by_side = false;
-};
-
-// Parses "640x480", "640,480", "0.5" or "50%".
-int2 size_from(const std::string& text, int width, int height) {
-  if (text.find_first_of("x,") != std::string::npos) return parse_size(text, greatest_side);
-  const bool is_percent = text.ends_with('%');
-  const double factor = parse_number(text.substr(0, text.size() - is_percent), 0, 1e6) / (is_percent ? 100 : 1);
-  const auto scaled = [&](int n) { return static_cast<int>(std::clamp(std::floor(n * factor + 0.5), 1.0, 1e9)); };
-  const int2 size{scaled(width), scaled(height)};
-  if (factor <= 0 || size.x > greatest_side || size.y > greatest_side)
-    throw Error(ErrorKind::Usage, fmt::format("--size: {} gives {} × {}, expected 1 to {} pixels a side", text, size.x,
-                                              size.y, greatest_side));
-  return size;
-}
-
-Rgba8Image figure_of(const std::string& input, const ResampleArgs& args, const LinearImage& image,
-                     const LinearImage& result) {
-  const LinearImage nearest = resampled(image, result.width(), result.height(), "nearest", args.border);
-  const auto panel = [&](const LinearImage& of, const std::string& caption) {
-    return Panel{fitted(shown(of, args.uses_codes)), caption};
-  };
-  return compose(
-      {.title = fmt::format("{}: {} × {} to {} × {}", title_of(input), image.width(), image.height(), result.width(),
-                            result.height()),
-       .rows = {{panel(image, "Image\nThe input."),
-                 panel(nearest, "nearest\nThe input pixel that contains each new centre."),
-                 panel(result, args.kernel + "\nEach new pixel is a weighted mean of the pixels around its centre.")}},
-       .text = {}});
-}
-
-Syntax make_syntax(ResampleArgs& args) {
+Syntax make_syntax(ResamplingOptions& args) {
   Syntax syntax{
       .verb = "signal resample",
       .summary = "Resample an image to another size",
@@ -95,38 +51,14 @@ Syntax make_syntax(ResampleArgs& args) {
 }  // namespace
 
 void run_signal_resample(std::span<const std::string> arguments) {
-  ResampleArgs args;
+  ResamplingOptions args;
   Syntax syntax = make_syntax(args);
   if (!parse(syntax, arguments)) return;
   const std::string& input = only_operand(syntax, "one IMAGE");
   if (args.size.empty()) throw Error(ErrorKind::Usage, "--size is missing: the new size, such as 640x480 or 50%");
   if (args.output.empty()) throw Error(ErrorKind::Usage, "--output is missing: the image file to write");
   args.is_side_by_side ? check_picture_name(args.output) : check_result_name(args.output);
-  run_subcommand(args, {input}, {}, [&](Delivery& out) {
-    Signal signal = load_as_stored(input, signal_choice(args, true), out);
-    if (args.is_side_by_side) signal = in_rec709(std::move(signal));
-    const int2 seen = displayed_size(signal), asked = size_from(args.size, seen.x, seen.y);
-    if (asked != seen) crop_to_display(signal);
-    const LinearImage& image = signal.image;
-    const int2 size = asked != seen ? asked : int2{image.width(), image.height()};
-    const Signal result{resampled(image, size.x, size.y, args.kernel, args.border), signal.meaning, signal.origin};
-    if (args.is_side_by_side)
-      save_picture(args.output, figure_of(input, args, image, result.image), out);
-    else
-      save_signal(args.output, result, out);
-    print_result(args,
-                 fmt::format("{}, {} × {} to {} × {} by {}, border {}\n", printable(input), image.width(),
-                             image.height(), size.x, size.y, args.kernel, name_of(args.border)),
-                 {{"input", input},
-                  {"output", args.output},
-                  {"width", size.x},
-                  {"height", size.y},
-                  {"from_width", image.width()},
-                  {"from_height", image.height()},
-                  {"kernel", args.kernel},
-                  {"border", name_of(args.border)}},
-                 out);
-  });
+  run_subcommand(args, {input}, {}, [&](Delivery& out) { resample_image(input, args, out); });
 }
 
 }  // namespace zoneplate::cli

@@ -3,9 +3,9 @@
 #include <cstdlib>
 
 #include "zoneplate/base/paths_for_test.h"
-#include "zoneplate/cli/signal/load.h"
 #include "zoneplate/cli/signal/signal.h"
 #include "zoneplate/cli/signal/signal_for_test.h"
+#include "zoneplate/imaging/signal/load.h"
 
 namespace zoneplate::cli {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/report_version.h"
 #include "zoneplate/cli/signal/signal.h"
 #include "zoneplate/cli/signal/signal_for_test.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/metrics/flip/magma.h"
+#include "zoneplate/report/report_version.h"
 
 namespace zoneplate::cli {
 namespace {
