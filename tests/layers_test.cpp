@@ -230,6 +230,28 @@ TEST(Layers, NoExceptionCanPassThroughCallOnce) {
   EXPECT_GT(files, 700);
 }
 
+// tests/bit_tests.txt has the tests that other processors run.
+TEST(Layers, TestsOfInstructionSetsRunOnOtherProcessors) {
+  std::set<std::string> listed;
+  for (const std::string& line : lines_of(source / "../../tests/bit_tests.txt")) {
+    if (line.starts_with('#')) continue;
+    EXPECT_TRUE(listed.insert(line.substr(line.starts_with("- ") ? 2 : 0)).second) << line;
+  }
+  for (const std::string& test : listed)
+    EXPECT_TRUE(fs::exists(source / "../.." / test)) << test << " is listed and does not exist";
+  const std::vector<std::string> order = rooms();
+  const auto core_end = std::find(order.begin(), order.end(), "os");
+  int tests = 0;
+  for (const fs::path& file : source_files()) {
+    const bool is_core = std::find(order.begin(), core_end, file.parent_path()) != core_end;
+    if (!is_core || !file.stem().string().ends_with("_test")) continue;
+    if (code_of(file).find("supported_isas") == std::string::npos) continue;
+    ++tests;
+    EXPECT_TRUE(listed.contains("src/zoneplate/" + file.string())) << file << ": tests/bit_tests.txt does not list it";
+  }
+  EXPECT_GT(tests, 20);
+}
+
 TEST(Layers, NoFolderIsCrowded) {
   std::map<fs::path, std::size_t> files;
   for (const auto& entry : fs::recursive_directory_iterator(source))
