@@ -13,56 +13,14 @@
 #include <string>
 #include <vector>
 
-#include "zoneplate/cli/program_for_test.h"
+#include "option_rows_for_test.h"
+#include "zoneplate/os/program_for_test.h"
 #include "zoneplate/zoneplate.h"
 
 namespace zoneplate {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// An option as a name and a text; a switch has an empty one.
-using OptionText = std::pair<std::string, std::string>;
-
-/// A line of tests/options/rows.txt.
-struct Row {
-  OptionText option;
-  std::string model, output;
-  std::vector<OptionText> others;
-  bool changes_bytes = true;
-};
-
-OptionText split(const std::string& text, char at) {
-  const std::size_t end = text.find(at);
-  return {text.substr(0, end), end == text.npos ? "" : text.substr(end + 1)};
-}
-
-std::string trimmed(const std::string& text) {
-  const std::size_t first = text.find_first_not_of(' ');
-  return first == text.npos ? "" : text.substr(first, text.find_last_not_of(' ') + 1 - first);
-}
-
-std::vector<Row> rows() {
-  std::vector<Row> out;
-  std::ifstream file(fs::path(source_root) / "tests/options/rows.txt");
-  for (std::string line; std::getline(file, line);) {
-    if (line.empty() || line[0] == '#') continue;
-    std::stringstream parts(line);
-    std::vector<std::string> columns;
-    for (std::string part; std::getline(parts, part, '|');) columns.push_back(trimmed(part));
-    columns.resize(4);
-    Row row{.option = split(columns[0], ' '), .model = columns[1], .output = columns[2]};
-    std::stringstream others(columns[3]);
-    for (std::string word; others >> word;) {
-      if (word == "=")
-        row.changes_bytes = false;
-      else
-        row.others.push_back(split(word, '='));
-    }
-    out.push_back(std::move(row));
-  }
-  return out;
-}
 
 /// The names of the rows of the table.
 std::set<std::string> table() {
@@ -120,7 +78,7 @@ class JobOptions : public ProgramTest {
     fs::remove_all(place / folder);
     fs::create_directory(place / folder);
   }
-  std::map<std::string, std::string> by_command(const Row& row, const std::vector<OptionText>& options) const {
+  std::map<std::string, std::string> by_command(const OptionRow& row, const std::vector<OptionText>& options) const {
     empty("command");
     std::string text = fmt::format("render {} -o 'command/{}' -q", row.model, row.output);
     for (const auto& [name, value] : options)
@@ -129,7 +87,7 @@ class JobOptions : public ProgramTest {
     EXPECT_EQ(answer.code, 0) << text << '\n' << answer.out;
     return files("command");
   }
-  std::map<std::string, std::string> by_c(const Row& row, const std::vector<OptionText>& options) const {
+  std::map<std::string, std::string> by_c(const OptionRow& row, const std::vector<OptionText>& options) const {
     empty("c");
     const Owned<zoneplate_job> job = job_of(options);
     const Owned<zoneplate_scene> scene = load(job, row.model);
@@ -142,7 +100,7 @@ class JobOptions : public ProgramTest {
   fs::path before_;
 };
 
-std::vector<OptionText> options_of(const Row& row, bool has_option) {
+std::vector<OptionText> options_of(const OptionRow& row, bool has_option) {
   std::vector<OptionText> out = row.others;
   if (has_option) out.push_back(row.option);
   if (row.option.first != "resolution" || !has_option) out.insert(out.begin(), {"resolution", "48,40"});
@@ -151,14 +109,14 @@ std::vector<OptionText> options_of(const Row& row, bool has_option) {
 
 TEST_F(JobOptions, EachRowHasACase) {
   std::set<std::string> cases;
-  for (const Row& row : rows()) EXPECT_TRUE(cases.insert(row.option.first).second) << row.option.first;
+  for (const OptionRow& row : option_rows()) EXPECT_TRUE(cases.insert(row.option.first).second) << row.option.first;
   EXPECT_EQ(cases, table());
   EXPECT_GT(cases.size(), 70u);
 }
 
 TEST_F(JobOptions, EachRowActsWithTheSameBytesByTheCommandAndC) {
-  std::map<std::string, decltype(by_command(Row(), {}))> plain;  // without the option; many rows share it
-  for (const Row& row : rows()) {
+  std::map<std::string, decltype(by_command(OptionRow(), {}))> plain;  // without the option; many rows share it
+  for (const OptionRow& row : option_rows()) {
     SCOPED_TRACE(row.option.first);
     const auto expected = by_command(row, options_of(row, true));
     EXPECT_FALSE(expected.empty());

@@ -50,7 +50,10 @@ void run_compare(std::span<const std::string> arguments) {
   args.scenes = scenes_of(syntax.found_operands);
   if (args.scenes.empty())
     throw Error(ErrorKind::Usage, "no scene: give models or built-in scenes, or all (zoneplate list scenes)");
-  check_environment(args.render);
+  // Images are written as .png, whatever the name of their folder.
+  const std::string folder = std::exchange(args.render.output, "-");
+  check_job(args.render);
+  args.render.output = folder;
   const TrialOptions options = trial_options(args);
   if (!args.page.empty()) check_savable(args.page);
   EarlierFiles earlier;
