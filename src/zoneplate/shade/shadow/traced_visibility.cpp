@@ -30,7 +30,7 @@ struct SeenLight {
 };
 
 /// Rays that are traced together.
-constexpr int chunk = 64;
+constexpr int chunk = HemispherePlaces::capacity;
 
 /// 1 - cos of the angle, without cancellation.
 float height_of(float sine) { return sine * sine / (1 + std::sqrt(std::max(0.0f, 1 - sine * sine))); }
@@ -158,7 +158,9 @@ float TracedVisibility::of_rays(EnvironmentRays::Hemisphere& light, std::uint32_
   float sum = 0;
   for (int first = 0; first < occlusion_.samples; first += chunk) {
     const int count = std::min(chunk, occlusion_.samples - first);
-    for (int s = 0; s < count; ++s) rays[s] = make_ray(origin, light.next(), occlusion_.distance);
+    EnvironmentRays::Hemisphere::Directions d;
+    light.next(count, d);
+    for (int s = 0; s < count; ++s) rays[s] = make_ray(origin, {d[0][s], d[1][s], d[2][s]}, occlusion_.distance);
     kernels_.visibility(bvh_, rays, static_cast<std::size_t>(count), opacity_, seen);
     for (int s = 0; s < count; ++s) sum += seen[s];
   }
