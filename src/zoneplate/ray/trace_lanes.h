@@ -20,10 +20,11 @@ struct PreparedRays {
   // Boxes. The inverse of a zero component is infinite; a coordinate within a slab of that direction then gives
   // -inf and inf, one on its boundary NaN, which min and max drop.
   alignas(32) float origin[3][capacity], inverse[3][capacity], end[capacity];
-  alignas(32) std::int32_t near[3][capacity];  ///< 1 where the ray meets the high bound first
+  alignas(32) std::int32_t near[3][capacity];  ///< the place in BvhNode::bound of the bound that the ray meets first
 
   // Triangles: the axes are permuted so that the direction is longest along z, and z is sheared onto the direction.
-  alignas(32) std::int32_t z[capacity];
+  alignas(32) std::int32_t axis[3][capacity];  ///< the place in a vertex of BvhLeaf
+  alignas(32) float from[3][capacity];         ///< the origin along `axis`
   alignas(32) float shear[3][capacity];
 
   PreparedRays(const Ray* rays, int count) {
@@ -33,21 +34,26 @@ struct PreparedRays {
       end[r] = rays[r].end;
     }
     for (int r = count; r % F::lanes != 0; ++r)
-      for (int a = 0; a < 3; ++a) direction[a][r] = 1;
+      for (int a = 0; a < 3; ++a) origin[a][r] = 0, direction[a][r] = 1;
     for (int r = 0; r < count; r += F::lanes) {
       F d[3], inverted[3];
       for (int a = 0; a < 3; ++a) {
         d[a] = F::load(direction[a] + r), inverted[a] = F(1.0f) / d[a];
         inverted[a].store(inverse[a] + r);
-        where(inverted[a] < F(0.0f), Int(1)).store(near[a] + r);
+        (where(inverted[a] < F(0.0f), Int(3 * BvhNode::width)) + Int(a * BvhNode::width)).store(near[a] + r);
       }
       const auto is_y = abs(d[1]) > abs(d[0]), is_z = abs(d[2]) > select(is_y, abs(d[1]), abs(d[0]));
+      const F o[3] = {F::load(origin[0] + r), F::load(origin[1] + r), F::load(origin[2] + r)};
       const auto along = [&](const F(&v)[3], int after) {
         return select(is_z, v[(2 + after) % 3], select(is_y, v[(1 + after) % 3], v[after]));
       };
-      select(is_z, Int(2), where(is_y, Int(1))).store(z + r);
-      for (int a = 0; a < 2; ++a) (along(d, a + 1) / along(d, 0)).store(shear[a] + r);
-      along(inverted, 0).store(shear[2] + r);
+      for (int a = 0; a < 3; ++a) {
+        const int after = (a + 1) % 3;  // z
+        const auto place = [&](int z) { return Int((z + after) % 3 * BvhLeaf::width); };
+        select(is_z, place(2), select(is_y, place(1), place(0))).store(axis[a] + r);
+        along(o, after).store(from[a] + r);
+        (a < 2 ? along(d, after) / along(d, 0) : along(inverted, 0)).store(shear[a] + r);
+      }
     }
   }
 };
@@ -61,11 +67,12 @@ template <class F>
                                          F& entry) {
   F far(std::numeric_limits<float>::infinity());
   entry = F(0.0f);
+  const float* const bound = node.bound[0][0] + i;
   for (int a = 0; a < 3; ++a) {
     const F origin(rays.origin[a][r]), inverse(rays.inverse[a][r]);
-    const int near = rays.near[a][r];
-    entry = max((F::load(node.bound[near][a] + i) - origin) * inverse, entry);
-    far = min((F::load(node.bound[1 - near][a] + i) - origin) * inverse, far);
+    const int near = rays.near[a][r], opposite = (3 + 2 * a) * BvhNode::width - near;
+    entry = max((F::load(bound + near) - origin) * inverse, entry);
+    far = min((F::load(bound + opposite) - origin) * inverse, far);
   }
   return min(far * F(1 + 0x1p-20f), F(end)) >= entry;
 }
@@ -93,15 +100,15 @@ template <class G>
 template <class F, class G>
 [[gnu::always_inline]] inline unsigned meets(const BvhLeaf& leaf, int i, const PreparedRays<F>& rays, int r,
                                              EdgeFunctions<G>& e) {
-  constexpr int after[] = {1, 2, 0};
-  const int az = rays.z[r], ax = after[az], ay = after[ax];
-  const G from_x(rays.origin[ax][r]), from_y(rays.origin[ay][r]), from_z(rays.origin[az][r]);
+  const int ax = rays.axis[0][r], ay = rays.axis[1][r], az = rays.axis[2][r];
+  const G from_x(rays.from[0][r]), from_y(rays.from[1][r]), from_z(rays.from[2][r]);
   const G shear_x(rays.shear[0][r]), shear_y(rays.shear[1][r]), shear_z(rays.shear[2][r]);
   G x[3], y[3], height[3];
   for (int k = 0; k < 3; ++k) {
-    height[k] = G::load(leaf.vertex[k][az] + i) - from_z;
-    x[k] = G::load(leaf.vertex[k][ax] + i) - from_x - shear_x * height[k];
-    y[k] = G::load(leaf.vertex[k][ay] + i) - from_y - shear_y * height[k];
+    const float* const vertex = leaf.vertex[k][0] + i;
+    height[k] = G::load(vertex + az) - from_z;
+    x[k] = G::load(vertex + ax) - from_x - shear_x * height[k];
+    y[k] = G::load(vertex + ay) - from_y - shear_y * height[k];
   }
   e.u = x[2] * y[1] - y[2] * x[1];
   e.v = x[0] * y[2] - y[0] * x[2];
