@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Speed of building a BVH and of rays against it, on one thread, beside Embree (robust mode) where it is installed:
 // nanoseconds a ray. Primary rays go from an eye through the pixels of an image row by row; shadow rays from what those
-// hit towards a light; occlusion rays from there into the hemisphere, at most as far as a third of the model.
+// hit towards a light; occlusion rays from there into the hemisphere, at most as far as a third of the model, one from
+// each point, or 64 from every 64th.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -20,7 +21,7 @@ namespace {
 struct RayScene {
   TestMesh mesh;
   Bvh bvh;
-  std::vector<Ray> primary, shadow, occlusion;
+  std::vector<Ray> primary, shadow, occlusion, hemispheres;
 
   explicit RayScene(std::uint32_t n) : mesh(bumpy_sphere(n)), bvh(std::vector{mesh.caster()}) {
     constexpr int size = 256;
@@ -42,10 +43,14 @@ struct RayScene {
       const float3 at = p(0) * (1 - hits[i].b1 - hits[i].b2) + p(1) * hits[i].b1 + p(2) * hits[i].b2 + normal * 1e-5f;
       const float3 to_light = float3{3, 2, 1.5f} - at;
       shadow.push_back({{at.x, at.y, at.z}, {to_light.x, to_light.y, to_light.z}, 1});
-      const float4 r = random_numbers(static_cast<std::uint32_t>(i), 77);
-      const float3 sphere = normalize(float3{2 * r.x - 1, 2 * r.y - 1, 2 * r.z - 1});
-      const float3 d = normalize(normal + sphere * 0.999f);
-      occlusion.push_back({{at.x, at.y, at.z}, {d.x, d.y, d.z}, 0.7f});
+      const auto occluded = [&](std::uint32_t k) -> Ray {
+        const float4 r = random_numbers(static_cast<std::uint32_t>(i), 77 + k);
+        const float3 sphere = normalize(float3{2 * r.x - 1, 2 * r.y - 1, 2 * r.z - 1});
+        const float3 d = normalize(normal + sphere * 0.999f);
+        return {{at.x, at.y, at.z}, {d.x, d.y, d.z}, 0.7f};
+      };
+      occlusion.push_back(occluded(0));
+      for (std::uint32_t k = 0; k < 64 && i % 64 == 0; ++k) hemispheres.push_back(occluded(k));
     }
   }
 };
@@ -90,6 +95,11 @@ void visibility_occlusion(benchmark::State& state) {
 }
 BENCHMARK(visibility_occlusion)->Arg(170)->Arg(708);
 
+void visibility_hemispheres(benchmark::State& state) {
+  time_visibility(state, scene(state.range(0)), scene(state.range(0)).hemispheres);
+}
+BENCHMARK(visibility_hemispheres)->Arg(170)->Arg(708);
+
 #ifdef ZONEPLATE_EMBREE
 const EmbreeScene& embree_of(std::int64_t n) {
   static const EmbreeScene small(scene(170).mesh), large(scene(708).mesh);
@@ -121,6 +131,8 @@ void embree_shadow(benchmark::State& state) { time_embree(state, scene(state.ran
 BENCHMARK(embree_shadow)->Arg(170)->Arg(708);
 void embree_occlusion(benchmark::State& state) { time_embree(state, scene(state.range(0)).occlusion); }
 BENCHMARK(embree_occlusion)->Arg(170)->Arg(708);
+void embree_hemispheres(benchmark::State& state) { time_embree(state, scene(state.range(0)).hemispheres); }
+BENCHMARK(embree_hemispheres)->Arg(170)->Arg(708);
 #endif
 
 }  // namespace

@@ -11,59 +11,70 @@
 /// triangles of a leaf.
 namespace zoneplate::stages {
 
-/// A ray with what its tests derive from it once.
-template <class F, class G>
-struct PreparedRay {
+/// Rays that are traced together, with what their tests derive from them once.
+template <class F>
+struct PreparedRays {
+  static constexpr int capacity = 32;
+  using Int = typename F::Int;
+
   // Boxes. The inverse of a zero component is infinite; a coordinate within a slab of that direction then gives
   // -inf and inf, one on its boundary NaN, which min and max drop.
-  F origin[3], inverse[3];
-  int near[3];  ///< 1 where the ray meets the high bound first
+  alignas(32) float origin[3][capacity], inverse[3][capacity], end[capacity];
+  alignas(32) std::int32_t near[3][capacity];  ///< the place in BvhNode::bound of the bound that the ray meets first
 
   // Triangles: the axes are permuted so that the direction is longest along z, and z is sheared onto the direction.
-  int axis[3];
-  G from[3];  ///< the origin along `axis`
-  G shear[3];
+  alignas(32) std::int32_t axis[3][capacity];  ///< the place in a vertex of BvhLeaf
+  alignas(32) float from[3][capacity];         ///< the origin along `axis`
+  alignas(32) float shear[3][capacity];
 
-  [[gnu::always_inline]] explicit PreparedRay(const Ray& ray) {
-    for (int a = 0; a < 3; ++a) {
-      origin[a] = F(ray.origin[a]);
-      const float inverted = 1 / ray.direction[a];
-      inverse[a] = F(inverted);
-      near[a] = inverted < 0;
+  PreparedRays(const Ray* rays, int count) {
+    alignas(32) float direction[3][capacity];
+    for (int r = 0; r < count; ++r) {
+      for (int a = 0; a < 3; ++a) origin[a][r] = rays[r].origin[a], direction[a][r] = rays[r].direction[a];
+      end[r] = rays[r].end;
     }
-    const auto size = [&](int a) { return ray.direction[a] < 0 ? -ray.direction[a] : ray.direction[a]; };
-    int z = size(1) > size(0) ? 1 : 0;
-    if (size(2) > size(z)) z = 2;
-    axis[0] = (z + 1) % 3, axis[1] = (z + 2) % 3, axis[2] = z;
-    for (int a = 0; a < 3; ++a) from[a] = G(ray.origin[axis[a]]);
-    shear[0] = G(ray.direction[axis[0]] / ray.direction[z]);
-    shear[1] = G(ray.direction[axis[1]] / ray.direction[z]);
-    shear[2] = G(1 / ray.direction[z]);
+    for (int r = count; r % F::lanes != 0; ++r)
+      for (int a = 0; a < 3; ++a) origin[a][r] = 0, direction[a][r] = 1;
+    for (int r = 0; r < count; r += F::lanes) {
+      F d[3], inverted[3];
+      for (int a = 0; a < 3; ++a) {
+        d[a] = F::load(direction[a] + r), inverted[a] = F(1.0f) / d[a];
+        inverted[a].store(inverse[a] + r);
+        (where(inverted[a] < F(0.0f), Int(3 * BvhNode::width)) + Int(a * BvhNode::width)).store(near[a] + r);
+      }
+      const auto is_y = abs(d[1]) > abs(d[0]), is_z = abs(d[2]) > select(is_y, abs(d[1]), abs(d[0]));
+      const F o[3] = {F::load(origin[0] + r), F::load(origin[1] + r), F::load(origin[2] + r)};
+      const auto along = [&](const F(&v)[3], int after) {
+        return select(is_z, v[(2 + after) % 3], select(is_y, v[(1 + after) % 3], v[after]));
+      };
+      for (int a = 0; a < 3; ++a) {
+        const int after = (a + 1) % 3;  // z
+        const auto place = [&](int z) { return Int((z + after) % 3 * BvhLeaf::width); };
+        select(is_z, place(2), select(is_y, place(1), place(0))).store(axis[a] + r);
+        along(o, after).store(from[a] + r);
+        (a < 2 ? along(d, after) / along(d, 0) : along(inverted, 0)).store(shear[a] + r);
+      }
+    }
   }
 };
 
-/// The children of a node that a ray meets before `end`, as bits; `entry` is the least t within each.
+/// Which children of a node, i and on, ray r meets before `end`; `entry` becomes the least t within each.
 ///
 /// The margin of the far side covers the rounding of both sides, at most 3 ulp each, and that of the shear in the test
 /// of a triangle, at most 4 ulp (1 ulp = 2^-24 of t).
-template <class F, class G>
-[[gnu::always_inline]] inline unsigned meets(const BvhNode& node, const PreparedRay<F, G>& ray, float end,
-                                             float* entry) {
-  unsigned bits = 0;
-  for (int i = 0; i < BvhNode::width; i += F::lanes) {
-    F first(0.0f), last(end);
-    F far(std::numeric_limits<float>::infinity());
-    for (int a = 0; a < 3; ++a) {
-      const F enter = (F::load(node.bound[ray.near[a]][a] + i) - ray.origin[a]) * ray.inverse[a];
-      const F leave = (F::load(node.bound[1 - ray.near[a]][a] + i) - ray.origin[a]) * ray.inverse[a];
-      first = max(enter, first), far = min(leave, far);
-    }
-    far = far * F(1 + 0x1p-20f);
-    last = min(far, last);
-    if (entry != nullptr) first.store(entry + i);
-    bits |= bits_of(last >= first) << i;
+template <class F>
+[[gnu::always_inline]] inline auto meets(const BvhNode& node, int i, const PreparedRays<F>& rays, int r, float end,
+                                         F& entry) {
+  F far(std::numeric_limits<float>::infinity());
+  entry = F(0.0f);
+  const float* const bound = node.bound[0][0] + i;
+  for (int a = 0; a < 3; ++a) {
+    const F origin(rays.origin[a][r]), inverse(rays.inverse[a][r]);
+    const int near = rays.near[a][r], opposite = (3 + 2 * a) * BvhNode::width - near;
+    entry = max((F::load(bound + near) - origin) * inverse, entry);
+    far = min((F::load(bound + opposite) - origin) * inverse, far);
   }
-  return bits;
+  return min(far * F(1 + 0x1p-20f), F(end)) >= entry;
 }
 
 /// The edge functions of the triangles that contain the origin of the sheared plane, and t times their sum.
@@ -83,18 +94,21 @@ template <class G>
   return G::load(out);
 }
 
-/// Which triangles i and on of a leaf a ray meets in 0 < t < end, as bits.
+/// Which triangles i and on of a leaf ray r meets in 0 < t < end, as bits.
 ///
 /// Rounding is monotonic, so that an edge function that is not zero has the sign of the exact one.
 template <class F, class G>
-[[gnu::always_inline]] inline unsigned meets(const BvhLeaf& leaf, int i, const PreparedRay<F, G>& ray, float end,
+[[gnu::always_inline]] inline unsigned meets(const BvhLeaf& leaf, int i, const PreparedRays<F>& rays, int r,
                                              EdgeFunctions<G>& e) {
-  G x[3], y[3], z[3];
+  const int ax = rays.axis[0][r], ay = rays.axis[1][r], az = rays.axis[2][r];
+  const G from_x(rays.from[0][r]), from_y(rays.from[1][r]), from_z(rays.from[2][r]);
+  const G shear_x(rays.shear[0][r]), shear_y(rays.shear[1][r]), shear_z(rays.shear[2][r]);
+  G x[3], y[3], height[3];
   for (int k = 0; k < 3; ++k) {
-    const G height = G::load(leaf.vertex[k][ray.axis[2]] + i) - ray.from[2];
-    x[k] = G::load(leaf.vertex[k][ray.axis[0]] + i) - ray.from[0] - ray.shear[0] * height;
-    y[k] = G::load(leaf.vertex[k][ray.axis[1]] + i) - ray.from[1] - ray.shear[1] * height;
-    z[k] = ray.shear[2] * height;
+    const float* const vertex = leaf.vertex[k][0] + i;
+    height[k] = G::load(vertex + az) - from_z;
+    x[k] = G::load(vertex + ax) - from_x - shear_x * height[k];
+    y[k] = G::load(vertex + ay) - from_y - shear_y * height[k];
   }
   e.u = x[2] * y[1] - y[2] * x[1];
   e.v = x[0] * y[2] - y[0] * x[2];
@@ -110,10 +124,10 @@ template <class F, class G>
       ((e.u >= zero) & (e.v >= zero) & (e.w >= zero)) | ((zero >= e.u) & (zero >= e.v) & (zero >= e.w));
   if (none(is_inside)) return 0;
   e.sum = e.u + e.v + e.w;
-  e.t = e.u * z[0] + e.v * z[1] + e.w * z[2];
+  e.t = e.u * (shear_z * height[0]) + e.v * (shear_z * height[1]) + e.w * (shear_z * height[2]);
   const auto is_reversed = e.sum < zero;
   const G size = abs(e.sum), t = select(is_reversed, -e.t, e.t);
-  return bits_of(is_inside & (t > zero) & (t < size * G(end)));
+  return bits_of(is_inside & (t > zero) & (t < size * G(rays.end[r])));
 }
 
 template <class G>
@@ -130,42 +144,106 @@ struct RayStack {
   static constexpr int capacity = Bvh::max_depth * BvhNode::width;
 };
 
+/// Fetches a child that is visited later: most of a node, or the vertices of a leaf.
+[[gnu::always_inline]] inline void prefetch(const BvhView& bvh, std::uint32_t child) {
+  const char* const at = child & BvhNode::leaf ? reinterpret_cast<const char*>(bvh.leaves + (child - BvhNode::leaf))
+                                               : reinterpret_cast<const char*>(bvh.nodes + child);
+  constexpr int line = 64;
+  for (int i = 0; i < 3; ++i) __builtin_prefetch(at + i * line);
+}
+
+/// Rays of a PreparedRays, as bits.
+using RayBits = std::uint32_t;
+
+/// A node or leaf with the rays that meet its box.
+struct StreamEntry {
+  std::uint32_t child;
+  RayBits rays;
+};
+
+/// Stores the visibility of these rays, each node and leaf being visited once by all that meet it. Returns those that
+/// meet several translucent triangles, whose product is to be rounded in the order of a ray that is traced alone.
+///
+/// The tests are those of each ray by itself, which wait for each other less than those of one ray after the other. The
+/// first child is the largest, where any hit is found soonest.
 template <class F, class G>
-[[gnu::always_inline]] inline float visibility(const BvhView& bvh, const Ray& of, const OpacityOfHits& opacity) {
-  const PreparedRay<F, G> ray(of);
-  std::uint32_t stack[RayStack::capacity];
+RayBits trace_visibility(const BvhView& bvh, const PreparedRays<F>& rays, const RayBits which,
+                         const OpacityOfHits& opacity, float* visible) {
+  using Int = typename F::Int;
+  for (RayBits left = which; left != 0; left &= left - 1) visible[lowest_bit(left)] = 1;
+  const bool is_single = (which & (which - 1)) == 0;
+  RayBits open = which;            // have met nothing opaque
+  RayBits veiled = 0, unsure = 0;  // meet a translucent triangle; meet several
+  StreamEntry stack[RayStack::capacity];
   int height = 0;
-  std::uint32_t at = 0;
-  float visible = 1;
+  StreamEntry at{0, which};
   while (true) {
-    if (at & BvhNode::leaf) {
-      const BvhLeaf& leaf = bvh.leaves[at - BvhNode::leaf];
-      for (int i = 0; i < BvhLeaf::width; i += G::lanes) {
-        EdgeFunctions<G> e;
-        unsigned bits = meets(leaf, i, ray, of.end, e);
-        if (bits & ~(leaf.translucent >> i)) return 0;
-        for (; bits != 0; bits &= bits - 1)
-          visible = visible * (1 - opacity.opacity(opacity.context, hit_of(leaf, i, lowest_bit(bits), e)));
+    if (at.child & BvhNode::leaf) {
+      const BvhLeaf& leaf = bvh.leaves[at.child - BvhNode::leaf];
+      for (RayBits left = at.rays; left != 0; left &= left - 1) {
+        const int r = lowest_bit(left);
+        const RayBits bit = left & -left;
+        for (int i = 0; i < BvhLeaf::width; i += G::lanes) {
+          EdgeFunctions<G> e;
+          unsigned bits = meets(leaf, i, rays, r, e);
+          if (bits == 0) continue;
+          if (bits & ~(leaf.translucent >> i)) visible[r] = 0;
+          for (bits &= leaf.translucent >> i; bits != 0 && visible[r] != 0; bits &= bits - 1) {
+            if (!is_single && (veiled & bit)) unsure |= bit;
+            veiled |= bit;
+            visible[r] = visible[r] * (1 - opacity.opacity(opacity.context, hit_of(leaf, i, lowest_bit(bits), e)));
+          }
+          if (visible[r] == 0) open &= ~bit;
+        }
       }
-      if (visible == 0) return 0;
     } else {
-      const BvhNode& node = bvh.nodes[at];
-      unsigned bits = meets(node, ray, of.end, nullptr);
-      if (bits != 0) {
-        const int first = lowest_bit(bits);
-        for (bits &= bits - 1; bits != 0; bits &= bits - 1) stack[height++] = node.child[lowest_bit(bits)];
-        at = node.child[first];
-        continue;
+      const BvhNode& node = bvh.nodes[at.child];
+      alignas(32) std::int32_t met[BvhNode::width];
+      unsigned children = 0;
+      for (int i = 0; i < BvhNode::width; i += F::lanes) {
+        Int by(0);
+        for (RayBits left = at.rays; left != 0; left &= left - 1) {
+          const int r = lowest_bit(left);
+          F entry;
+          const auto is_met = meets(node, i, rays, r, rays.end[r], entry);
+          by = by | where(is_met, Int(static_cast<std::int32_t>(left & -left)));
+        }
+        by.store(met + i);
+        children |= (~bits_of(by == Int(0)) & ((1u << F::lanes) - 1)) << i;
+      }
+      if (children != 0) {
+        const auto push = [&](unsigned bits) {
+          const int c = lowest_bit(bits);
+          prefetch(bvh, node.child[c]);
+          stack[height++] = {node.child[c], static_cast<RayBits>(met[c])};
+        };
+        for (unsigned rest = children & (children - 1); rest != 0; rest &= rest - 1) push(rest);
+        push(children);
       }
     }
-    if (height == 0) return visible;
-    at = stack[--height];
+    do {
+      if (height == 0) return unsure & open;
+      at = stack[--height];
+      at.rays &= open;
+    } while (at.rays == 0);
   }
 }
 
 template <class F, class G>
-void visibility(const BvhView& bvh, const Ray* rays, std::size_t count, const OpacityOfHits& opacity, float* out) {
-  for (std::size_t i = 0; i < count; ++i) out[i] = bvh.nodes == nullptr ? 1 : visibility<F, G>(bvh, rays[i], opacity);
+void visibility(const BvhView& bvh, const Ray* rays, std::size_t count, const OpacityOfHits& opacity, float* visible) {
+  constexpr std::size_t most = PreparedRays<F>::capacity;
+  for (std::size_t first = 0; first < count; first += most) {
+    const int n = static_cast<int>(count - first < most ? count - first : most);
+    if (bvh.nodes == nullptr) {
+      for (int r = 0; r < n; ++r) visible[first + static_cast<std::size_t>(r)] = 1;
+      continue;
+    }
+    const PreparedRays<F> prepared(rays + first, n);
+    const RayBits all = ~RayBits{0} >> (PreparedRays<F>::capacity - n);
+    RayBits unsure = trace_visibility<F, G>(bvh, prepared, all, opacity, visible + first);
+    for (; unsure != 0; unsure &= unsure - 1)
+      trace_visibility<F, G>(bvh, prepared, unsure & -unsure, opacity, visible + first);
+  }
 }
 
 /// A child with the t at which the ray enters its box.
@@ -174,21 +252,21 @@ struct RayEntry {
   std::uint32_t child;
 };
 
+/// The nearest hit of ray r.
 template <class F, class G>
-[[gnu::always_inline]] inline RayHit nearest(const BvhView& bvh, const Ray& of) {
-  const PreparedRay<F, G> ray(of);
+[[gnu::always_inline]] inline RayHit nearest(const BvhView& bvh, const PreparedRays<F>& rays, int r) {
   RayEntry stack[RayStack::capacity];
   int height = 0;
   RayHit best;
   std::uint32_t at = 0;
   // Boxes that begin within rounding of the nearest hit may contain a nearer one.
-  float end = of.end;
+  float end = rays.end[r];
   while (true) {
     if (at & BvhNode::leaf) {
       const BvhLeaf& leaf = bvh.leaves[at - BvhNode::leaf];
       for (int i = 0; i < BvhLeaf::width; i += G::lanes) {
         EdgeFunctions<G> e;
-        for (unsigned bits = meets(leaf, i, ray, of.end, e); bits != 0; bits &= bits - 1) {
+        for (unsigned bits = meets(leaf, i, rays, r, e); bits != 0; bits &= bits - 1) {
           const RayHit hit = hit_of(leaf, i, lowest_bit(bits), e);
           const bool is_first =
               hit.instance < best.instance || (hit.instance == best.instance && hit.primitive < best.primitive);
@@ -198,10 +276,16 @@ template <class F, class G>
     } else {
       const BvhNode& node = bvh.nodes[at];
       alignas(32) float entry[BvhNode::width];
+      unsigned children = 0;
+      for (int i = 0; i < BvhNode::width; i += F::lanes) {
+        F t;
+        children |= bits_of(meets(node, i, rays, r, end, t)) << i;
+        t.store(entry + i);
+      }
       // The children go onto the stack with the farthest first, of equal ones the last.
       const int bottom = height;
-      for (unsigned bits = meets(node, ray, end, entry); bits != 0; bits &= bits - 1) {
-        const int i = lowest_bit(bits);
+      for (; children != 0; children &= children - 1) {
+        const int i = lowest_bit(children);
         int k = height++;
         for (; k > bottom && stack[k - 1].t <= entry[i]; --k) stack[k] = stack[k - 1];
         stack[k] = {entry[i], node.child[i]};
@@ -217,7 +301,13 @@ template <class F, class G>
 
 template <class F, class G>
 void nearest(const BvhView& bvh, const Ray* rays, std::size_t count, RayHit* hits) {
-  for (std::size_t i = 0; i < count; ++i) hits[i] = bvh.nodes == nullptr ? RayHit() : nearest<F, G>(bvh, rays[i]);
+  constexpr std::size_t most = PreparedRays<F>::capacity;
+  for (std::size_t first = 0; first < count; first += most) {
+    const int n = static_cast<int>(count - first < most ? count - first : most);
+    const PreparedRays<F> prepared(rays + first, n);
+    for (int r = 0; r < n; ++r)
+      hits[first + static_cast<std::size_t>(r)] = bvh.nodes == nullptr ? RayHit() : nearest<F, G>(bvh, prepared, r);
+  }
 }
 
 template <class F, class G>

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -128,12 +129,69 @@ TEST(Trace, TranslucentCastersAttenuate) {
   EXPECT_EQ(visibility(Bvh(std::vector{near, far}), rays, opacity)[0], 0);
 }
 
+/// Receivers with rays of three kinds in turn: into a hemisphere, into a narrow cone, and from places to anywhere.
+std::vector<Ray> rays_of_receivers(std::uint32_t first, std::uint32_t count) {
+  std::vector<Ray> rays;
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    const Ray central = random_ray(i / 64);
+    Ray ray = i / 64 % 3 == 2 ? random_ray(i) : central;
+    const float4 d = random_numbers(i, 13);
+    const float spread = i / 64 % 3 == 0 ? 2.0f : 0.05f;
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (i / 64 % 3 == 1) ray.origin[a] += 0.01f * (d.w - 0.5f);
+      if (i / 64 % 3 < 2) ray.direction[a] += spread * ((a == 0 ? d.x : a == 1 ? d.y : d.z) - 0.5f);
+      if (i % 97 == 0) ray.direction[a] = a == i % 3 ? 1.0f : 0.0f;
+    }
+    if (i % 2 == 0) ray.end = 0.5f;
+    rays.push_back(ray);
+  }
+  return rays;
+}
+
+/// Compares rays in batches of any size with each of them alone.
+void compare_with_single_rays(std::uint32_t count) {
+  const TestMesh sphere = bumpy_sphere(100), soup = triangle_soup(20000, 0.05f);
+  ShadowCaster casters[] = {sphere.caster(), soup.caster()};
+  const OpacityOfHits weights{[](const void*, const RayHit& hit) { return hit.primitive % 5 == 0 ? 1 : 0.7f * hit.b1; },
+                              nullptr};
+  for (const int translucent : {0, 1, 2}) {
+    for (int k = 0; k < translucent; ++k) casters[k].is_translucent = true;
+    const Bvh bvh(casters);
+    double parts = 0;
+    constexpr std::uint32_t step = 6400;
+    for (std::uint32_t first = 0; first < count; first += step) {
+      const std::vector<Ray> rays = rays_of_receivers(first, std::min(step, count - first));
+      const std::size_t batch = 1 + hash(first) % 100;
+      std::vector<float> together(rays.size());
+      for (std::size_t i = 0; i < rays.size(); i += batch)
+        RayKernels::of().visibility(view_of(bvh), rays.data() + i, std::min(batch, rays.size() - i), weights,
+                                    together.data() + i);
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        float alone = -1;
+        RayKernels::of().visibility(view_of(bvh), &rays[i], 1, weights, &alone);
+        ASSERT_EQ(together[i], alone) << first + i;
+        parts += alone > 0 && alone < 1;
+      }
+    }
+    if (translucent == 0)
+      EXPECT_EQ(parts, 0);
+    else
+      EXPECT_GT(parts, translucent == 1 ? count / 100 : count / 4);
+  }
+}
+
+TEST(Trace, RaysTogetherAreRaysAlone) { compare_with_single_rays(400000); }
+
+TEST(Trace, DISABLED_OneHundredMillionRaysTogetherAreRaysAlone) { compare_with_single_rays(34000000); }
+
 TEST(TraceBits, AreTheSameForAllInstructionSets) {
   const TestMesh sphere = bumpy_sphere(40), soup = triangle_soup(2000, 0.3f);
   const ShadowCaster casters[] = {sphere.caster(), soup.caster()};
   std::vector<ShadowCaster> translucent(std::begin(casters), std::end(casters));
   for (ShadowCaster& caster : translucent) caster.is_translucent = true;
-  const std::vector<Ray> rays = random_rays(5000);
+  std::vector<Ray> rays = random_rays(5000);
+  const std::vector<Ray> related = rays_of_receivers(0, 6400);
+  rays.insert(rays.end(), related.begin(), related.end());
   const OpacityOfHits weights{[](const void*, const RayHit& hit) { return 0.5f * hit.b1 + 0.25f * hit.b2; }, nullptr};
   const Bvh opaque(casters), veil(translucent);
   const std::vector<RayHit> hits = nearest(opaque, rays, RayKernels::scalar);

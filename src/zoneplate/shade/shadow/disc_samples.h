@@ -155,8 +155,6 @@ class DirectionsAbout {
   }
   /// Density proportional to the cosine with the axis.
   float3 of_cosine(const ShiftedDisc::Point& p) const { return at(std::sqrt(p.square), std::sqrt(1 - p.square), p); }
-  /// A direction about +z, turned to the axis.
-  float3 turned(float3 d) const { return basis_.first * d.x + basis_.second * d.y + axis_ * d.z; }
 
  private:
   float3 at(float sine, float cosine, const ShiftedDisc::Point& p) const {

@@ -7,7 +7,7 @@
 
 #include "zoneplate/math/vec.h"
 #include "zoneplate/shade/environment/environment_view.h"
-#include "zoneplate/shade/shadow/disc_samples.h"
+#include "zoneplate/shade/shadow/hemisphere_light.h"
 
 namespace zoneplate {
 
@@ -24,9 +24,6 @@ namespace zoneplate {
 ///           edition, A.5.
 class EnvironmentRays {
  public:
-  static constexpr int rings = 16, sectors = 32;
-  static constexpr std::size_t cells = std::size_t{rings} * sectors;
-
   explicit EnvironmentRays(const EnvironmentView& environment);
 
   /// Whether the light of all directions is the same.
@@ -35,32 +32,36 @@ class EnvironmentRays {
   /// The directions above one surface.
   class Hemisphere {
    public:
+    using Directions = float[3][HemispherePlaces::capacity];
+
     /// Requires  the normal has unit length.
     Hemisphere(const EnvironmentRays& rays, float3 normal, int count);
 
-    bool is_about(float3 normal) const { return directions_.axis() == normal; }
+    bool is_about(float3 normal) const { return frame_[2] == normal; }
     /// Whether light arrives at all.
     bool is_lit() const { return step_ > 0; }
     /// Begins the directions of a receiver.
     void begin(std::uint32_t seed);
-    /// The next of `count` directions, of unit length. Requires: light arrives, and they have begun.
-    float3 next();
+    /// The next ones of `count` directions, of unit length. Requires: light arrives, they have begun, and their number
+    /// is at most HemispherePlaces::capacity.
+    void next(int number, Directions& directions);
 
    private:
-    DirectionsAbout directions_;
-    std::array<float, cells> light_;
-    std::array<float, rings> sum_;              ///< of a ring's sectors
+    const HemisphereKernels& kernels_;
+    float3 frame_[3];
+    HemisphereLight light_;
     float step_ = 0, target_ = 0, before_ = 0;  ///< of the whole sum; the sum of the rings before the current one
     std::uint32_t turn_ = 0;                    ///< in units of 2^-32 of a whole one
-    std::size_t ring_ = 0;
+    int ring_ = 0;
   };
 
  private:
-  static constexpr int side = 32;  ///< cells along the square of the octahedron
+  static constexpr int side = HemisphereKernels::side;
 
-  std::array<float, std::size_t{side} * side> light_;  ///< luminance
-  std::array<std::array<float, cells>, 3> middle_;     ///< directions about +z, of unit length
+  std::array<float, std::size_t{side} * side> light_;    ///< luminance
+  alignas(64) float middle_[3][HemisphereCells::count];  ///< directions about +z, of unit length
   bool is_uniform_ = true;
+  const HemisphereKernels& kernels_;
 };
 
 }  // namespace zoneplate

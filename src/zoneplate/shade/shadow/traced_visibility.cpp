@@ -22,15 +22,8 @@ Ray make_ray(float3 origin, float3 direction, float end) {
   return {{origin.x, origin.y, origin.z}, {direction.x, direction.y, direction.z}, end};
 }
 
-/// A light as a receiver sees it.
-struct SeenLight {
-  float3 direction;  ///< unit, to its centre
-  float distance = std::numeric_limits<float>::infinity();
-  float height = 0;  ///< 1 - the cosine of its angular radius
-};
-
 /// Rays that are traced together.
-constexpr int chunk = 64;
+constexpr int chunk = HemispherePlaces::capacity;
 
 /// 1 - cos of the angle, without cancellation.
 float height_of(float sine) { return sine * sine / (1 + std::sqrt(std::max(0.0f, 1 - sine * sine))); }
@@ -43,22 +36,6 @@ float distance_squared(const Box& box, float3 p) {
   return dot(d, d);
 }
 
-SeenLight see(const Light& light, const ShadowOptions& shadows, float3 from) {
-  SeenLight seen;
-  if (light.kind == LightKind::Directional) {
-    seen.direction = -normalize(light.direction, {0, 0, -1});
-    const float angle = light.radius > 0 ? light.radius : shadows.angle;
-    seen.height = height_of(sin(std::min(angle, 1.57079633f)));
-    return seen;
-  }
-  const float3 path = light.position - from;
-  seen.distance = length(path);
-  seen.direction = normalize(path, {0, 0, 1});
-  const float sine = light.radius > 0 ? light.radius / std::max(seen.distance, light.radius) : sin(shadows.angle);
-  seen.height = height_of(sine);
-  return seen;
-}
-
 }  // namespace
 
 TracedVisibility::TracedVisibility(const Bvh& bvh, const OpacityOfHits& opacity, std::vector<Light> lights,
@@ -68,13 +45,30 @@ TracedVisibility::TracedVisibility(const Bvh& bvh, const OpacityOfHits& opacity,
       bounds_(bvh.bounds()),
       opacity_(opacity),
       lights_(std::move(lights)),
+      seen_(lights_.size()),
+      sine_of_angle_(sin(shadows.angle)),
       shadows_(shadows),
       occlusion_(occlusion),
       lattice_(shadows.method == ShadowMethod::Soft ? shadows.samples : 0),
       hemisphere_(occlusion.samples),
       kernels_(RayKernels::of()) {
+  for (std::size_t k = 0; k < lights_.size(); ++k) {
+    if (lights_[k].kind != LightKind::Directional) continue;
+    const float angle = lights_[k].radius > 0 ? lights_[k].radius : shadows.angle;
+    seen_[k] = {-normalize(lights_[k].direction, {0, 0, -1}), std::numeric_limits<float>::infinity(),
+                height_of(sin(std::min(angle, 1.57079633f)))};
+  }
   if (environment != nullptr && occlusion.samples > 0) environment_.emplace(*environment);
   if (environment_ && environment_->is_uniform()) environment_.reset();
+}
+
+TracedVisibility::SeenLight TracedVisibility::see(std::size_t k, float3 from) const {
+  const Light& light = lights_[k];
+  if (light.kind == LightKind::Directional) return seen_[k];
+  const float3 path = light.position - from;
+  const float distance = length(path);
+  const float sine = light.radius > 0 ? light.radius / std::max(distance, light.radius) : sine_of_angle_;
+  return {normalize(path, {0, 0, 1}), distance, height_of(sine)};
 }
 
 /// The mean over rays ray(0), ray(1), ... of what each of them sees. The first quarter of the rays are the only ones
@@ -100,7 +94,7 @@ float TracedVisibility::mean_visibility(const MakeRay& ray) const {
 }
 
 bool TracedVisibility::is_lit(int k, const Receivers& receivers, int i) const {
-  const SeenLight seen = see(lights_[static_cast<std::size_t>(k)], shadows_, origin_of(receivers, i, 1));
+  const SeenLight seen = see(static_cast<std::size_t>(k), origin_of(receivers, i, 1));
   return dot(at(receivers.normal, i), seen.direction) > 0;
 }
 
@@ -112,7 +106,7 @@ void TracedVisibility::of_light(int k, const Receivers& receivers, float* visibl
   int count = 0;
   for (int i = 0; i < receivers.count; ++i) {
     float3 origin = origin_of(receivers, i, 1);
-    const SeenLight seen = see(light, shadows_, origin);
+    const SeenLight seen = see(static_cast<std::size_t>(k), origin);
     visible[i] = 0;
     if (!(dot(at(receivers.normal, i), seen.direction) > 0)) {
       if (!receivers.is_transmissive) continue;
@@ -158,7 +152,9 @@ float TracedVisibility::of_rays(EnvironmentRays::Hemisphere& light, std::uint32_
   float sum = 0;
   for (int first = 0; first < occlusion_.samples; first += chunk) {
     const int count = std::min(chunk, occlusion_.samples - first);
-    for (int s = 0; s < count; ++s) rays[s] = make_ray(origin, light.next(), occlusion_.distance);
+    EnvironmentRays::Hemisphere::Directions d;
+    light.next(count, d);
+    for (int s = 0; s < count; ++s) rays[s] = make_ray(origin, {d[0][s], d[1][s], d[2][s]}, occlusion_.distance);
     kernels_.visibility(bvh_, rays, static_cast<std::size_t>(count), opacity_, seen);
     for (int s = 0; s < count; ++s) sum += seen[s];
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <vector>
 
@@ -41,6 +42,13 @@ class TracedVisibility : public LightVisibility {
   void of_environment(const Receivers& receivers, float* visible) const override;
 
  private:
+  /// A light as a receiver sees it.
+  struct SeenLight {
+    float3 direction;  ///< unit, to its centre
+    float distance = std::numeric_limits<float>::infinity();
+    float height = 0;  ///< 1 - the cosine of its angular radius
+  };
+  SeenLight see(std::size_t k, float3 from) const;
   template <class MakeRay>
   float mean_visibility(const MakeRay& ray) const;
   float of_uniform_light(const Receivers& receivers, int i, float3 origin) const;
@@ -50,6 +58,8 @@ class TracedVisibility : public LightVisibility {
   Box bounds_;  ///< of all casters
   OpacityOfHits opacity_;
   std::vector<Light> lights_;
+  std::vector<SeenLight> seen_;  ///< by light: that of a directional one, which is the same from everywhere
+  float sine_of_angle_;          ///< of a light without a radius
   ShadowOptions shadows_;
   OcclusionOptions occlusion_;
   std::optional<EnvironmentRays> environment_;  ///< none: light from all sides alike
