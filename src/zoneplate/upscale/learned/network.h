@@ -42,8 +42,8 @@ struct NetworkFrame {
 /// A convolution with integers: weights in [-127, 127] times a scale per output, activations in [0, 127].
 struct Convolution {
   int inputs = 0, outputs = 0, side = 0, stride = 0;
-  std::vector<float> scale;
-  std::vector<std::int32_t> bias;
+  std::vector<float> scale;           ///< per output
+  std::vector<std::int32_t> bias;     ///< likewise
   std::vector<std::int16_t> weights;  ///< by row, pair of a row's inputs, output and input
 };
 
