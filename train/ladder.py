@@ -15,10 +15,12 @@ def codes(x):
 
 def run(sequence, network=None):
     h, w = sequence["color"].shape[2:]
-    state, out = mean.first_state(1, h, w), []
+    device = sequence["color"].device
+    state, out = mean.first_state(1, h, w, device), []
     with torch.no_grad():
         for t in range(len(sequence["sample"])):
-            image, state = mean.step(sequences.frame_of(sequence, t), state, torch.tensor([t == 0]), network)
+            is_first = torch.tensor([t == 0], device=device)
+            image, state = mean.step(sequences.frame_of(sequence, t), state, is_first, network)
             out.append(image)
     return torch.cat(out)
 

@@ -11,13 +11,12 @@ import torch.nn.functional as F
 
 LIKENESS, FADING, TREND_SHARE, UNREST_SHARE = 1 / 16, 1 / 8, 1 / 4, 1 / 4
 MOST, MOST_FILTERED, MOST_BORROWED = 64.0, 3.0, 3 * 1.372 / 4
-LUMINANCE = torch.tensor([0.2126, 0.7152, 0.0722]).view(1, 3, 1, 1)
 FEATURES, OUTPUTS = 40, 14
 COUNT_AT_REST = 4.0
 
 
 def luminance(color):
-    return (color * LUMINANCE).sum(1, keepdim=True)
+    return 0.2126 * color[:, :1] + 0.7152 * color[:, 1:2] + 0.0722 * color[:, 2:3]
 
 
 def tone(x):
@@ -31,9 +30,10 @@ def around(x):
     return F.unfold(F.pad(x, (1, 1, 1, 1), mode="replicate"), 3).view(b, c, 9, h, w)
 
 
-def pixel_grid(h, w):
-    y, x = torch.meshgrid(torch.arange(h, dtype=torch.float32), torch.arange(w, dtype=torch.float32), indexing="ij")
-    return x, y
+def pixel_grid(h, w, device):
+    """The columns and rows of all pixels, as they broadcast with planes (batch, h, w)."""
+    return (torch.arange(w, dtype=torch.float32, device=device).view(1, 1, w),
+            torch.arange(h, dtype=torch.float32, device=device).view(1, h, 1))
 
 
 def at_pixels(plane, x, y):
@@ -59,23 +59,24 @@ def survey(color, nearness, motion):
 
 def origin(motion):
     h, w = motion.shape[2:]
-    x, y = pixel_grid(h, w)
+    x, y = pixel_grid(h, w, motion.device)
     return torch.floor(x - motion[:, 0] + 0.5), torch.floor(y - motion[:, 1] + 0.5)
 
 
 def came_from(now, nearness, motion, last_alike, sample):
-    """is_uncovered and is_steady of SampleMeanKernels::compare, but for what depends on the history's colours."""
+    """is_uncovered and is_steady of SampleMeanKernels::compare, but for what depends on the history's colours, of
+    frames whose samples are at `sample` in their pixels."""
     b, _, h, w = motion.shape
     from_x, from_y = origin(motion)
     inside = (from_x >= 0) & (from_y >= 0) & (from_x < w) & (from_y < h)
     index = torch.where(inside, from_y * w + from_x, torch.full_like(from_x, h * w)).long().view(b, -1)
     sides = []
     for k, reduction, empty in ((0, "amin", 1e30), (0, "amax", -1e30), (1, "amin", 1e30), (1, "amax", -1e30)):
-        plane = torch.full((b, h * w + 1), empty)
+        plane = torch.full((b, h * w + 1), empty, device=motion.device)
         plane.scatter_reduce_(1, index, motion[:, k].reshape(b, -1), reduction)
         sides.append(plane[:, :-1].view(b, 1, h, w))
-    nearest = torch.full((b, h * w + 1), -1e30).scatter_reduce_(1, index, nearness.reshape(b, -1), "amax")
-    nearest = nearest[:, :-1].view(b, 1, h, w)
+    nearest = torch.full((b, h * w + 1), -1e30, device=motion.device)
+    nearest = nearest.scatter_reduce_(1, index, nearness.reshape(b, -1), "amax")[:, :-1].view(b, 1, h, w)
 
     x, y = origin(now["follow"])
     inside = ((x >= 0) & (y >= 0) & (x < w) & (y < h)).unsqueeze(1)
@@ -88,9 +89,10 @@ def came_from(now, nearness, motion, last_alike, sample):
 
     covered = at_pixels(nearest, x, y) > now["nearest"]
     uncovered = inside & covered & ~came_alike(0, 0)
-    column, row = pixel_grid(h, w)
-    place_x = torch.floor((column + sample[0] - now["follow"][:, 0]) * 2)
-    place_y = torch.floor((row + sample[1] - now["follow"][:, 1]) * 2)
+    column, row = pixel_grid(h, w, motion.device)
+    sample = sample.view(-1, 2, 1, 1)
+    place_x = torch.floor((column + sample[:, 0] - now["follow"][:, 0]) * 2)
+    place_y = torch.floor((row + sample[:, 1] - now["follow"][:, 1]) * 2)
     steady = inside & ((place_x >= 0) & (place_y >= 0) & (place_x < 2 * w) & (place_y < 2 * h)).unsqueeze(1)
     steady = steady & (now["alike"] > 0) & (at_pixels(last_alike, x, y) > 0)
     for dy in (-1, 0, 1):
@@ -118,7 +120,7 @@ def compare(frame, state):
     below = (color < low - slack).any(1, keepdim=True)
     change = torch.where(above, torch.ones_like(steady), -below.float()) * steady
     # The history's pixel where the sample was.
-    column, row = pixel_grid(h, w)
+    column, row = pixel_grid(h, w, color.device)
     sample = frame["sample"].view(-1, 2, 1, 1)
     px = torch.floor((column + sample[:, 0] - frame["follow"][:, 0]) * 2).clamp(0, 2 * w - 1)
     py = torch.floor((row + sample[:, 1] - frame["follow"][:, 1]) * 2).clamp(0, 2 * h - 1)
@@ -177,7 +179,7 @@ def by_pixel(x):
     return F.pixel_shuffle(x.reshape(b, 4 * c, h, w), 2)
 
 
-def gather(frame, state, now):
+def gather(frame, state):
     """The frame's samples and the history for each output pixel, arranged by frame pixels."""
     color = frame["color"]
     b, _, h, w = color.shape
@@ -196,31 +198,32 @@ def gather(frame, state, now):
         weights.append(torch.stack(row, 1))
     out["shift"], out["first"] = shift, first
     out["weights"] = torch.stack(weights, 2)[..., None, None].expand(b, 4, 9, h, w)
-    out["near"] = history_at(frame["follow"], state, now, shift)
-    out["own"] = history_at(frame["motion"], state, now, shift)
+    out["near"] = history_at(frame["follow"], state, shift)
+    out["own"] = history_at(frame["motion"], state, shift)
     return out
 
 
-def history_at(motion, state, now, shift):
+def history_at(motion, state, shift):
     """The history that a motion of the frame's pixels comes from: its colours, counts, and whether it is in the image."""
     b, _, h, w = motion.shape
     motion = torch.floor(motion * 2 * 1024 + 0.5) / 1024
     wide = motion.repeat_interleave(2, 2).repeat_interleave(2, 3)
-    x, y = pixel_grid(2 * h, 2 * w)
+    x, y = pixel_grid(2 * h, 2 * w, motion.device)
     x, y = x - shift[:, 0].view(b, 1, 1), y - shift[:, 1].view(b, 1, 1)
     x, y = x - wide[:, 0], y - wide[:, 1]
     inside = (x >= -0.5) & (y >= -0.5) & (x <= 2 * w - 0.5) & (y <= 2 * h - 0.5)
     grid = torch.stack(((2 * x + 1) / (2 * w) - 1, (2 * y + 1) / (2 * h) - 1), -1)
     count = F.grid_sample(state["count"], grid, mode="bilinear", padding_mode="border", align_corners=False)
     return {"color": by_quarter(catmull_rom(state["history"], x, y)), "inside": by_quarter(inside.unsqueeze(1).float()),
-            "count": by_quarter(count) * now["kept"].unsqueeze(2), "fraction": -motion - torch.floor(-motion)}
+            "count": by_quarter(count), "fraction": -motion - torch.floor(-motion)}
 
 
 def mean_of(samples, weights):
     """The mean of 3 x 3 samples for each output pixel, and the sum of the weights."""
     total = weights.sum(2)
-    sums = torch.einsum("bskhw,bckhw->bcshw", weights, samples - samples[:, :, 4:5])
-    return samples[:, :, 4:5] + sums / total.clamp(min=1e-4).unsqueeze(1), total
+    middle = samples[:, :, 4:5]
+    sums = sum(weights[:, :, k].unsqueeze(1) * (samples[:, :, k:k + 1] - middle) for k in range(9) if k != 4)
+    return middle + sums / total.clamp(min=1e-4).unsqueeze(1), total
 
 
 def features(frame, now, got, last_unrest):
@@ -236,14 +239,14 @@ def features(frame, now, got, last_unrest):
     current = lights(mean_of(got["samples"], got["weights"])[0])
     past, history = lights(near["color"]), near["color"]
     second = lights(torch.where(borrowed, own["color"], history))
-    second_count = torch.where(borrowed, own["count"] * own["inside"], near["count"]).mean(2)
+    second_count = torch.where(borrowed, own["count"] * own["inside"], near["count"]).mean(2) * now["kept"]
     limited = torch.minimum(torch.maximum(history, low), high)
     beyond = (history - limited).abs().sum(1) / (0.02 + limited.sum(1))
     light = tone(luminance(frame["color"]))
     apart = (frame["nearest"] - frame["farthest"]) / frame["nearest"].clamp(min=1e-20)
     fraction = 4 * near["fraction"] * (1 - near["fraction"])
     jitter = (got["first"] * 2 + 1).view(b, 2, 1, 1).expand(b, 2, h, w)
-    count = near["count"].mean(2)
+    count = near["count"].mean(2) * now["kept"]
     x, y = origin(frame["follow"])
     before = at_pixels(last_unrest, x, y)
     unrest = (past - current).abs().mean(1, keepdim=True)
@@ -280,64 +283,69 @@ class InwardClamp(torch.autograd.Function):
 
 def resolve(frame, now, got, output):
     """One step of the mean: output (batch, 4, 14, h, w) are corrections of nine weights, of the history's validity, of
-    the limit of its count, of the clamp, of the share of the history that the pixel's own surface had, and of the count
-    of the frame's samples. Weights change the mean of these alone, so that a wide one does not count more. Zeros: `taau`. Returns the image and the next history."""
+    the part of it that counts though `taau` lets it go, of the clamp, of the share of the history that the pixel's own
+    surface had, and of the count of the frame's samples. Weights change the mean of these alone, so that a wide one
+    does not count more; they change the less, the more samples the history has. Zeros: `taau`. Returns the image and
+    the next history."""
     clamp = InwardClamp.apply
-    weights = clamp(got["weights"] + 0.5 * output[:, :, :9], 0.0, 1e9)
+    kept = now["kept"]
+    freedom = COUNT_AT_REST / (COUNT_AT_REST + got["near"]["count"][:, 0] * kept)
+    weights = clamp(got["weights"] + (0.5 * freedom).unsqueeze(2) * output[:, :, :9], 0.0, 1e9)
     valid = clamp(1 + output[:, :, 9], 0.0, 1.0)
-    limit = clamp(1 + output[:, :, 10], 0.25, 8.0)
+    kept_part = kept + (1 - kept) * clamp(output[:, :, 10], 0.0, 1.0)
     clamping = clamp(1 + output[:, :, 11], 0.0, 1.0)
     share = clamp(output[:, :, 12], 0.0, 1.0) * frame["borrowed"]
     current, _ = mean_of(got["samples"], weights)
     total = got["weights"].sum(2) * clamp(1 + output[:, :, 13], 0.1, 4.0)
     low, high = now["low"].unsqueeze(2), now["high"].unsqueeze(2)
 
-    def kept(past, is_borrowed):
+    def limited(past, is_borrowed):
         moved = (torch.minimum(torch.maximum(past["color"], low), high) - past["color"]) * clamping.unsqueeze(1)
         color = past["color"] + moved
         beyond = moved.abs().sum(1) / (0.02 + color.abs().sum(1))
         filtered = (past["fraction"] > 0).any(1, keepdim=True)
-        most = torch.where(filtered, torch.tensor(MOST_FILTERED), torch.tensor(MOST))
+        most = MOST + (MOST_FILTERED - MOST) * filtered.float()
         if is_borrowed:
             most = torch.where(frame["borrowed"] > 0, most.clamp(max=MOST_BORROWED), most)
-        count = torch.minimum(past["count"][:, 0] / (1 + beyond), (most * limit).clamp(max=MOST))
+        count = torch.minimum(past["count"][:, 0] * kept_part / (1 + beyond), most)
         return color, count * past["inside"][:, 0]
 
-    near_color, near_count = kept(got["near"], True)
-    own_color, own_count = kept(got["own"], False)
+    near_color, near_count = limited(got["near"], True)
+    own_color, own_count = limited(got["own"], False)
     past = near_color + (own_color - near_color) * share.unsqueeze(1)
     everything = (near_count + (own_count - near_count) * share) * valid + total
     mean = past + (current - past) * (total / everything.clamp(min=1e-4)).unsqueeze(1)
     image, everything = by_pixel(mean), by_pixel(everything.unsqueeze(1))
     b, _, h, w = image.shape
-    x = (torch.arange(w).view(1, w) + got["shift"][:, :1]).clamp(0, w - 1).long()
-    y = (torch.arange(h).view(1, h) + got["shift"][:, 1:]).clamp(0, h - 1).long()
+    column, row = pixel_grid(h, w, image.device)
+    x = (column[0] + got["shift"][:, :1]).clamp(0, w - 1).long()
+    y = (row[:, :, 0] + got["shift"][:, 1:]).clamp(0, h - 1).long()
     both = torch.cat([image, everything], 1)
     both = both.gather(2, y.view(b, 1, h, 1).expand(b, 4, h, w)).gather(3, x.view(b, 1, 1, w).expand(b, 4, h, w))
     image, everything = both[:, :3], both[:, 3:]
     return image, everything
 
 
-def first_state(b, h, w):
+def first_state(b, h, w, device):
     """What precedes the first of frames of this size: nothing has been seen."""
-    return {"history": torch.zeros(b, 3, 2 * h, 2 * w), "count": torch.zeros(b, 1, 2 * h, 2 * w),
-            "low": torch.zeros(b, 3, h, w), "high": torch.zeros(b, 3, h, w), "trend": torch.zeros(b, 1, h, w),
-            "unrest": torch.zeros(b, 1, h, w)}
+    zeros = lambda channels, scale: torch.zeros(b, channels, scale * h, scale * w, device=device)
+    return {"history": zeros(3, 2), "count": zeros(1, 2), "low": zeros(3, 1), "high": zeros(3, 1), "trend": zeros(1, 1),
+            "unrest": zeros(1, 1)}
 
 
 def step(frame, state, is_first, network=None):
-    """The image and the next state; without a network those of `taau`. `is_first` is a flag per sequence."""
+    """The image and the next state; without a network those of `taau`. `is_first` is a flag per sequence, whose state
+    is that of first_state."""
     b, _, h, w = frame["color"].shape
     with torch.no_grad():
         past = {k: v.detach() for k, v in state.items()}
-        now = compare(frame, past)
-        if is_first.any():
-            first = is_first.view(b, 1, 1, 1)
-            start = {"low": frame["low"], "high": frame["high"]}
-            now = {k: torch.where(first, start.get(k, torch.zeros(())), v) for k, v in now.items()}
-    got = gather(frame, state, now)
-    output, unrest = torch.zeros(b, 4, OUTPUTS, h, w), past["unrest"]
-    if network is not None:
+        first = is_first.view(b, 1, 1, 1)
+        start = {"low": frame["low"], "high": frame["high"]}
+        now = {k: torch.where(first, start.get(k, torch.zeros_like(v)), v) for k, v in compare(frame, past).items()}
+    got = gather(frame, state)
+    if network is None:
+        output, unrest = torch.zeros(b, 4, OUTPUTS, h, w, device=first.device), past["unrest"]
+    else:
         with torch.no_grad():
             planes, unrest = features(frame, now, got, past["unrest"])
             planes = torch.floor(planes * 127 + 0.5) / 127

@@ -74,7 +74,25 @@ class Network(nn.Module):
                 scale = layer.scale()
                 outputs, inputs, side, _ = layer.weight.shape
                 file.write(struct.pack("<BBBB", inputs, outputs, side, layer.stride[0]))
-                file.write(scale.numpy().astype("<f4").tobytes())
-                file.write(torch.round(layer.bias.detach() / scale * LEVELS).numpy().astype("<i4").tobytes())
-                weights = torch.round(layer.weight.detach() / scale.view(-1, 1, 1, 1)).numpy()
+                file.write(scale.cpu().numpy().astype("<f4").tobytes())
+                file.write(torch.round(layer.bias.detach() / scale * LEVELS).cpu().numpy().astype("<i4").tobytes())
+                weights = torch.round(layer.weight.detach() / scale.view(-1, 1, 1, 1)).cpu().numpy()
                 file.write(np.ascontiguousarray(weights.transpose(0, 2, 3, 1)).astype(np.int8).tobytes())
+
+    def load_weights(self, path):
+        """Reads what save_weights has written."""
+        data = open(path, "rb").read()
+        at = 8
+        for name in self.LAYERS:
+            layer = getattr(self, name)
+            inputs, outputs, side, _ = data[at:at + 4]
+            scale = np.frombuffer(data, "<f4", outputs, at + 4)
+            bias = np.frombuffer(data, "<i4", outputs, at + 4 + 4 * outputs)
+            at += 4 + 8 * outputs
+            count = outputs * side * side * inputs
+            weights = np.frombuffer(data, np.int8, count, at).reshape(outputs, side, side, inputs).transpose(0, 3, 1, 2)
+            at += count
+            with torch.no_grad():
+                layer.weight.copy_(torch.from_numpy(weights * scale.reshape(-1, 1, 1, 1)))
+                layer.bias.copy_(torch.from_numpy(bias * scale / LEVELS))
+        return self

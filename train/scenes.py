@@ -95,7 +95,7 @@ class Maker:
         self.random = np.random.default_rng(seed)
         self.out = Gltf()
         self.rests = self.chance(0.2)
-        self.is_lit = self.chance(0.35)
+        self.is_lit = self.chance(0.42)
 
     def chance(self, part):
         return self.random.random() < part
@@ -107,6 +107,18 @@ class Maker:
         """Of most things 0.1 to 6 pixels per frame, of the others less."""
         pixels = self.random.uniform(0.1, 6) if self.chance(0.65) else self.random.uniform(0.02, 0.5)
         return pixels * PIXEL / FRAME
+
+    def span(self):
+        """When a thing moves: all the time, or only until a moment, or from one on."""
+        moment = self.random.uniform(0.25, 0.8) * SECONDS
+        return [(0, SECONDS), (0, moment), (moment, SECONDS)][self.random.choice(3, p=[0.55, 0.25, 0.2])]
+
+    def slide(self, node, begin, end):
+        """Moves a node towards a place that it reaches if it moves all the time; before and after it rests."""
+        first, last = self.span()
+        times = np.array(sorted({0, first, last, SECONDS}))
+        part = (np.clip(times, first, last) - first)[:, None] / SECONDS
+        self.out.animate(times, begin + (np.asarray(end) - begin) * part, node, "translation")
 
     def direction(self):
         angle = self.random.uniform(0, 2 * np.pi) if self.chance(0.5) else self.random.integers(0, 4) * np.pi / 2
@@ -121,27 +133,28 @@ class Maker:
         node = self.out.node((0, 0, distance), camera=self.out.add("cameras", kind))
         if not self.rests and self.chance(0.35):
             end = np.array([0, 0, distance]) + self.direction() * self.speed() * 0.6 * SECONDS
-            self.out.animate([0, SECONDS], [(0, 0, distance), end], node, "translation")
+            self.slide(node, np.array([0, 0, distance]), end)
 
     def move(self, node, place):
         """Lets a node rest, slide, jump, sway or turn."""
         if self.rests:
             return
         place, random = np.array(place, float), self.random
-        kind = random.choice(["rest", "slide", "jump", "sway", "turn"], p=[0.22, 0.36, 0.16, 0.14, 0.12])
+        kind = random.choice(["rest", "slide", "jump", "sway", "turn"], p=[0.2, 0.36, 0.18, 0.14, 0.12])
         times = np.linspace(0, SECONDS, 40)
         if kind == "slide":
             half = self.direction() * self.speed() * SECONDS / 2
-            self.out.animate([0, SECONDS], [place - half, place + half], node, "translation")
+            self.slide(node, place - half, place + half)
         elif kind == "jump":
-            count = int(random.integers(3, 9))
+            count = int(random.integers(2, 9))
             places = np.tile(place, (count, 1))
             places[:, :2] += random.normal(0, 0.45, (count, 2))
             self.out.animate(np.linspace(0, SECONDS, count), places, node, "translation", is_stepped=True)
         elif kind == "sway":
             self.sway(node, place, random.uniform(0.02, 0.3), random.uniform(0.3, 1.5))
         elif kind == "turn":
-            half = random.uniform(-2.5, 2.5) * times / 2
+            first, last = self.span()
+            half = random.uniform(-2.5, 2.5) * np.clip(times, first, last) / 2
             self.out.animate(times, np.stack([0 * half, 0 * half, np.sin(half), np.cos(half)], 1), node, "rotation")
 
     def sway(self, node, place, size, frequency):
@@ -265,7 +278,7 @@ class Maker:
         for _ in range(2):
             self.out.light(random.uniform(0.5, 4), *random.uniform(-0.8, 0.8, 2))
         if not self.rests and self.chance(0.75):
-            count = int(random.integers(3, 8))
+            count = int(random.integers(2, 8))
             intensity = random.uniform(0, 4, count) * (random.random(count) < 0.7)
             self.out.animate(np.linspace(0, SECONDS, count), intensity,
                              pointer="/extensions/KHR_lights_punctual/lights/0/intensity",

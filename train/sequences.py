@@ -28,29 +28,38 @@ def planar(array):
     return torch.from_numpy(np.ascontiguousarray(array.transpose(0, 3, 1, 2)))
 
 
-def load(folder, name):
-    """A sequence: planes of all frames by name, and `truth` and `sample`."""
+def read(folder, name):
+    """What a sequence's files contain, in the order of the frames."""
     folder = Path(folder)
     info = json.loads((folder / f"{name}.json").read_text())
     count, low = len(info["Frames"]), folder / "x2"
-    color = planar(stack(low / "color" / name, count)).clamp(0, 65504)
     depth = stack(low / "depth" / name, count)
     nearness = np.stack([nearness_of(d, c) for d, c in zip(depth, info["Frames"])])
-    motion = planar(stack(low / "motion" / name, count))
-    sample = torch.tensor([[0.5 + v for v in f["Jitter"]] for f in info["Frames"]])
-    out = {"truth": planar(stack(folder / "ground_truth" / name, count)), "color": color, "sample": sample,
-           "nearness": torch.from_numpy(nearness)[:, None], "motion": motion}
-    rows = []
-    for t in range(count):
-        now = mean.survey(color[t:t + 1], out["nearness"][t:t + 1], motion[t:t + 1])
-        zero = torch.zeros_like(now["alike"])
-        now["uncovered"], now["steady"] = zero, zero
-        if t > 0:
-            now["uncovered"], now["steady"] = mean.came_from(now, out["nearness"][t:t + 1], motion[t:t + 1],
-                                                             rows[-1]["alike"], sample[t])
-        rows.append(now)
-    for key in rows[0]:
-        out[key] = torch.cat([row[key] for row in rows])
+    return {"truth": planar(stack(folder / "ground_truth" / name, count)),
+            "color": planar(stack(low / "color" / name, count)).clamp(0, 65504),
+            "nearness": torch.from_numpy(nearness)[:, None], "motion": planar(stack(low / "motion" / name, count)),
+            "sample": torch.tensor([[0.5 + v for v in f["Jitter"]] for f in info["Frames"]])}
+
+
+def load(folder, name, device="cpu"):
+    """A sequence: planes of all frames by name, and `truth` and `sample`."""
+    out = {key: plane.to(device) for key, plane in read(folder, name).items()}
+    out.update(mean.survey(out["color"], out["nearness"], out["motion"]))
+    later = {key: plane[1:] for key, plane in out.items()}
+    uncovered, steady = mean.came_from(later, later["nearness"], later["motion"], out["alike"][:-1], later["sample"])
+    zero = torch.zeros_like(out["alike"][:1])
+    out["uncovered"], out["steady"] = torch.cat([zero, uncovered]), torch.cat([zero, steady])
+    return out
+
+
+def load_all(folder, names, device="cpu"):
+    """Sequences of one size and length: planes by name, whose first two dimensions are sequences and frames."""
+    out = {}
+    for number, name in enumerate(names):
+        for key, plane in load(folder, name, device).items():
+            if key not in out:
+                out[key] = torch.empty((len(names), *plane.shape), device=device)
+            out[key][number] = plane
     return out
 
 

@@ -86,7 +86,8 @@ TEST_F(DemoFolder, AllLessonsAreWrittenAndSaid) {
                                           "sdf.png",
                                           "temporal.png",
                                           "ghosting.png",
-                                          "checkerboard.png"}));
+                                          "checkerboard.png",
+                                          "learned.png"}));
   for (const std::string& name : names) {
     const FileBytes file(folder + "/" + name);
     if (name.ends_with(".png")) {

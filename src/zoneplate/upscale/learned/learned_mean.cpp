@@ -135,20 +135,27 @@ LinearImage LearnedMean::resolved(const Known& known, Plane<float>& count) {
                                     static_cast<std::size_t>(frame_width));
     }
   });
-  network_.correct(work.network);
+  network_.read(work.network);
 
-  constexpr int per_pixel = 4 * Network::corrections;
+  // A part of a row at a time, so that its corrections stay in the cache.
+  constexpr std::size_t part = 128;
   LinearImage out(width(), height());
   for_output_rows(known, [&](const SampleMeanFrame& frame, SampleMeanRow& row) {
     const auto y = static_cast<std::size_t>(row.y);
-    std::vector<std::int32_t> middle(pixels);
-    for (std::size_t x = 0; x < pixels; ++x)
-      middle[x] = columns.around[1][x] * per_pixel + Network::corrections * (2 * down.half[y] + across.half[x]);
-    const auto frame_row = static_cast<std::size_t>(rows.around[1][y]) * static_cast<std::size_t>(frame_width);
     row.resolved = &out.row(row.y).data()->r, row.count = count.row(row.y).data();
-    LearnedKernels::of().blend(
-        frame, row, work.row(row.y),
-        {.corrections = work.network.corrections.data() + frame_row * per_pixel, .middle = middle.data()}, pixels);
+    float corrections[(part / 2 + 4) * Network::per_pixel];
+    std::int32_t middle[part];
+    for (std::size_t begin = 0; begin < pixels; begin += part) {
+      const std::size_t end = std::min(begin + part, pixels);
+      const std::int32_t* const of = columns.around[1].data();
+      network_.correct(work.network, of[begin], rows.around[1][y], of[end - 1] - of[begin] + 1, down.half[y],
+                       corrections);
+      for (std::size_t x = begin; x < end; ++x)
+        middle[x - begin] = (of[x] - of[begin]) * Network::per_pixel + Network::begins[down.half[y]] +
+                            Network::corrections * across.half[x];
+      LearnedKernels::of().blend(frame, row, work.row(row.y),
+                                 {.begin = begin, .corrections = corrections, .middle = middle}, end - begin);
+    }
   });
   return out;
 }

@@ -15,7 +15,7 @@ struct HistoryRow {
 struct GatheredRow {
   float* current;   ///< the mean of the frame's samples: four floats per pixel
   HistoryRow near;  ///< by the motion that is followed
-  HistoryRow own;   ///< by that of the nearest sample's surface, where the other one is borrowed; else the same
+  HistoryRow own;   ///< by that of the nearest sample's surface, where the other one is borrowed; else undefined
 };
 
 /// One row of a frame, for LearnedKernels::describe.
@@ -33,14 +33,15 @@ struct FeatureRow {
   GatheredRow above, below;
   const std::int32_t *left, *right;
 
-  float* features;  ///< out: Network::features numbers per pixel, whole ones
-  float* unrest;    ///< out: the mean over few frames of the difference of history and samples
+  std::int16_t* features;  ///< out: Network::features numbers per pixel
+  float* unrest;           ///< out: the mean over few frames of the difference of history and samples
 };
 
-/// What the network says about an output row's pixels.
+/// What the network says about a part of an output row.
 struct CorrectionRow {
-  const float* corrections;    ///< of the frame's row: Network::corrections for each of four output pixels, per pixel
-  const std::int32_t* middle;  ///< where in the frame's row each output pixel's corrections begin
+  std::size_t begin;           ///< its first pixel
+  const float* corrections;    ///< as Network::correct writes them
+  const std::int32_t* middle;  ///< where in them those of each output pixel begin
 };
 
 /// The passes of LearnedMean.
@@ -51,6 +52,7 @@ struct LearnedKernels : PerIsa<LearnedKernels> {
   void (*gather)(const SampleMeanFrame& frame, const SampleMeanRow& row, const float* own_x, const float* own_y,
                  const GatheredRow& out, std::size_t n);
   void (*describe)(const FeatureRow& row, std::size_t n);
+  /// n pixels from corrections.begin on.
   void (*blend)(const SampleMeanFrame& frame, const SampleMeanRow& row, const GatheredRow& known,
                 const CorrectionRow& corrections, std::size_t n);
 };

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cstring>
+
 #include "zoneplate/upscale/learned/learned_rows.h"
 #include "zoneplate/upscale/learned/network.h"
 #include "zoneplate/upscale/taau/sample_mean_rows_lanes.h"
@@ -32,12 +35,8 @@ template <class F>
   const sample_mean::Past<F> near(frame, row, row.follow_x, row.follow_y, i);
   store(near, out.near, i);
   const auto is_borrowed = F::gather(row.is_borrowed, F::Int::load(row.columns[1] + i)) > F(0.0f);
-  if (none(is_borrowed)) return store(near, out.own, i);
   // Where it is not borrowed, both are the same within 1/16 pixel.
-  sample_mean::Past<F> own(frame, row, own_x, own_y, i);
-  own.color = select(is_borrowed, own.color, near.color);
-  own.samples = select(is_borrowed, own.samples, near.samples);
-  store(own, out.own, i);
+  if (!none(is_borrowed)) store(sample_mean::Past<F>(frame, row, own_x, own_y, i), out.own, i);
 }
 
 /// Light in [0, 1), about as bright as it is seen.
@@ -54,22 +53,34 @@ template <class F>
   return -rounded - floor(-rounded);
 }
 
-/// Writes the features of pixel i in the order of features() in train/mean.py.
+/// Writes the features of pixel i in the order of features() in train/mean.py, eight at a time.
 template <class F>
 class Features {
  public:
-  [[gnu::always_inline]] Features(float* out, std::ptrdiff_t i) : out_(out + i * Network::features) {}
+  [[gnu::always_inline]] Features(std::int16_t* out, std::ptrdiff_t i) : out_(out + i * Network::features) {}
   /// A feature in [0, 1], as a whole number.
   [[gnu::always_inline]] void add(F value) {
+    using Int = typename F::Int;
+    static_assert(Network::features % 8 == 0);
     const F limited = min(max(value, F(0.0f)), F(1.0f));
-    float lanes[F::lanes];
-    floor(limited * F(Network::levels) + F(0.5f)).store(lanes);
-    for (int lane = 0; lane < F::lanes; ++lane) out_[lane * Network::features + next_] = lanes[lane];
-    ++next_;
+    const Int whole = truncate(limited * F(Network::levels) + F(0.5f));
+    const int at = next_ % 8 / 2;
+    if (next_++ % 2 == 0) {
+      even_ = whole;
+      return;
+    }
+    pairs_[at] = F::of_bits(even_ + whole * Int(1 << 16));
+    if (at < 3) return;
+    float each[4 * F::lanes];
+    F::store_fours(pairs_, each);
+    for (int lane = 0; lane < F::lanes; ++lane)
+      std::memcpy(out_ + lane * Network::features + next_ - 8, each + 4 * lane, 4 * sizeof(float));
   }
 
  private:
-  float* out_;
+  std::int16_t* out_;
+  typename F::Int even_;
+  F pairs_[4];
   int next_ = 0;
 };
 
@@ -105,6 +116,7 @@ template <class F>
 
   // The four output pixels, in reading order.
   const auto is_borrowed = F::load(row.borrowed + i) > F(0.0f);
+  const bool one_history = none(is_borrowed);
   F past_light[4], beyond[4], difference[4], own_difference[4];
   F count(0.0f), own_count(0.0f), inside(0.0f), apart_colors(0.0f);
   for (int k = 0; k < 4; ++k) {
@@ -121,7 +133,6 @@ template <class F>
     const F current_light = tone(luminance_of(pixel(from.current)));
     past_light[k] = tone(luminance_of(past));
     difference[k] = past_light[k] - current_light;
-    own_difference[k] = tone(luminance_of(pixel(from.own.color))) - current_light;
     const Rgba<F> limited = min(max(past, low), high);
     F outside(0.0f), sum(0.02f);
     for (int c = 0; c < 3; ++c) {
@@ -129,22 +140,30 @@ template <class F>
       apart_colors = apart_colors + abs(tone(past.c[c]) - tone(color.c[c]));
     }
     beyond[k] = outside / sum;
-    count = count + F::gather(from.near.count, at), inside = inside + F::gather(from.near.inside, at);
-    const F own_inside = select(is_borrowed, F::gather(from.own.inside, at), one);
-    own_count = own_count + F::gather(from.own.count, at) * own_inside;
+    const F samples = F::gather(from.near.count, at);
+    count = count + samples, inside = inside + F::gather(from.near.inside, at);
+    F own_samples = samples;
+    own_difference[k] = difference[k];
+    if (!one_history) {
+      const F own_light = tone(luminance_of(pixel(from.own.color)));
+      own_difference[k] = select(is_borrowed, own_light - current_light, difference[k]);
+      own_samples = select(is_borrowed, F::gather(from.own.count, at) * F::gather(from.own.inside, at), samples);
+    }
+    own_count = own_count + own_samples;
   }
   const F quarter(0.25f), strength(1.5f);
   const F mean = (past_light[0] + past_light[1] + past_light[2] + past_light[3]) * quarter;
   for (const F& d : difference) out.add(half + strength * d);
   for (const F& l : past_light) out.add(half + strength * (l - mean));
   for (const F& b : beyond) out.add(b / (one + b));
-  count = count * quarter;
-  out.add(count / (F(4.0f) + count));
+  const F kept = F::load(row.kept + i), count_at_rest(Network::count_at_rest);
+  count = count * quarter * kept;
+  out.add(count / (count_at_rest + count));
   out.add(apart_colors * F(1.0f / 12));
   out.add(inside * quarter);
   for (const F& d : own_difference) out.add(half + strength * d);
-  own_count = own_count * quarter;
-  out.add(own_count / (F(4.0f) + own_count));
+  own_count = own_count * quarter * kept;
+  out.add(own_count / (count_at_rest + own_count));
 
   const sample_mean::Origin<F> origin(row.column, row.y, row.follow_x, row.follow_y, i);
   const PastPixels<F> from(origin.x, origin.y, row.width, row.height, column, i, 1);
@@ -162,16 +181,16 @@ struct KeptHistory {
   F count;
 };
 
-/// As sample_mean::clamped, by a part of the distance; the count is at most `most`.
+/// As sample_mean::clamped, by a part of the distance, of a part of the samples; the count is at most `most`.
 template <class F>
 [[gnu::always_inline]] inline KeptHistory<F> kept_of(const HistoryRow& row, const Rgba<F>& low, const Rgba<F>& high,
-                                                     F clamping, F most, std::ptrdiff_t i) {
+                                                     F clamping, F part, F most, std::ptrdiff_t i) {
   const Rgba<F> past = Rgba<F>::load(row.color + 4 * i);
   const Rgba<F> moved = (min(max(past, low), high) - past) * clamping;
   const Rgba<F> color = past + moved;
   F beyond(0.0f), sum(0.02f);
   for (int c = 0; c < 3; ++c) beyond = beyond + abs(moved.c[c]), sum = sum + abs(color.c[c]);
-  const F count = min(F::load(row.count + i) / (F(1.0f) + beyond / sum), most);
+  const F count = min(F::load(row.count + i) * part / (F(1.0f) + beyond / sum), most);
   return {color, count * F::load(row.inside + i)};
 }
 
@@ -179,37 +198,44 @@ template <class F>
 [[gnu::always_inline]] inline void blend(const SampleMeanFrame& frame, const SampleMeanRow& row,
                                          const GatheredRow& known, const CorrectionRow& corrections, std::ptrdiff_t i) {
   const F zero(0.0f), one(1.0f), least(1e-4f);
-  const typename F::Int middle = F::Int::load(corrections.middle + i);
-  const auto correction = [&](int k) { return F::gather(corrections.corrections + k, middle); };
+  F correction[Network::corrections];  // the last quad overlaps the one before
+  std::int32_t places[F::lanes];
+  F::Int::load(corrections.middle + i - static_cast<std::ptrdiff_t>(corrections.begin)).store(places);
+  for (int k = 0; k < 4; ++k) {
+    const int first = std::min(4 * k, Network::corrections - 4);
+    F quad[4];
+    load_pixels<F>([&](int lane) { return corrections.corrections + places[lane] + first; }, quad);
+    for (int c = 0; c < 4; ++c) correction[first + c] = quad[c];
+  }
   const auto limited = [](F value, float low, float high) { return min(max(value, F(low)), F(high)); };
   const sample_mean::FramePixels<F> pixels(row, i);
+  const typename F::Int column = F::Int::load(row.columns[1] + i);
+  const F kept_by_rule = F::gather(row.kept, column), count_at_rest(Network::count_at_rest);
+  const F freedom = F(0.5f) * (count_at_rest / (count_at_rest + F::load(known.near.count + i) * kept_by_rule));
   F usual(0.0f), changed;
   const auto weight_of = [&](int k) {
     const F weight = F::load(row.weight_x[k % 3] + i) * F(row.weight_y[k / 3]);
     usual = usual + weight;
-    return max(weight + F(0.5f) * correction(k), zero);
+    return max(weight + freedom * correction[k], zero);
   };
   const Rgba<F> current = pixels.mean(weight_of, 1e-4f, changed);
   // Corrections of weights change this mean, but not how much it counts.
-  const F weights = usual * limited(one + correction(13), 0.1f, 4);
-  const F valid = limited(one + correction(9), 0, 1);
-  const F widening = limited(one + correction(10), 0.25f, 8);
-  const F clamping = limited(one + correction(11), 0, 1);
+  const F weights = usual * limited(one + correction[13], 0.1f, 4);
+  const F valid = limited(one + correction[9], 0, 1);
+  const F part = kept_by_rule + (one - kept_by_rule) * limited(correction[10], 0, 1);
+  const F clamping = limited(one + correction[11], 0, 1);
 
   const Rgba<F> low = pixels.at(row.low, 1), high = pixels.at(row.high, 1);
-  const auto most = [&](const HistoryRow& history, bool is_own) {
-    const auto is_filtered = F::load(history.filtered + i) > zero;
-    const F limit = is_own ? select(is_filtered, F(frame.most_filtered), F(frame.most))
-                           : sample_mean::most_of<F>(frame, row, is_filtered, i);
-    return min(limit * widening, F(frame.most));
-  };
-  KeptHistory<F> kept = kept_of(known.near, low, high, clamping, most(known.near, false), i);
-  const auto is_borrowed = F::gather(row.is_borrowed, F::Int::load(row.columns[1] + i)) > zero;
-  const F share = where(is_borrowed, limited(correction(12), 0, 1));
+  const auto is_filtered = [&](const HistoryRow& history) { return F::load(history.filtered + i) > zero; };
+  const F most = sample_mean::most_of<F>(frame, row, is_filtered(known.near), i);
+  KeptHistory<F> kept = kept_of(known.near, low, high, clamping, part, most, i);
+  const auto is_borrowed = F::gather(row.is_borrowed, column) > zero;
+  const F share = where(is_borrowed, limited(correction[12], 0, 1));
   if (!none(share > zero)) {
-    const KeptHistory<F> own = kept_of(known.own, low, high, clamping, most(known.own, true), i);
-    kept.color = kept.color + (own.color - kept.color) * share;
-    kept.count = kept.count + (own.count - kept.count) * share;
+    const F own_most = select(is_filtered(known.own), F(frame.most_filtered), F(frame.most));
+    const KeptHistory<F> own = kept_of(known.own, low, high, clamping, part, own_most, i);
+    kept.color = select(is_borrowed, kept.color + (own.color - kept.color) * share, kept.color);
+    kept.count = select(is_borrowed, kept.count + (own.count - kept.count) * share, kept.count);
   }
   const F all = kept.count * valid + weights;
   (kept.color + (current - kept.color) * (weights / max(all, least))).store(row.resolved + 4 * i);
@@ -235,7 +261,7 @@ template <class Full, class One>
 [[gnu::flatten]] void blend_learned(const SampleMeanFrame& frame, const SampleMeanRow& row, const GatheredRow& known,
                                     const CorrectionRow& corrections, std::size_t n) {
   for_row<Full, One>(n, [&]<class F>(std::size_t i) {
-    learned::blend<F>(frame, row, known, corrections, static_cast<std::ptrdiff_t>(i));
+    learned::blend<F>(frame, row, known, corrections, static_cast<std::ptrdiff_t>(corrections.begin + i));
   });
 }
 

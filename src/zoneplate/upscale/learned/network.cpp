@@ -3,8 +3,9 @@
 // their 24 activations are 6 of each of four pixels. One convolution of each pixel alone keeps the frame's resolution.
 // A last one of 3 × 3 pixels joins both, and one per pixel makes the corrections.
 //
-// Numbers are integers in floats. A sum of at most 360 products of integers up to 127, with its bias, is below 2^24, so
-// that no order of additions rounds it; the constructor checks this. The one product with a scale is rounded once.
+// Numbers are integers of 16 bits, of whose products an instruction adds two (pmaddwd). A sum of at most 360 products
+// of integers up to 127, with its bias, is below 2^24, so that a float holds it; the constructor checks this. The one
+// product with a scale is rounded once.
 #include "zoneplate/upscale/learned/network.h"
 
 #include <fmt/format.h>
@@ -26,7 +27,6 @@ namespace {
 constexpr std::string_view signature = "ZPLEARN1";
 
 constexpr int of_each = 6, own = 8;  ///< the activations of a pixel that the two branches make
-constexpr std::size_t per_pixel = 4 * Network::corrections;
 int halved(int size) { return (size + 1) / 2; }
 
 /// The form of each layer: inputs, outputs, side and stride.
@@ -75,7 +75,7 @@ Convolution read_layer(Bytes& file, const std::uint8_t (&form)[4]) {
   std::vector<double> greatest;
   for (std::size_t o = 0; o < outputs; ++o) {
     const auto bias = static_cast<std::int32_t>(file.number());
-    out.bias.push_back(static_cast<float>(bias));
+    out.bias.push_back(bias);
     greatest.push_back(std::abs(static_cast<double>(bias)));
   }
   const std::size_t products = static_cast<std::size_t>(out.inputs) * form[2] * form[2];
@@ -84,7 +84,7 @@ Convolution read_layer(Bytes& file, const std::uint8_t (&form)[4]) {
     const auto weights = file.take(products);
     for (std::size_t k = 0; k < products; ++k) {
       const int weight = static_cast<std::int8_t>(weights[k]);
-      out.weights[k * outputs + o] = static_cast<float>(weight);
+      out.weights[k / 2 * 2 * outputs + 2 * o + k % 2] = static_cast<std::int16_t>(weight);
       greatest[o] += std::abs(weight) * double{Network::levels};
     }
     if (greatest[o] >= 1 << 24) file.fail("a sum may exceed 2^24");
@@ -105,9 +105,9 @@ void convolve(const Convolution& layer, const Activations& from, Activations& to
                          .weights = layer.weights.data(),
                          .scale = layer.scale.data(),
                          .bias = layer.bias.data(),
-                         .is_last = false,
-                         .output = to.at(0, y) + channel,
-                         .output_channels = to.channels};
+                         .all_outputs = layer.outputs,
+                         .activations = to.at(0, y) + channel,
+                         .channels = to.channels};
       for (int k = 0; k < layer.side; ++k) row.input[k] = from.at(-reach, y * layer.stride + k - reach);
       NetworkKernels::of().convolve(row, static_cast<std::size_t>(to.width));
     }
@@ -149,14 +149,13 @@ Network::Network(std::span<const std::uint8_t> bytes, std::string_view name) {
 
 NetworkFrame::NetworkFrame(int width, int height)
     : features(width, height, Network::features),
-      corrections(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * per_pixel),
       half_{{halved(width), halved(height), 16},
             {halved(width), halved(height), 16},
             {halved(width), halved(height), 24}},
       joined_(width, height, of_each + own),
       last_(width, height, 16) {}
 
-void Network::correct(NetworkFrame& frame) const {
+void Network::read(NetworkFrame& frame) const {
   const int width = frame.features.width, height = frame.features.height;
   frame.features.close();
   convolve(layers_[Wide0], frame.features, frame.half_[0], 0);
@@ -164,28 +163,35 @@ void Network::correct(NetworkFrame& frame) const {
   convolve(layers_[Wide2], frame.half_[1], frame.half_[2], 0);
   convolve(layers_[Own], frame.features, frame.joined_, of_each);
   const Activations& wide = frame.half_[2];
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
-      for (int c = 0; c < of_each; ++c) frame.joined_.at(x, y)[c] = wide.at(x / 2, y / 2)[4 * c + 2 * (y % 2) + x % 2];
-  frame.joined_.close();
-  convolve(layers_[Joined], frame.joined_, frame.last_, 0);
-  const Convolution& out = layers_[Out];
-  parallel_ranges(static_cast<std::size_t>(height), 4, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t y = begin; y < end; ++y) {
-      const ConvolutionRow row{.input = {frame.last_.at(0, static_cast<int>(y))},
-                               .inputs = out.inputs,
-                               .outputs = out.outputs,
-                               .side = 1,
-                               .stride = 1,
-                               .weights = out.weights.data(),
-                               .scale = out.scale.data(),
-                               .bias = out.bias.data(),
-                               .is_last = true,
-                               .output = frame.corrections.data() + y * static_cast<std::size_t>(width) * per_pixel,
-                               .output_channels = out.outputs};
-      NetworkKernels::of().convolve(row, static_cast<std::size_t>(width));
+  parallel_ranges(static_cast<std::size_t>(height), 8, [&](std::size_t begin, std::size_t end) {
+    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+      std::int16_t* to = frame.joined_.at(0, y);
+      for (int x = 0; x < width; ++x, to += frame.joined_.channels) {
+        const std::int16_t* const from = wide.at(x / 2, y / 2) + 2 * (y % 2) + x % 2;
+        for (int c = 0; c < of_each; ++c) to[c] = from[4 * c];
+      }
     }
   });
+  frame.joined_.close();
+  convolve(layers_[Joined], frame.joined_, frame.last_, 0);
+}
+
+void Network::correct(const NetworkFrame& frame, int x, int y, int count, int half, float* out) const {
+  const Convolution& layer = layers_[Out];
+  const std::ptrdiff_t first = std::ptrdiff_t{half} * (layer.outputs - per_pixel);
+  static_assert(begins[1] == 2 * corrections - (4 * corrections - per_pixel));
+  const ConvolutionRow row{.input = {frame.last_.at(x, y)},
+                           .inputs = layer.inputs,
+                           .outputs = per_pixel,
+                           .side = 1,
+                           .stride = 1,
+                           .weights = layer.weights.data() + 2 * first,
+                           .scale = layer.scale.data() + first,
+                           .bias = layer.bias.data() + first,
+                           .all_outputs = layer.outputs,
+                           .sums = out,
+                           .channels = per_pixel};
+  NetworkKernels::of().convolve(row, static_cast<std::size_t>(count));
 }
 
 }  // namespace zoneplate::upscale

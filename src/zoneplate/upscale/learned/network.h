@@ -12,12 +12,12 @@ namespace zoneplate::upscale {
 /// repeats the outermost ones.
 struct Activations {
   int width = 0, height = 0, channels = 0;
-  std::vector<float> values;
+  std::vector<std::int16_t> values;
 
   Activations(int w, int h, int c);
   /// The channels of pixel (x, y); the border is at -1 and at the width or height.
-  float* at(int x, int y) { return values.data() + offset(x, y); }
-  const float* at(int x, int y) const { return values.data() + offset(x, y); }
+  std::int16_t* at(int x, int y) { return values.data() + offset(x, y); }
+  const std::int16_t* at(int x, int y) const { return values.data() + offset(x, y); }
   /// Writes the border.
   void close();
 
@@ -28,10 +28,9 @@ struct Activations {
   }
 };
 
-/// What a network reads and writes for frames of one size.
+/// What a network reads, and what its layers say, for frames of one size.
 struct NetworkFrame {
   Activations features;
-  std::vector<float> corrections;
 
   NetworkFrame(int width, int height);
 
@@ -43,8 +42,9 @@ struct NetworkFrame {
 /// A convolution with integers: weights in [-127, 127] times a scale per output, activations in [0, 127].
 struct Convolution {
   int inputs = 0, outputs = 0, side = 0, stride = 0;
-  std::vector<float> scale, bias;  ///< per output; the bias is a whole number
-  std::vector<float> weights;      ///< by row, column, input and output
+  std::vector<float> scale;           ///< per output
+  std::vector<std::int32_t> bias;     ///< likewise
+  std::vector<std::int16_t> weights;  ///< by row, pair of a row's inputs, output and input
 };
 
 /// The network of `learned`: from features of a frame's pixels to corrections of its output pixels.
@@ -55,7 +55,12 @@ class Network {
  public:
   static constexpr int features = 40;
   static constexpr int corrections = 14;  ///< for each of four output pixels
-  static constexpr float levels = 127;    ///< the activation that stands for 1
+  /// The numbers that `correct` writes for a frame pixel, and where in them the two output pixels above and below its
+  /// sample begin.
+  static constexpr int per_pixel = 32, begins[2] = {0, 4};
+  static constexpr float levels = 127;  ///< the activation that stands for 1
+  /// Where the history has so many samples, corrections of weights change half as much as where it has none.
+  static constexpr float count_at_rest = 4;
 
   /// The network that the program contains.
   static const Network& trained();
@@ -65,10 +70,13 @@ class Network {
   /// Errors    ErrorKind::Input if it is not a network of this form, or its sums are not exact.
   Network(std::span<const std::uint8_t> bytes, std::string_view name);
 
-  /// Writes the corrections of all pixels, by pixel, output pixel and correction: products of integers and scales.
+  /// Applies all layers but the last to the features.
   ///
-  /// Requires  features are integers in [0, 127].
-  void correct(NetworkFrame& frame) const;
+  /// Requires  features are in [0, 127].
+  void read(NetworkFrame& frame) const;
+  /// Applies the last layer to `count` frame pixels from (x, y) on, and writes the corrections of their output pixels
+  /// above the samples (half 0) or below (1), by pixel and correction.
+  void correct(const NetworkFrame& frame, int x, int y, int count, int half, float* out) const;
 
  private:
   enum Layer { Wide0, Wide1, Wide2, Own, Joined, Out, layer_count };

@@ -30,6 +30,9 @@ class SampleMean {
   /// Requires  frames of one size, at most the output's, until the next one that is first.
   LinearImage accumulate(const TaauInput& frame);
 
+  /// The number of samples that each pixel of the last output rests on: the sum of their weights.
+  const Plane<float>& counts() const { return count_; }
+
  protected:
   /// What is known of each pixel of a frame.
   struct Boxes {

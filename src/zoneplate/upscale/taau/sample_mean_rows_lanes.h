@@ -210,7 +210,7 @@ class FramePixels {
   std::int32_t columns_[3][F::lanes];
 };
 
-/// The history of an output row's pixels, and the number of its samples that counts.
+/// The history of an output row's pixels, and the number of its samples.
 template <class F>
 struct Past {
   Rgba<F> color;
@@ -233,7 +233,7 @@ struct Past {
     const auto count = [&](int dy) {
       return mixed(around.value(frame.count, 0, dy), around.value(frame.count, 1, dy), right);
     };
-    samples = mixed(count(0), count(1), below) * F::gather(row.kept, column);
+    samples = mixed(count(0), count(1), below);
     is_inside = source.is_inside;
     is_filtered = (right > zero) | (below > zero);
   }
@@ -258,7 +258,8 @@ template <class F>
     return;
   }
   const Past<F> past(frame, row, row.follow_x, row.follow_y, i);
-  const Kept<F> kept = clamped(past.color, past.samples, pixels.at(row.low, 1), pixels.at(row.high, 1));
+  const F samples = past.samples * F::gather(row.kept, F::Int::load(row.columns[1] + i));
+  const Kept<F> kept = clamped(past.color, samples, pixels.at(row.low, 1), pixels.at(row.high, 1));
   const F all = min(kept.count, most_of<F>(frame, row, past.is_filtered, i)) + weights;
   const Rgba<F> mean = kept.color + (current - kept.color) * (weights / all);
   select(past.is_inside, mean, current).store(row.resolved + 4 * i);
