@@ -34,6 +34,7 @@ list(FILTER cli_sources INCLUDE REGEX "^src/zoneplate/cli/")
 list(FILTER cli_sources EXCLUDE REGEX "_test\\.cpp$|_simd\\.cpp$|/main\\.cpp$")
 file(GLOB whole_tests RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS tests/*_test.cpp)
 
+set_source_files_properties(src/zoneplate/raster/parts/packed_samples.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS -O3) # vectors of 8 samples
 set_source_files_properties(src/zoneplate/scene/geometry/smooth_normals.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS -fno-math-errno) # roots in vectors, of the same bits
 
 # A catalogue is a list of names, one a line, in <folder>/<list>.txt. The table is made from it: a function <table>() of
