@@ -172,8 +172,7 @@ class PartsOfFrame {
   }
 
  private:
-  std::size_t rank_of(std::size_t tile) const { return tile % static_cast<std::size_t>(ranks_.count()); }
-  int resolver_of(std::size_t tile) const { return static_cast<int>(rank_of(tile)); }
+  int resolver_of(std::size_t tile) const { return static_cast<int>(tile % static_cast<std::size_t>(ranks_.count())); }
   bool needs_shading() const { return setup_.stores_color() || target_.stores_data(); }
 
   template <class Body>
@@ -203,7 +202,7 @@ class PartsOfFrame {
   void shade(const Outbox& found, const Outbox& passing, std::span<const TileMessage> known, Outbox& colors);
   void shade_tile(const TileMessage& known, std::span<const std::byte> found, std::span<const std::byte> passing,
                   PartBuffers& b, Outbox& colors);
-  void find_data(std::uint32_t tile, std::span<const std::byte> others, PartBuffers& b, TileData& data);
+  void find_data(std::span<const std::byte> others, PartBuffers& b, TileData& data);
   void pack_layers(PartBuffers& b, ByteBuffer& out);
   void draw_alone(std::uint32_t tile, PartBuffers& b);
   void take_colors(ResolvedTile& of, PartBuffers& b, std::vector<PlacedLayer>& layers) const;
@@ -433,7 +432,7 @@ void PartsOfFrame::shade_tile(const TileMessage& known, std::span<const std::byt
       data->nearest.assign(tile_pixels, NearestSurface{});
     }
     std::swap(data->shaded, b.data.shaded);
-    find_data(known.tile, others, b, *data);
+    find_data(others, b, *data);
     std::swap(data->shaded, b.data.shaded);
   }
   if (!is_shaded) return;
@@ -446,7 +445,7 @@ void PartsOfFrame::shade_tile(const TileMessage& known, std::span<const std::byt
 }
 
 /// The nearest surfaces of the pixels, of this rank and of others.
-void PartsOfFrame::find_data(std::uint32_t, std::span<const std::byte> others, PartBuffers& b, TileData& data) {
+void PartsOfFrame::find_data(std::span<const std::byte> others, PartBuffers& b, TileData& data) {
   for_packed_samples(others, [&](int, std::uint32_t pixel, float depth, std::int32_t id) {
     NearestSurface& nearest = data.nearest[pixel];
     if (depth < nearest.depth || (depth == nearest.depth && id >= nearest.id)) return;
