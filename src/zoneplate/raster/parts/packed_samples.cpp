@@ -9,32 +9,24 @@ namespace zoneplate {
 namespace {
 
 constexpr int edge = 8, pixels_of_block = edge * edge;
-constexpr std::size_t most_bytes = sizeof(PackedBlock) + pixels_of_block * (sizeof(float) + sizeof(std::int32_t));
+constexpr std::size_t most_bytes = sizeof(PackedBlock) + sizeof(BlockSamples);
 
 /// The place of a block's first pixel in the planes.
 std::size_t corner_of(int sample, int block) {
   return static_cast<std::size_t>(sample) * sample_stride + pixel_in_tile(block, 0);
 }
 
-/// The pixels of a block that have an owner, and whether all pixels of the block have the same.
-struct BlockOwners {
-  std::uint64_t pixels;
-  bool is_one;
-};
-BlockOwners owners_of(const std::int32_t* id) {
-  std::uint32_t different = 0, empty = 0;
+/// The pixels of a block that have an owner.
+std::uint64_t owned_pixels(const std::int32_t* id) {
+  std::uint32_t empty = 0;
   for (int y = 0; y < edge; ++y)
-    for (int x = 0; x < edge; ++x) {
-      const std::int32_t of = id[y * tile_size + x];
-      different |= static_cast<std::uint32_t>(of ^ id[0]);
-      empty += of == no_primitive ? 1u : 0u;
-    }
-  if (empty == 0) return {~std::uint64_t{0}, different == 0};
+    for (int x = 0; x < edge; ++x) empty += id[y * tile_size + x] == no_primitive ? 1u : 0u;
+  if (empty == 0) return ~std::uint64_t{0};
   std::uint64_t pixels = 0;
   if (empty < pixels_of_block)
     for (int i = 0; i < pixels_of_block; ++i)
       pixels |= std::uint64_t{id[i / edge * tile_size + i % edge] != no_primitive} << i;
-  return {pixels, false};
+  return pixels;
 }
 
 /// Whether all pixels of a block are of one part.
@@ -45,27 +37,66 @@ bool is_one_part(const std::uint16_t* parts) {
   return different == 0;
 }
 
-/// Writes the chosen values of a block one after the other, and returns the end of what is written.
+/// The chosen values of a block one after the other.
 template <class T>
-std::byte* gather(const T* plane, std::uint64_t pixels, std::byte* out) {
+void gather(const T* plane, std::uint64_t pixels, std::uint32_t (&out)[pixels_of_block]) {
+  static_assert(sizeof(T) == sizeof(std::uint32_t));
   if (pixels == ~std::uint64_t{0}) {
-    for (int y = 0; y < edge; ++y, out += edge * sizeof(T)) std::memcpy(out, plane + y * tile_size, edge * sizeof(T));
-    return out;
+    for (int y = 0; y < edge; ++y) std::memcpy(out + y * edge, plane + y * tile_size, edge * sizeof(T));
+    return;
   }
-  for (std::uint64_t left = pixels; left; left &= left - 1, out += sizeof(T))
-    std::memcpy(out, plane + pixel_in_tile(0, std::countr_zero(left)), sizeof(T));
-  return out;
+  std::uint32_t* to = out;
+  for (std::uint64_t left = pixels; left; left &= left - 1)
+    std::memcpy(to++, plane + pixel_in_tile(0, std::countr_zero(left)), sizeof(T));
 }
 
-/// The inverse of gather: values of the pixels that are not chosen stay undefined.
+/// The inverse: values of the pixels that are not chosen stay as they are.
 template <class T>
-void scatter(const std::byte* packed, std::uint64_t pixels, T (&out)[pixels_of_block]) {
+void scatter(const std::uint32_t (&packed)[pixels_of_block], std::uint64_t pixels, T (&out)[pixels_of_block]) {
   if (pixels == ~std::uint64_t{0}) {
     std::memcpy(out, packed, sizeof out);
     return;
   }
-  for (std::uint64_t left = pixels; left; left &= left - 1, packed += sizeof(T))
-    std::memcpy(&out[std::countr_zero(left)], packed, sizeof(T));
+  const std::uint32_t* from = packed;
+  for (std::uint64_t left = pixels; left; left &= left - 1)
+    std::memcpy(&out[std::countr_zero(left)], from++, sizeof(T));
+}
+
+/// Writes values, and returns their bytes each; `out` moves to the end.
+std::uint8_t write_values(const std::uint32_t* values, std::uint32_t count, std::byte*& out) {
+  std::uint32_t least = values[0], greatest = values[0];
+  for (std::uint32_t i = 0; i < count; ++i) {
+    least = values[i] < least ? values[i] : least;
+    greatest = values[i] > greatest ? values[i] : greatest;
+  }
+  if (greatest - least > 0xffff) {
+    std::memcpy(out, values, count * sizeof(std::uint32_t));
+    out += count * sizeof(std::uint32_t);
+    return 4;
+  }
+  std::memcpy(out, &least, sizeof least);
+  out += sizeof least;
+  if (greatest == least) return 0;
+  std::uint16_t differences[pixels_of_block];
+  for (std::uint32_t i = 0; i < count; ++i) differences[i] = static_cast<std::uint16_t>(values[i] - least);
+  std::memcpy(out, differences, count * sizeof(std::uint16_t));
+  out += count * sizeof(std::uint16_t);
+  return 2;
+}
+
+void read_values(std::uint8_t bytes, std::uint32_t count, ByteReader& reader, std::uint32_t* out) {
+  if (bytes == 4) {
+    std::memcpy(out, reader.take(count * sizeof(std::uint32_t)).data(), count * sizeof(std::uint32_t));
+    return;
+  }
+  const auto least = reader.take<std::uint32_t>();
+  if (bytes == 0) {
+    std::fill_n(out, count, least);
+    return;
+  }
+  std::uint16_t differences[pixels_of_block];
+  std::memcpy(differences, reader.take(count * sizeof(std::uint16_t)).data(), count * sizeof(std::uint16_t));
+  for (std::uint32_t i = 0; i < count; ++i) out[i] = least + differences[i];
 }
 
 void merge_block(const float* z, const std::int32_t* t, std::uint16_t part, float* depth, std::int32_t* id,
@@ -95,21 +126,33 @@ void pack_samples(const TileVisibility& tile, const SampleSet* only, ByteBuffer&
       const std::size_t corner = corner_of(s, block);
       const std::uint64_t wanted = only ? only->of(s, block) : ~std::uint64_t{0};
       if (wanted == 0) continue;
-      const BlockOwners owners = owners_of(tile.id + corner);
-      const std::uint64_t pixels = owners.pixels & wanted;
+      const std::uint64_t pixels = owned_pixels(tile.id + corner) & wanted;
       if (pixels == 0) continue;
-      const PackedBlock head{.sample = static_cast<std::uint16_t>(s),
-                             .block = static_cast<std::uint8_t>(block),
-                             .has_one_id = owners.is_one,
-                             .count = static_cast<std::uint32_t>(std::popcount(pixels)),
-                             .pixels = pixels};
+      BlockSamples samples;
+      gather(tile.depth + corner, pixels, samples.depth);
+      gather(tile.id + corner, pixels, samples.id);
+      const auto count = static_cast<std::uint32_t>(std::popcount(pixels));
+      PackedBlock head{.sample = static_cast<std::uint16_t>(s),
+                       .block = static_cast<std::uint8_t>(block),
+                       .depth_bytes = 0,
+                       .id_bytes = 0,
+                       .count = count,
+                       .pixels = pixels};
       std::byte* const begin = out.reserve(most_bytes);
+      std::byte* end = begin + sizeof head;
+      head.depth_bytes = write_values(samples.depth, count, end) & 15;
+      head.id_bytes = write_values(samples.id, count, end) & 15;
       std::memcpy(begin, &head, sizeof head);
-      std::byte* end = gather(tile.depth + corner, pixels, begin + sizeof head);
-      end = gather(tile.id + corner, owners.is_one ? pixels & (~pixels + 1) : pixels, end);
       out.keep(static_cast<std::size_t>(end - begin));
     }
   }
+}
+
+BlockSamples read_samples(const PackedBlock& head, ByteReader& reader) {
+  BlockSamples samples;
+  read_values(head.depth_bytes, head.count, reader, samples.depth);
+  read_values(head.id_bytes, head.count, reader, samples.id);
+  return samples;
 }
 
 void merge_samples(std::span<const std::byte> packed, const SampleSet* only, std::uint16_t part, TileVisibility& tile,
@@ -119,20 +162,13 @@ void merge_samples(std::span<const std::byte> packed, const SampleSet* only, std
   std::int32_t t[pixels_of_block];
   while (!reader.is_at_end()) {
     const auto head = reader.take<PackedBlock>();
-    const std::byte* const depths = reader.take(head.count * sizeof(float)).data();
-    const std::byte* const ids = reader.take((head.has_one_id ? 1 : head.count) * sizeof(std::int32_t)).data();
+    const BlockSamples samples = read_samples(head, reader);
     const std::uint64_t wanted = only ? head.pixels & only->of(head.sample, head.block) : head.pixels;
     if (wanted == 0) continue;
     if (wanted != ~std::uint64_t{0}) std::fill_n(z, pixels_of_block, -1.0f);  // behind everything
-    scatter(depths, head.pixels, z);
-    if (head.has_one_id) {
-      std::int32_t one;
-      std::memcpy(&one, ids, sizeof one);
-      std::fill_n(t, pixels_of_block, one);
-    } else {
-      if (head.pixels != ~std::uint64_t{0}) std::fill_n(t, pixels_of_block, no_primitive);
-      scatter(ids, head.pixels, t);
-    }
+    scatter(samples.depth, head.pixels, z);
+    if (head.pixels != ~std::uint64_t{0}) std::fill_n(t, pixels_of_block, no_primitive);
+    scatter(samples.id, head.pixels, t);
     for (std::uint64_t left = head.pixels & ~wanted; left; left &= left - 1) z[std::countr_zero(left)] = -1;
     if (tile.block_primitive[head.block] != mixed_primitives) tile.materialize_block(head.block);
     const std::size_t corner = corner_of(head.sample, head.block);
@@ -147,7 +183,7 @@ std::vector<SampleSet> samples_by_part(const TileVisibility& tile, std::span<con
     if (tile.block_primitive[block] == no_primitive) continue;
     for (int s = 0; s < tile.sample_count; ++s) {
       const std::size_t corner = corner_of(s, block);
-      std::uint64_t left = owners_of(tile.id + corner).pixels;
+      std::uint64_t left = owned_pixels(tile.id + corner);
       if (left == ~std::uint64_t{0} && is_one_part(&parts[corner])) {
         sets[parts[corner]].of(s, block) = left;
         continue;

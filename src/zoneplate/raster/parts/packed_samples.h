@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -28,7 +29,8 @@ class SampleSet {
 };
 
 /// Appends the samples that have an owner, with depth and id: nothing for empty blocks, and one id for a block that one
-/// triangle owns.
+/// triangle owns. Ids, and the bits of depths, that lie within 65536 are stored as differences of 16 bits: mostly, a
+/// sample takes four bytes.
 ///
 /// `only`: samples of other sets are left out; null: none are.
 void pack_samples(const TileVisibility& tile, const SampleSet* only, ByteBuffer& out);
@@ -51,14 +53,22 @@ std::vector<SampleSet> samples_by_part(const TileVisibility& tile, std::span<con
 /// The samples whose owner is another one than in `before`, which holds the ids by sample.
 SampleSet changed_samples(const TileVisibility& tile, std::span<const std::int32_t> before);
 
-/// The samples of one block and one sample of the pattern. Their depths follow, and their ids, or the one id of all.
+/// The samples of one block and one sample of the pattern. Their depths follow, then their ids.
 struct PackedBlock {
   std::uint16_t sample;
   std::uint8_t block;
-  std::uint8_t has_one_id;
+  std::uint8_t depth_bytes : 4, id_bytes : 4;  ///< of each: 0 if all are equal, 2 if they are differences, or 4
   std::uint32_t count;
   std::uint64_t pixels;  ///< of the block
 };
+
+/// The bits of a block's depths and its ids, by sample of the block.
+struct BlockSamples {
+  std::uint32_t depth[64], id[64];
+};
+
+/// Reads what follows the head of a block.
+BlockSamples read_samples(const PackedBlock& head, ByteReader& reader);
 
 /// The place of pixel i of a block, in planes of a tile.
 constexpr std::uint32_t pixel_in_tile(int block, int i) {
@@ -70,14 +80,11 @@ void for_packed_samples(std::span<const std::byte> packed, Use use) {
   ByteReader reader(packed);
   while (!reader.is_at_end()) {
     const auto head = reader.take<PackedBlock>();
-    ByteReader depths(reader.take(head.count * sizeof(float)));
-    ByteReader ids(reader.take((head.has_one_id ? 1 : head.count) * sizeof(std::int32_t)));
-    std::int32_t id = 0;
-    bool is_first = true;
-    for (std::uint64_t left = head.pixels; left; left &= left - 1, is_first = false) {
-      if (is_first || !head.has_one_id) id = ids.take<std::int32_t>();
-      use(int{head.sample}, pixel_in_tile(head.block, std::countr_zero(left)), depths.take<float>(), id);
-    }
+    const BlockSamples samples = read_samples(head, reader);
+    std::size_t i = 0;
+    for (std::uint64_t left = head.pixels; left; left &= left - 1, ++i)
+      use(int{head.sample}, pixel_in_tile(head.block, std::countr_zero(left)), std::bit_cast<float>(samples.depth[i]),
+          static_cast<std::int32_t>(samples.id[i]));
   }
 }
 

@@ -107,15 +107,31 @@ TEST(PackedSamples, SetsByPartDivideTheOwnedSamples) {
   expect_same(merged, again);
 }
 
-TEST(PackedSamples, AnEmptyTileHasNoBytesAndOneOwnerOneId) {
-  VisibilityBuffer tile(1);
-  tile.sample_count = 1;
+TEST(PackedSamples, TakeFewBytesWhereTheyAreAlike) {
+  VisibilityBuffer tile(1), copy(1);
+  tile.sample_count = copy.sample_count = 1;
   tile.clear();
   EXPECT_EQ(packed(tile).size(), 0u);
   tile.materialize_all();
   EXPECT_EQ(packed(tile).size(), 0u);
+  const auto expect_bytes = [&](std::size_t of_depth, std::size_t of_id) {
+    const ByteBuffer bytes = packed(tile);
+    EXPECT_EQ(bytes.size(), 64 * (sizeof(PackedBlock) + of_depth + of_id));
+    copy.clear();
+    merge_samples(bytes.bytes(), nullptr, 0, copy, nullptr);
+    for (int p = 0; p < tile_pixels; ++p) {
+      ASSERT_EQ(tile.id[p], copy.id[p]);
+      ASSERT_EQ(tile.depth[p], copy.depth[p]);
+    }
+  };
   std::fill_n(tile.id, tile_pixels, 7);
-  EXPECT_EQ(packed(tile).size(), 64 * (sizeof(PackedBlock) + 64 * sizeof(float) + sizeof(std::int32_t)));
+  expect_bytes(4, 4);
+  for (int p = 0; p < tile_pixels; ++p) tile.depth[p] = 0.5f + 0x1p-24f * static_cast<float>(p);
+  expect_bytes(4 + 64 * 2, 4);
+  for (int p = 0; p < tile_pixels; ++p) tile.id[p] = 2'000'000'000 + 16 * p;
+  expect_bytes(4 + 64 * 2, 4 + 64 * 2);
+  for (int p = 0; p < tile_pixels; ++p) tile.id[p] = 100'000 * p, tile.depth[p] = 1 / static_cast<float>(1 + p);
+  expect_bytes(64 * 4, 64 * 4);
 }
 
 TEST(PackedSamples, ChangedSamplesAreThoseOfAnotherId) {
