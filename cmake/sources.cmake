@@ -42,6 +42,7 @@ sources_of(program_sources process batch imaging evaluate lessons cli)
 set(library_sources ${all_sources})
 list(REMOVE_ITEM library_sources ${program_sources})
 
+set_source_files_properties(src/zoneplate/raster/parts/packed_samples.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS -O3) # vectors of 8 samples
 set_source_files_properties(src/zoneplate/scene/geometry/smooth_normals.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS -fno-math-errno) # roots in vectors, of the same bits
 
 # A catalogue is a list of names, one a line, in <folder>/<list>.txt. The table is made from it: a function <table>() of

@@ -39,25 +39,33 @@ std::optional<Scene> RenderJobs::read(const Job& job) {
   return scene;
 }
 
-void render_still(Job job, std::unique_ptr<Resolver> method, const PreparedScene& prepared, JobSink& out,
-                  Summary& summary) {
+DrawnStill draw_still(Job job, std::unique_ptr<Resolver> method, const PreparedScene& prepared, StillView view,
+                      JobSink& out, Summary& summary) {
   const Scene& scene = prepared.scene();
   summary.warnings = scene.warnings;
   if (std::string late = lateness(job, end_of_animation(job.load.choice, scene)); !late.empty())
     summary.warnings.push_back(std::move(late));
   out.progress("render", 0.1);
   check_passes(job, request_of(job, *method));
-  LitStill still = light_still(job, prepared, is_linear(job.named_output()));
-  job = still.job;
+  LitStill still = light_still(job, prepared, is_linear(job.named_output()), view.camera ? &*view.camera : nullptr);
   if (!still.warning.empty()) summary.warnings.push_back(std::move(still.warning));
-  RenderSettings settings = settings_of(job, job.named_output());
+  RenderSettings settings = settings_of(still.job, job.named_output());
   settings.options.progress = out.progress_of("render", 0.1, 0.9);
-  RenderedImage image = Renderer(still.scene, std::move(method)).render_still(still.camera, settings);
+  Renderer renderer(still.scene, std::move(method), std::move(view.backend));
+  RenderedImage image = renderer.render_still(still.camera, settings);
+  return {std::move(still), std::move(image)};
+}
+
+void send_still(DrawnStill drawn, const Scene& scene, bool can_meter, JobSink& out, Summary& summary) {
+  const LitStill& still = drawn.still;
+  const Job& job = still.job;
   summary.exposure = job.display.exposure;
-  const Rendered picture = finish_picture(job, std::move(image), scene, still.camera, job.named_output(), summary);
+  const Rendered picture =
+      finish_picture(job, std::move(drawn.image), scene, still.camera, job.named_output(), summary);
   const auto metered = [&] { return metered_exposure(still.scene, still.camera, job); };
-  if (std::string warning = clipping(job, picture.image, metered); !warning.empty())
-    summary.warnings.push_back(std::move(warning));
+  if (can_meter)
+    if (std::string warning = clipping(job, picture.image, metered); !warning.empty())
+      summary.warnings.push_back(std::move(warning));
   if (std::string warning = emptiness(job, summary.counts, picture); !warning.empty())
     summary.warnings.push_back(std::move(warning));
 
@@ -70,6 +78,12 @@ void render_still(Job job, std::unique_ptr<Resolver> method, const PreparedScene
   for (const LayerFile& file : picture.layers) out.file(-1, file.aov, file.bytes);
   out.file(-1, -1, bytes);  // last: --skip-existing looks for it
   summary.times.emplace_back("write", write_watch.ms());
+}
+
+void render_still(Job job, std::unique_ptr<Resolver> method, const PreparedScene& prepared, JobSink& out,
+                  Summary& summary) {
+  DrawnStill drawn = draw_still(std::move(job), std::move(method), prepared, {}, out, summary);
+  send_still(std::move(drawn), prepared.scene(), true, out, summary);
 }
 
 Summary RenderJobs::run(Job job, JobSink& out) {

@@ -8,6 +8,7 @@
 #include "zoneplate/job/environment_file.h"
 #include "zoneplate/job/job_sink.h"
 #include "zoneplate/job/picture.h"
+#include "zoneplate/job/resolve.h"
 #include "zoneplate/render/prepared_scene.h"
 
 namespace zoneplate {
@@ -26,6 +27,23 @@ class RenderJobs {
   Environments environments_;
   std::optional<PreparedScene> scene_;  ///< the model, with the lights of its file
 };
+
+/// Who renders a still image, and through which camera.
+struct StillView {
+  std::unique_ptr<Backend> backend = make_cpu_backend();
+  std::optional<Camera> camera = {};  ///< none: that of the job
+};
+
+/// A still image before it is encoded, of a job that is resolved.
+struct DrawnStill {
+  LitStill still;
+  RenderedImage image;
+};
+
+/// The two halves of render_still. `can_meter`: the scene is whole, so that warnings may depend on its light.
+DrawnStill draw_still(Job job, std::unique_ptr<Resolver> method, const PreparedScene& prepared, StillView view,
+                      JobSink& out, Summary& summary);
+void send_still(DrawnStill drawn, const Scene& scene, bool can_meter, JobSink& out, Summary& summary);
 
 /// Renders, encodes and sends a still image of a scene whose materials are those of the job, which check_job has
 /// completed.

@@ -16,6 +16,7 @@
 #include "zoneplate/render/custom_draw.h"
 #include "zoneplate/render/draw_list.h"
 #include "zoneplate/render/edge_distances.h"
+#include "zoneplate/render/frame_parts.h"
 #include "zoneplate/render/geometry_fragments.h"
 #include "zoneplate/render/motion.h"
 #include "zoneplate/render/prepared_scene.h"
@@ -24,6 +25,7 @@
 #include "zoneplate/render/transmission.h"
 #include "zoneplate/shade/cast/ground.h"
 #include "zoneplate/shade/environment/prepared_environment.h"
+#include "zoneplate/shade/surface/layered_plan.h"
 #include "zoneplate/shade/surface/surface.h"
 #include "zoneplate/signal/samples.h"
 
@@ -166,27 +168,103 @@ void check(const RenderOptions& o, const Request& request) {
   assert(request.content != Content::EdgeDistances || request.samples.size() == 1);
 }
 
+/// Rasterizes draws on this process, or with other ranks.
+class FrameRasterizer {
+ public:
+  FrameRasterizer(std::optional<FrameParts>& parts, RasterMemory& memory) : parts_(parts), memory_(memory) {}
+
+  RasterCounts operator()(std::span<const Draw> draws, const FragmentShader& shader, const RasterRules& rules,
+                          const Target& target) {
+    if (!parts_) return rasterize(draws, shader, rules, target, &memory_);
+    Ranks& ranks = parts_->ranks;
+    PartTimes times;
+    std::vector<Draw> own;
+    if (parts_->elsewhere.empty())
+      own = draws_of_rank(draws, runs_of(draws, parts_->partition, ranks.count()), ranks.rank());
+    return rasterize_parts(own.empty() ? draws : own, shader, rules, target, memory_, ranks, held_,
+                           parts_->times ? *parts_->times : times);
+  }
+
+  /// Draws by a method, on each rank a strip of the target.
+  RasterCounts draw_strip(const Request& request, std::span<const Draw> draws, const FragmentShader& shader,
+                          const RasterRules& rules, const Target& target, const RenderOptions& options,
+                          Plane<float>* error) {
+    RasterCounts counts;
+    if (!parts_) {
+      request.draw({draws, shader, rules, target, options, error, counts, memory_});
+      return counts;
+    }
+    const int rank = parts_->ranks.rank(), ranks = parts_->ranks.count();
+    const auto row = [&](int part) { return static_cast<int>(std::int64_t{target.height} * part / ranks); };
+    const int top = row(rank), rows = row(rank + 1) - top;
+    held_.colors = {target.width, target.height, std::uint8_t{0}};
+    if (rows == 0) return counts;
+    Target strip = target;
+    strip.y += top, strip.height = rows;
+    LinearImage color(target.width, rows, Linear{0, 0, 0, 0});
+    Plane<float> coverage, own_error;
+    Plane<std::uint8_t> mask;
+    strip.color = &color;
+    if (target.coverage) strip.coverage = &(coverage = rows_of(*target.coverage, top, rows));
+    if (error) own_error = rows_of(*error, top, rows);
+    if (target.pixel_mask) strip.pixel_mask = &(mask = rows_of(*target.pixel_mask, top, rows));
+    request.draw({draws, shader, rules, strip, options, error ? &own_error : nullptr, counts, memory_});
+    const auto put = [&](const auto& part, auto& whole) {
+      for (int y = 0; y < rows; ++y) std::ranges::copy(part.row(y), whole.row(top + y).begin());
+    };
+    put(color, *target.color);
+    if (target.coverage) put(coverage, *target.coverage);
+    if (error) put(own_error, *error);
+    for (int y = 0; y < rows; ++y) std::ranges::fill(held_.colors.row(top + y), std::uint8_t{1});
+    return counts;
+  }
+
+  /// Completes the coverage and the planes by sample by those of the other ranks, on every rank.
+  void gather_samples(Frame& frame) {
+    if (parts_) gather(parts_->ranks, held_.colors, false, true, frame);
+  }
+  /// Completes all planes.
+  void gather_planes(const Request& request, Frame& frame) {
+    if (!parts_) return;
+    const bool to_every_rank = !request.resolves_per_pixel;
+    gather(parts_->ranks, held_.colors, false, to_every_rank, frame);
+    gather(parts_->ranks, held_.data, true, to_every_rank, frame);
+  }
+
+ private:
+  template <class T>
+  static Plane<T> rows_of(const Plane<T>& plane, int top, int rows) {
+    Plane<T> out(plane.width(), rows);
+    for (int y = 0; y < rows; ++y) std::ranges::copy(plane.row(top + y), out.row(y).begin());
+    return out;
+  }
+
+  std::optional<FrameParts>& parts_;
+  RasterMemory& memory_;
+  HeldPixels held_;
+};
+
 /// Draws the colour by Request::draw, and the data passes by tiles.
 RasterCounts draw_by(const Request& request, std::span<const Draw> draws, const FragmentShader& shader,
-                     const RasterRules& rules, const Target& target, const RenderOptions& options, RasterMemory& memory,
-                     Plane<float>* error, std::uint64_t& geometric) {
-  RasterCounts counts;
+                     const RasterRules& rules, const Target& target, const RenderOptions& options,
+                     FrameRasterizer& rasterizer, Frame& frame, std::uint64_t& geometric) {
+  Plane<float>* const error = frame.error.empty() ? nullptr : &frame.error;
   if (request.planes.any_pixel_plane()) {
     Target planes = target;
     planes.color = nullptr;
-    const RasterCounts data = rasterize(draws, shader, rules, planes, &memory);
+    const RasterCounts data = rasterizer(draws, shader, rules, planes);
     geometric = data.shaded + data.evaluated;
+    rasterizer.gather_samples(frame);
   }
-  request.draw({draws, shader, rules, target, options, error, counts, memory});
-  return counts;
+  return rasterizer.draw_strip(request, draws, shader, rules, target, options, error);
 }
 
 /// Without colour only opaque and alpha-tested surfaces matter. Data passes keep the blended draws, so that triangle
 /// ids stay the same.
 RasterCounts draw_uncoloured(const Scene& scene, const Camera& camera, const Request& request, std::vector<Draw>& draws,
                              const FragmentShader& surfaces, const RasterRules& rules, Target& target,
-                             RasterMemory& memory) {
-  const auto run = [&](const FragmentShader& points) { return rasterize(draws, points, rules, target, &memory); };
+                             FrameRasterizer& rasterizer) {
+  const auto run = [&](const FragmentShader& points) { return rasterizer(draws, points, rules, target); };
   if (request.content == Content::Data) return run(surfaces);
   std::erase_if(draws, [](const Draw& draw) { return draw.alpha_mode == AlphaMode::Blend; });
   if (request.content == Content::EdgeDistances) return run(EdgeDistances(scene, draws, target.viewport, surfaces));
@@ -195,13 +273,38 @@ RasterCounts draw_uncoloured(const Scene& scene, const Camera& camera, const Req
   return run(GeometryFragmentShader(scene, camera, surfaces));
 }
 
+/// Refuses what a part of the scene does not suffice for.
+void check_parts(const FrameParts& parts, const PreparedScene& prepared, const Request& request,
+                 const RenderOptions& options) {
+  if (parts.elsewhere.empty()) return;
+  const auto refuse = [](const char* what) {
+    throw Error(ErrorKind::Usage, std::string(what) + " the whole scene, and each rank has a part of it alone");
+  };
+  if (has_visibility(options)) refuse("shadows and ambient occlusion need");
+  if (request.draw) refuse("the antialiasing method needs");
+  if (options.edges.kind != EdgeKind::None) refuse("lines along edges need");
+  if (request.planes.was_visible) refuse("the history of the antialiasing method needs");
+  if (std::ranges::any_of(prepared.scene().materials, is_transmissive)) refuse("surfaces that transmit light need");
+}
+
+/// Leaves of the draws of other ranks their ids.
+void leave_ids(std::span<const std::uint32_t> elsewhere, std::span<Draw> draws) {
+  for (std::size_t i = 0; i < elsewhere.size(); ++i) {
+    if (elsewhere[i] == 0) continue;
+    draws[i].elsewhere = elsewhere[i];
+    draws[i].index = {}, draws[i].position = {}, draws[i].quads = nullptr;
+  }
+}
+
 class CpuBackend : public Backend {
  public:
+  explicit CpuBackend(std::optional<FrameParts> parts = {}) : parts_(std::move(parts)) {}
   Frame render(const PreparedScene& scene, const Camera& camera, const Request& request, const RenderOptions& options,
                RenderCounts* counts) override;
   void recycle(Rgba8Image image) override { memory_.display8 = std::move(image); }
 
  private:
+  std::optional<FrameParts> parts_;
   RasterMemory memory_;
   SceneShadows shadows_;
   LastVisibility last_visibility_;
@@ -210,6 +313,7 @@ class CpuBackend : public Backend {
 Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_camera, const Request& request,
                          const RenderOptions& options, RenderCounts* counts) {
   check(options, request);
+  if (parts_) check_parts(*parts_, prepared, request, options);
   const Scene& scene = prepared.scene();
   const Camera camera =
       options.ground == GroundKind::Shadow ? GroundSquare(scene).enclosing(scene_camera) : scene_camera;
@@ -218,6 +322,7 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
   const float4x4 clip_from_camera = camera.clip_from_camera(aspect_of(options));
   const float4x4 clip_from_world = clip_from_camera * inverse(camera.world_from_camera);
   SceneDraws draws = growing("draws", [&] { return make_draws(scene, clip_from_world, options); });
+  if (parts_) leave_ids(parts_->elsewhere, draws.draws);
   RasterRules rules{.edge_rule = options.edge_rule, .visibility = options.visibility, .capacity = options.capacity};
   ViewUniforms view = view_uniforms_of(prepared.lighting(), scene.up, camera, clip_from_camera, options);
   if (request.content == Content::Colour)
@@ -268,11 +373,11 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
 
   if (request.planes.error && request.estimates_error) frame.error = {crop.width, crop.height, 0.0f};
   std::uint64_t geometric = 0;
-  const RasterCounts c = !has_color
-                             ? draw_uncoloured(scene, camera, request, draws.draws, points, rules, target, memory_)
-                         : request.draw ? draw_by(request, draws.draws, points, rules, target, options, memory_,
-                                                  frame.error.empty() ? nullptr : &frame.error, geometric)
-                                        : rasterize(draws.draws, points, rules, target, &memory_);
+  FrameRasterizer rasterizer(parts_, memory_);
+  const RasterCounts c =
+      !has_color     ? draw_uncoloured(scene, camera, request, draws.draws, points, rules, target, rasterizer)
+      : request.draw ? draw_by(request, draws.draws, points, rules, target, options, rasterizer, frame, geometric)
+                     : rasterizer(draws.draws, points, rules, target);
   if (request.content == Content::EdgeDistances)
     frame.edge_distance = edge_distances_of(std::exchange(frame.color, {}));
   if (target.reversed_depth) find_distances(clip_from_camera, frame);
@@ -284,6 +389,7 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
   }
   for (std::uint32_t& id : frame.object_id.values())
     if (id != Frame::no_id) id = static_cast<std::uint32_t>(scene.instances[id].object);
+  rasterizer.gather_planes(request, frame);
   if (counts)
     *counts = {.prepare_ms = prepare_ms,
                .geometry_ms = c.geometry_ms,
@@ -300,6 +406,7 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
 }  // namespace
 
 std::unique_ptr<Backend> make_cpu_backend() { return std::make_unique<CpuBackend>(); }
+std::unique_ptr<Backend> make_cpu_backend(FrameParts parts) { return std::make_unique<CpuBackend>(std::move(parts)); }
 
 Frame render(const PreparedScene& scene, const Camera& camera, const Request& request, const RenderOptions& options,
              RenderCounts* counts) {

@@ -19,5 +19,9 @@ inline constexpr int usual_anisotropy = 4;
 ///
 /// Edges     at least 1, and at most a hundredth of the image's height
 float usual_point_size(const Scene& scene, int width, int height);
+/// The same for a number of points.
+float usual_point_size(double points, int width, int height);
+/// The points of all instances.
+double points_of(const Scene& scene);
 
 }  // namespace zoneplate

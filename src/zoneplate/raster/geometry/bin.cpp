@@ -212,6 +212,7 @@ void add_to_bins(const ProjectedDraws& projected, std::size_t first, std::size_t
   const std::int32_t part_size = std::clamp(triangles / 64 & ~15, 16, 1024);
   std::vector<Part> parts;
   for (std::size_t d = first; d < last; ++d) {
+    if (projected.draws[d].elsewhere > 0) continue;
     const std::int32_t end = projected.first_triangle[d + 1];
     for (std::int32_t t = projected.first_triangle[d]; t < end; t += std::min(part_size, end - t))
       parts.push_back({d, t, t + std::min(part_size, end - t)});

@@ -29,6 +29,7 @@ constexpr std::size_t always_kept = std::size_t{1} << 22;
 std::size_t mesh_vertices(std::span<const Draw> draws) {
   std::vector<std::pair<const void*, std::size_t>> meshes;
   for (const Draw& draw : draws) {
+    if (draw.continues || draw.elsewhere > 0) continue;
     const void* const first = draw.quads          ? static_cast<const void*>(draw.quads)
                               : draw.clip.empty() ? static_cast<const void*>(draw.position.data())
                                                   : draw.clip.data();
@@ -70,6 +71,16 @@ void project_batch(const ProjectedDraws& projected, std::size_t first, std::size
   });
 }
 
+/// Gives parts of an instance the screen vertices of its first part.
+void share_screen_vertices(ProjectedDraws& projected, std::size_t first, std::size_t last) {
+  std::span<ScreenVertex> of_first;
+  for (std::size_t d = first; d < last; ++d) {
+    if (projected.draws[d].elsewhere > 0) continue;
+    if (projected.draws[d].continues) projected.screen[d] = of_first;
+    of_first = projected.screen[d];
+  }
+}
+
 ScreenVertex* screen_memory(RawMemory& memory, std::size_t vertices) {
   return growing("screen vertices",
                  [&] { return reinterpret_cast<ScreenVertex*>(memory.reserve(vertices * sizeof(ScreenVertex))); });
@@ -105,6 +116,7 @@ std::size_t project_kept(ProjectedDraws& p) {
     place += count, left -= count;
   }
   project_batch(p, 0, last, ProjectKernels::of());
+  share_screen_vertices(p, 0, last);
   return last;
 }
 
@@ -116,13 +128,16 @@ void project_batches(ProjectedDraws& p, const std::function<void(std::size_t, st
   while (last < p.draws.size()) {
     const std::size_t first = last;
     std::size_t count = p.draws[last++].vertices();
-    for (; last < p.draws.size() && last - first < batch_draws && count + p.draws[last].vertices() <= batch_vertices;
-         ++last)
-      count += p.draws[last].vertices();
+    const auto fits = [&] {
+      const Draw& next = p.draws[last];
+      return next.continues || (last - first < batch_draws && count + next.vertices() <= batch_vertices);
+    };
+    for (; last < p.draws.size() && fits(); ++last) count += p.draws[last].vertices();
     ScreenVertex* place = screen_memory(p.batch_memory, count);
     for (std::size_t d = first; d < last; place += p.draws[d++].vertices())
       p.screen[d] = {place, p.draws[d].vertices()};
     project_batch(p, first, last, ProjectKernels::of());
+    share_screen_vertices(p, first, last);
     use(first, last);
     for (std::size_t d = first; d < last; ++d) p.screen[d] = {};
   }

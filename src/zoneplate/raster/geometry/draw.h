@@ -35,9 +35,19 @@ struct Draw {
   int material = 0;
   std::uint32_t instance = 0;
 
-  std::size_t vertices() const { return quads ? quads->vertices() : clip.empty() ? position.size() : clip.size(); }
-  std::size_t triangles() const { return index.size() / 3; }
-  std::uint32_t primitive_of(std::uint32_t triangle) const { return quads ? triangle / 2 : triangle; }
+  // Of an instance that several processes draw (raster/parts/): its parts are draws of their own.
+  std::uint32_t first_primitive = 0;  ///< number of the draw's first primitive in its mesh
+  std::uint32_t elsewhere = 0;        ///< triangles that another process draws: they have ids, but no `index`
+  bool continues = false;             ///< a part after the first with vertices, whose screen vertices it shares
+
+  /// The number of its own screen vertices.
+  std::size_t vertices() const {
+    return continues ? 0 : quads ? quads->vertices() : clip.empty() ? position.size() : clip.size();
+  }
+  std::size_t triangles() const { return index.size() / 3 + elsewhere; }
+  std::uint32_t primitive_of(std::uint32_t triangle) const {
+    return first_primitive + (quads ? triangle / 2 : triangle);
+  }
   float4 clip_position(std::uint32_t v) const {
     if (quads) return make_quad(*quads, v / 4, clip_from_object).clip[v % 4];
     return clip.empty() ? clip_from_object * float4{position[v].x, position[v].y, position[v].z, 1} : clip[v];

@@ -9,6 +9,20 @@
 
 namespace zoneplate {
 
+void composite_sample(std::vector<SampleLayer>& layers, bool has_pieces, float least_transmittance, Linear& behind) {
+  if (layers.empty()) return;
+  std::ranges::sort(layers, [](const SampleLayer& p, const SampleLayer& q) {
+    return p.depth != q.depth ? p.depth > q.depth : p.id < q.id;
+  });
+  TransparentStack stack;
+  for (std::size_t i = 0; i < layers.size() && stack.transmittance > least_transmittance; ++i) {
+    const auto is_same = [&](const SampleLayer& o) { return o.id == layers[i].id; };
+    const bool again = has_pieces && std::ranges::any_of(std::span(layers).first(i), is_same);
+    if (!again) stack.composite_under(layers[i].color, least_transmittance);
+  }
+  behind = stack.over(behind);
+}
+
 void PixelCompositor::composite(const TileJob& job, const PixelLayers& layers, const TileVisibility& visibility,
                                 FragmentBatcher& batcher, Linear* behind) {
   if (!layers.is_deep) return composite_collected(job, layers.first, layers.last, behind);
@@ -29,15 +43,7 @@ void PixelCompositor::composite_collected(const TileJob& job, std::size_t first,
       const std::size_t fragment = list_.fragment_at(i, s, job.setup.target.is_per_sample);
       overs_.push_back({list_.depths[layers[i].first_depth + rank], layers[i].id, colors_[fragment]});
     }
-    std::sort(overs_.begin(), overs_.end(),
-              [](const Over& p, const Over& q) { return p.depth != q.depth ? p.depth > q.depth : p.id < q.id; });
-    TransparentStack stack;
-    for (std::size_t i = 0; i < overs_.size() && stack.transmittance > least; ++i) {
-      const bool again = has_pieces && std::any_of(overs_.begin(), overs_.begin() + static_cast<std::ptrdiff_t>(i),
-                                                   [&](const Over& o) { return o.id == overs_[i].id; });
-      if (!again) stack.composite_under(overs_[i].color, least);
-    }
-    if (!overs_.empty()) behind[s] = stack.over(behind[s]);
+    composite_sample(overs_, has_pieces, least, behind[s]);
   }
 }
 

@@ -17,6 +17,17 @@ struct PixelLayers {
   bool is_empty() const { return first == last && !is_deep; }
 };
 
+/// A layer of one sample, with its colour.
+struct SampleLayer {
+  float depth;
+  std::int32_t id;
+  Linear color;
+};
+
+/// Composites the layers of one sample over `behind`, in the order of (depth, id); `layers` are sorted. Of several
+/// pieces of one triangle (`has_pieces`) the nearest counts.
+void composite_sample(std::vector<SampleLayer>& layers, bool has_pieces, float least_transmittance, Linear& behind);
+
 /// Composites the transparent fragments of pixels, sample by sample, in exact depth order.
 ///
 /// Exact     at every sample the fragments are ordered by (depth, triangle id), a total order; those that lie behind
@@ -40,11 +51,6 @@ class PixelCompositor {
                  FragmentBatcher& batcher, Linear* behind);
 
  private:
-  struct Over {
-    float depth;
-    std::int32_t id;
-    Linear color;
-  };
   /// A layer of one sample of a deep pixel, with all samples of the pixel where the triangle is visible.
   struct Peel {
     float depth;
@@ -64,7 +70,7 @@ class PixelCompositor {
 
   LayerList list_;
   std::vector<Linear> colors_;  ///< of list_.fragments
-  std::vector<Over> overs_;
+  std::vector<SampleLayer> overs_;
   std::vector<Peel> peeled_;
 };
 

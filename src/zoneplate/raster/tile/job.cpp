@@ -28,7 +28,7 @@ void sort_nearest_first(std::vector<const Triangle*>& list, std::vector<const Tr
 }  // namespace
 
 TileSetup::TileSetup(const ProjectedDraws& draws, const Bins& binned, const FragmentShader& fragment_shader,
-                     const RasterRules& raster_rules, const Target& planes)
+                     const RasterRules& raster_rules, const Target& planes, std::optional<float> brightest)
     : projected(draws),
       bins(binned),
       shader(fragment_shader),
@@ -37,7 +37,7 @@ TileSetup::TileSetup(const ProjectedDraws& draws, const Bins& binned, const Frag
       resolve(ResolveKernels::of()),
       fragment_lists(FragmentListKernels::of()),
       rules(raster_rules),
-      min_transmittance(least_transmittance(fragment_shader.brightest())),
+      min_transmittance(least_transmittance(brightest ? *brightest : fragment_shader.brightest())),
       centroids(planes.samples, planes.is_per_sample ? Centroid::First : planes.centroid),
       weights(planes.weights) {
   if (weights.empty()) weights.assign(target.samples.size(), 1.0f);

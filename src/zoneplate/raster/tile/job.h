@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "zoneplate/raster/coverage/centroid.h"
@@ -24,8 +25,9 @@ struct TileSetup {
   /// The weights of all subsets of the samples are tabulated for patterns of at most this many samples.
   static constexpr int max_tabulated_samples = 8;
 
+  /// `brightest`: the bound of FragmentShader::brightest, where other processes shade surfaces too.
   TileSetup(const ProjectedDraws& draws, const Bins& binned, const FragmentShader& fragment_shader,
-            const RasterRules& raster_rules, const Target& planes);
+            const RasterRules& raster_rules, const Target& planes, std::optional<float> brightest = {});
 
   const ProjectedDraws& projected;
   const Bins& bins;

@@ -14,29 +14,33 @@
 
 namespace zoneplate {
 
+void bin_draws(std::span<const Draw> draws, const RasterRules& rules, const Target& target, RasterMemory& memory,
+               RasterCounts& counts) {
+  const Stopwatch geometry;
+  Stopwatch stage;
+  memory.projected = number_draws(draws, target.viewport, rules.capacity.screen_vertices, std::move(memory.projected));
+  memory.bins = make_bins(target, std::move(memory.bins));
+  project_batches(memory.projected, [&](std::size_t first, std::size_t last) {
+    counts.stages.vertices += stage.lap_ms();
+    add_to_bins(memory.projected, first, last, target, rules, memory.bins);
+    counts.stages.triangles += stage.lap_ms();
+  });
+  counts.geometry_ms = geometry.ms();
+  for (const Draw& draw : draws) counts.vertices += draw.vertices();
+  counts.triangles = static_cast<std::uint64_t>(memory.projected.first_triangle.back());
+  counts.set_up = memory.bins.set_up;
+}
+
 RasterCounts rasterize(std::span<const Draw> draws, const FragmentShader& shader, const RasterRules& rules,
                        const Target& target, RasterMemory* memory) {
   RasterCounts counts;
-  const Stopwatch geometry;
-  Stopwatch stage;
   RasterMemory own;
   RasterMemory& kept = memory ? *memory : own;
-  kept.projected = number_draws(draws, target.viewport, rules.capacity.screen_vertices, std::move(kept.projected));
-  kept.bins = make_bins(target, std::move(kept.bins));
-  project_batches(kept.projected, [&](std::size_t first, std::size_t last) {
-    counts.stages.vertices += stage.lap_ms();
-    add_to_bins(kept.projected, first, last, target, rules, kept.bins);
-    counts.stages.triangles += stage.lap_ms();
-  });
-  const ProjectedDraws& projected = kept.projected;
+  bin_draws(draws, rules, target, kept, counts);
   const Bins& bins = kept.bins;
-  counts.geometry_ms = geometry.ms();
-  for (const Draw& draw : draws) counts.vertices += draw.vertices();
-  counts.triangles = static_cast<std::uint64_t>(projected.first_triangle.back());
-  counts.set_up = bins.set_up;
 
   const Stopwatch tiles;
-  const TileSetup tile_setup(projected, bins, shader, rules, target);
+  const TileSetup tile_setup(kept.projected, bins, shader, rules, target);
   PerThread<TileBuffers> buffers;
   std::atomic<std::size_t> done = 0;
   parallel_for(bins.tiles(), [&](std::size_t tile) {

@@ -27,6 +27,10 @@ struct RasterCounts {
   std::uint64_t evaluated = 0;  ///< fragments whose data alone were evaluated, without light
 };
 
+/// The first stages: projects, clips, sets up and bins the triangles, in `memory`.
+void bin_draws(std::span<const Draw> draws, const RasterRules& rules, const Target& target, RasterMemory& memory,
+               RasterCounts& counts);
+
 /// Draws triangles into a target: projects, clips, sets up and bins them; then, tile by tile, finds the visible
 /// triangles, shades once per surface and pixel (or per sample), composites blended surfaces in exact order, and
 /// resolves the samples.

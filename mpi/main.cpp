@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// zoneplate-mpi: one image by several processes, each of which draws a part of the triangles (docs/farms.md).
+#include <fmt/format.h>
+#include <mpi.h>
+
+#include <unistd.h>
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "mpi_ranks.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/isa.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/base/processors.h"
+#include "zoneplate/cli/log.h"
+#include "zoneplate/cli/render/args.h"
+#include "zoneplate/batch/item_files.h"
+#include "zoneplate/cli/usage.h"
+#include "zoneplate/job/check.h"
+#include "zoneplate/job/option_values.h"
+#include "zoneplate/job/render_parts.h"
+#include "zoneplate/os/file.h"
+#include "zoneplate/os/mapped_file_guard.h"
+
+namespace zoneplate::cli {
+namespace {
+
+int exit_code(ErrorKind kind) {
+  constexpr int codes[] = {1, 2, 3, 4};  // as of the command
+  return codes[kind == ErrorKind::Usage ? 1 : kind == ErrorKind::Input ? 2 : kind == ErrorKind::Output ? 3 : 0];
+}
+
+/// An error of some rank that every rank has.
+struct SharedError : Error {
+  using Error::Error;
+};
+
+/// Runs `body` on every rank. If it fails on some, every rank throws the error of the first of them.
+void agree(Ranks& ranks, const std::function<void()>& body) {
+  std::optional<Error> own;
+  try {
+    body();
+  } catch (const SharedError&) {
+    throw;
+  } catch (const Error& error) {
+    own.emplace(error.kind(), error.what());
+  } catch (const std::bad_alloc&) {
+    own.emplace(ErrorKind::Failed, "out of memory");
+  } catch (const std::exception& error) {
+    own.emplace(ErrorKind::Failed, error.what());
+  }
+  const std::string text = own ? own->what() : "";
+  std::vector<ByteBuffer> to(static_cast<std::size_t>(ranks.count()));
+  for (ByteBuffer& buffer : to) {
+    buffer.put(own ? static_cast<int>(own->kind()) : -1);
+    buffer.append(std::as_bytes(std::span(text)));
+  }
+  const std::vector<ByteBuffer> from = ranks.exchange(to);
+  for (std::size_t r = 0; r < from.size(); ++r) {
+    ByteReader reader((static_cast<int>(r) == ranks.rank() ? to[r] : from[r]).bytes());
+    const int kind = reader.take<int>();
+    const auto message = reader.rest();
+    if (kind >= 0)
+      throw SharedError(static_cast<ErrorKind>(kind),
+                        std::string(reinterpret_cast<const char*>(message.data()), message.size()));
+  }
+}
+
+/// Keeps the files until every rank has done its part, and then writes them: no file remains of a run that ends early.
+class FilesAtEnd : public JobSink {
+ public:
+  explicit FilesAtEnd(const RenderArgs& args) : args_(args) {}
+  void file(int frame, int layer, std::span<const std::uint8_t> bytes) override {
+    files_.push_back({output_path(args_, frame, layer), {bytes.begin(), bytes.end()}});
+  }
+  void film_frame(const Rgba8Image&) override {}
+
+  void write(Ranks& ranks) const {
+    std::vector<std::unique_ptr<FileWriter>> writers;
+    agree(ranks, [&] {
+      for (const File& file : files_) {
+        writers.push_back(std::make_unique<FileWriter>(file.path));
+        writers.back()->write(file.bytes);
+      }
+    });
+    for (const std::unique_ptr<FileWriter>& writer : writers) writer->commit();
+  }
+
+ private:
+  struct File {
+    std::string path;
+    std::vector<std::uint8_t> bytes;
+  };
+  const RenderArgs& args_;
+  std::vector<File> files_;
+};
+
+struct MpiArgs : RenderArgs {
+  Partition partition = Partition::Index;
+};
+
+Syntax mpi_syntax(MpiArgs& args) {
+  Syntax syntax = render_syntax(args);
+  static const Choices names = {"node", "index", "interleaved"};
+  syntax.options.push_back(choice_option(
+      "--partition", "HOW",
+      "How the triangles of one model are distributed over the ranks: node (whole nodes), index (default; as many "
+      "triangles for each) or interleaved (runs of 64, by a hash). Of several models each rank reads some",
+      "Ranks", false, names, [&](std::size_t i) { args.partition = static_cast<Partition>(i); }));
+  return syntax;
+}
+
+[[noreturn]] void refuse(const std::string& what) { throw Error(ErrorKind::Usage, what); }
+
+/// The job of the command line; nothing after printing the help.
+std::optional<PartsJob> parse_parts(MpiArgs& args, std::vector<std::string> arguments) {
+  if (!arguments.empty() && arguments.front() == "render") arguments.erase(arguments.begin());
+  Syntax syntax = mpi_syntax(args);
+  if (!parse(syntax, arguments)) return std::nullopt;
+  args.inputs = syntax.found_operands;
+  if (args.inputs.empty()) refuse("no input: give a model, or several that form one scene");
+  args.input = args.inputs.front();
+  if (!args.manifest.empty() || !args.shard_text.empty() || !args.ledger.empty() || args.skip_existing ||
+      args.is_dry_run)
+    refuse("ranks render one image: --manifest, --shard, --ledger, --skip-existing and --dry-run are of batches");
+  set_output(args, args.output, 0);
+  check_args(args);
+  return PartsJob{args, args.inputs, args.partition};
+}
+
+void report(const MpiArgs& args, const Ranks& ranks, const Summary& summary, const PartTimes& times) {
+  for (const std::string& warning : summary.warnings)
+    if (args.verbosity != Verbosity::Quiet) say_warning(warning);
+  if (args.verbosity != Verbosity::Verbose) return;
+  std::string steps;
+  for (const auto& [name, ms] : summary.times) steps += fmt::format(", {} {:.1f} ms", name, ms);
+  say_note(fmt::format("rank {} of {}: visibility {:.1f} ms, merge {:.1f} ms, shading {:.1f} ms, resolve {:.1f} ms{}",
+                       ranks.rank(), ranks.count(), times.visibility, times.merge, times.shading, times.resolve,
+                       steps));
+}
+
+void run(MpiRanks& ranks, std::vector<std::string> arguments) {
+  MpiArgs args;
+  std::optional<PartsJob> parts;
+  agree(ranks, [&] {
+    // The help is printed once.
+    const bool is_help =
+        std::ranges::any_of(arguments, [](const std::string& a) { return a == "-h" || a.starts_with("--help"); });
+    if (is_help && ranks.rank() != 0) return;
+    parts = parse_parts(args, std::move(arguments));
+    if (parts && ranks.rank() == 0) check_own_files(args), check_outputs(args);
+  });
+  if (all_values(ranks, parts ? 1 : 0).front() == 0) return;
+  int threads = args.threads;
+  if (threads == 0) threads = std::max(1, usable_processors() / ranks.count_on_machine());
+  FilesAtEnd files(args);
+  with_isa(args.isa, [&] {
+    with_threads(threads, [&] {
+      PartTimes times;
+      const Summary summary = render_parts(
+          std::move(*parts), ranks, [&](const std::function<void()>& body) { agree(ranks, body); }, files, times);
+      report(args, ranks, summary, times);
+    });
+  });
+  files.write(ranks);
+}
+
+extern "C" void leave(int signal) {
+  remove_temporaries();
+  ::_exit(128 + signal);
+}
+
+/// Ends all ranks for an error of this one. Others that fail for the same reason are slower by their rank, so that one
+/// line is printed.
+[[noreturn]] void end_all(int rank, const std::string& message, int code) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(std::min(50 * rank, 2000)));
+  say_error(message);
+  remove_temporaries();
+  MPI_Abort(MPI_COMM_WORLD, code);
+  ::_exit(code);
+}
+
+}  // namespace
+}  // namespace zoneplate::cli
+
+int main(int argc, char** argv) {
+  using namespace zoneplate;
+  int provided = 0;
+  MPI_Init_thread(&argc, &argv, MPI_THREAD_FUNNELED, &provided);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) std::signal(signal, cli::leave);
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  survive_truncated_mappings();
+  MpiRanks ranks;
+  int code = 0;
+  try {
+    cli::run(ranks, std::vector<std::string>(argv + 1, argv + argc));
+  } catch (const cli::SharedError& error) {
+    if (ranks.rank() == 0) cli::say_error(error.what());
+    code = cli::exit_code(error.kind());
+  } catch (const Error& error) {
+    cli::end_all(ranks.rank(), error.what(), cli::exit_code(error.kind()));
+  } catch (const std::bad_alloc&) {
+    cli::end_all(ranks.rank(), "out of memory", 1);
+  } catch (const std::exception& error) {
+    cli::end_all(ranks.rank(), error.what(), 1);
+  }
+  MPI_Finalize();
+  return code;
+}

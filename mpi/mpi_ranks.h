@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "zoneplate/base/ranks.h"
+
+namespace zoneplate {
+
+/// The ranks of MPI_COMM_WORLD.
+///
+/// Requires  MPI is initialised, and used by one thread at a time.
+class MpiRanks : public Ranks {
+ public:
+  MpiRanks();
+  int rank() const override { return rank_; }
+  int count() const override { return count_; }
+  std::vector<ByteBuffer> exchange(std::span<const ByteBuffer> to) override;
+
+  /// The number of ranks on this machine.
+  int count_on_machine() const;
+
+ private:
+  int rank_ = 0, count_ = 1;
+};
+
+}  // namespace zoneplate
