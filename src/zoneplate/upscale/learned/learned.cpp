@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Learned super-sampling: `taau` at scale 2, of which a network of 14,888 parameters corrects, for each output pixel,
 // the weights of nine samples and how much their mean counts, how many of the history's samples count and how many of
-// those that `taau` drops, how far history is clamped, and which of two motions it follows: that of the nearest surface,
-// or that of the pixel's own. It makes no colours: an image is a weighted mean of the frame's samples and the history.
-// Corrections of 0 are `taau`.
+// those that `taau` drops, how far history is clamped, and which of two motions it follows: that of the nearest
+// surface, or that of the pixel's own. It makes no colours: an image is a weighted mean of the frame's samples and the
+// history. Corrections of 0 are `taau`.
 //
 // The network reads what `taau` knows of each frame pixel (learned_rows_lanes.h): colours, extremes, motion, depth, and
 // the history of its output pixels beside the frame's samples. It needs no ids, and so serves the frames of other
