@@ -13,28 +13,29 @@
 namespace zoneplate {
 namespace {
 
-constexpr int side = HemisphereKernels::side;
+constexpr int map_side = HemisphereKernels::side;
 
-float random(std::uint32_t a, std::uint32_t b) { return unit_float(hash(a, b, 4)); }
+float random_unit(std::uint32_t a, std::uint32_t b) { return unit_float(hash(a, b, 4)); }
 
-struct Surface {
-  std::array<float, std::size_t{side} * side> octahedron;
+struct Receiver {
+  std::array<float, std::size_t{map_side} * map_side> octahedron;
   alignas(64) float middle[3][HemisphereCells::count];
   float3 frame[3];
   HemispherePlaces places{};
 
   /// Some cells of the octahedron have no light.
-  explicit Surface(std::uint32_t seed) {
+  explicit Receiver(std::uint32_t seed) {
     for (std::size_t i = 0; i < octahedron.size(); ++i) {
-      const float light = random(static_cast<std::uint32_t>(i), seed);
+      const float light = random_unit(static_cast<std::uint32_t>(i), seed);
       octahedron[i] = light < 0.3f ? 0 : light * light * 50;
     }
     for (int c = 0; c < HemisphereCells::count; ++c) {
       const auto n = static_cast<std::uint32_t>(c);
-      const float z = random(n, 1), angle = 6.28318f * random(n, 2), across = std::sqrt(1 - z * z);
+      const float z = random_unit(n, 1), angle = 6.28318f * random_unit(n, 2), across = std::sqrt(1 - z * z);
       middle[0][c] = across * std::cos(angle), middle[1][c] = across * std::sin(angle), middle[2][c] = z;
     }
-    float3 normal = normalize({random(seed, 3) - 0.5f, random(seed, 4) - 0.5f, random(seed, 5) - 0.5f}, {0, 0, 1});
+    float3 normal =
+        normalize({random_unit(seed, 3) - 0.5f, random_unit(seed, 4) - 0.5f, random_unit(seed, 5) - 0.5f}, {0, 0, 1});
     if (seed % 4 == 0) normal = {0, 0, seed % 8 == 0 ? 1.0f : -1.0f};
     frame[0] = Basis(normal).first, frame[1] = Basis(normal).second, frame[2] = normal;
     places.count = 1 + static_cast<int>(seed % HemispherePlaces::capacity);
@@ -43,15 +44,15 @@ struct Surface {
     for (int i = 0; i < places.count; ++i) {
       const auto n = static_cast<std::uint32_t>(i) + 64 * seed;
       places.ring[i] = static_cast<std::int32_t>(hash(n) % HemisphereCells::rings);
-      places.across[i] = random(n, 6) * light.sum[places.ring[i]];
-      places.turn[i] = i % 9 == 0 ? 0 : random(n, 7);
+      places.across[i] = random_unit(n, 6) * light.sum[places.ring[i]];
+      places.turn[i] = i % 9 == 0 ? 0 : random_unit(n, 7);
     }
   }
 };
 
 TEST(HemisphereLightBits, AreTheSameForAllInstructionSets) {
   for (std::uint32_t seed = 0; seed < 200; ++seed) {
-    Surface surface(seed);
+    Receiver surface(seed);
     HemisphereLight light;
     HemisphereKernels::scalar.look_up(surface.octahedron.data(), surface.middle, surface.frame, light);
     surface.place(light, seed);
@@ -72,7 +73,7 @@ TEST(HemisphereLightBits, AreTheSameForAllInstructionSets) {
 
 // One cell has all of the light: all directions lie in it, above the surface.
 TEST(HemisphereLight, DirectionsLieWhereLightIs) {
-  Surface surface(7);
+  Receiver surface(7);
   HemisphereLight light{};
   constexpr int ring = 5, sector = 9;
   const float brightness = 3;
@@ -80,8 +81,8 @@ TEST(HemisphereLight, DirectionsLieWhereLightIs) {
   light.sum[ring] = brightness;
   surface.places.count = HemispherePlaces::capacity;
   for (int i = 0; i < surface.places.count; ++i) {
-    surface.places.ring[i] = ring, surface.places.turn[i] = random(static_cast<std::uint32_t>(i), 8);
-    surface.places.across[i] = brightness * random(static_cast<std::uint32_t>(i), 9);
+    surface.places.ring[i] = ring, surface.places.turn[i] = random_unit(static_cast<std::uint32_t>(i), 8);
+    surface.places.across[i] = brightness * random_unit(static_cast<std::uint32_t>(i), 9);
   }
   float found[3][HemispherePlaces::capacity];
   HemisphereKernels::of().directions(light, surface.places, surface.frame, found);
