@@ -20,10 +20,9 @@
 #include "zoneplate/batch/item_files.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/render/args.h"
-#include "zoneplate/cli/usage.h"
 #include "zoneplate/job/check.h"
 #include "zoneplate/job/option_values.h"
-#include "zoneplate/job/render_parts.h"
+#include "zoneplate/job/parts/render_parts.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/mapped_file_guard.h"
 

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "zoneplate/base/ranks.h"
+#include "zoneplate/base/ranks/ranks.h"
 
 namespace zoneplate {
 

@@ -10,7 +10,7 @@
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/base/ranks_for_test.h"
+#include "zoneplate/base/ranks/ranks_for_test.h"
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/math/transform.h"

@@ -41,6 +41,10 @@ Job resolve(Job job, const Scene& scene, ToneMapping of_light) {
   return job;
 }
 
+void resolve_point_size(double points, Job& job) {
+  if (!job.point_size) job.point_size = usual_point_size(points, job.options.width, job.options.height);
+}
+
 LitStill light_still(Job job, const PreparedScene& scene, bool is_linear, const Camera* camera) {
   const Lighting lighting = make_lighting(scene.scene(), job.lighting);
   job = resolve(std::move(job), scene.scene(), lighting.tone_mapping);

@@ -14,6 +14,9 @@ namespace zoneplate {
 /// A built-in scene that has a camera is seen by it, in a sequence if it moves; others are seen as a whole.
 Job resolve(Job job, const Scene& scene, ToneMapping of_light);
 
+/// Chooses the point size for a number of points where the job has none, as `resolve` does for those of a scene.
+void resolve_point_size(double points, Job& job);
+
 /// A scene under the light of a job, and the job with nothing left to the scene.
 struct LitStill {
   Job job;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/render/canvas.h"
 
-#include "zoneplate/render/draw_image.h"
+#include "zoneplate/raster/tile/draw_image.h"
 
 namespace zoneplate {
 

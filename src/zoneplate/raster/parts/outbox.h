@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/base/ranks.h"
+#include "zoneplate/base/ranks/ranks.h"
 
 namespace zoneplate {
 
-/// What one rank tells another about a tile.
+/// A message from one rank to another about a tile.
 struct TileMessage {
   std::uint32_t tile;
   std::uint32_t flags;

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "zoneplate/base/byte_buffer.h"
+#include "zoneplate/base/ranks/byte_buffer.h"
 #include "zoneplate/raster/coverage/coverage.h"
 
 namespace zoneplate {

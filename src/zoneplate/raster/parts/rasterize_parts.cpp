@@ -124,7 +124,7 @@ class ResolvedTiles {
   }
 
  private:
-  static constexpr std::size_t line = 64;  ///< bytes, to which the kernels want planes aligned
+  static constexpr std::size_t line = 64;  ///< bytes: the alignment of planes that the kernels require
 
   template <class T>
   static T* aligned(LargeArray<T>& array) {

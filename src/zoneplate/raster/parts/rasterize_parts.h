@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <span>
 
-#include "zoneplate/base/ranks.h"
+#include "zoneplate/base/ranks/ranks.h"
 #include "zoneplate/raster/tile/rasterize.h"
 
 namespace zoneplate {
@@ -32,7 +32,7 @@ struct PartTimes {
 ///   1. each rank rasterizes its opaque triangles, and sends the samples that they own, packed, to the tile's rank;
 ///   2. that rank merges them by (depth, id). Alpha-tested triangles are tested by their ranks against the result, and
 ///      merged likewise;
-///   3. it tells each rank which samples that rank owns, and what lies before its blended triangles;
+///   3. it sends each rank the set of samples that this rank owns, and what lies before its blended triangles;
 ///   4. each rank shades its fragments, opaque and blended, which only it has vertices and materials for, and sends
 ///      their colours, in the order of the pixels;
 ///   5. the tile's rank composites the layers of each sample in the order of (depth, id), and resolves the pixels.

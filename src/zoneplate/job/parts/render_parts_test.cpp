@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/job/render_parts.h"
+#include "zoneplate/job/parts/render_parts.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,11 +11,11 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/base/ranks_for_test.h"
+#include "zoneplate/base/ranks/ranks_for_test.h"
 #include "zoneplate/job/check.h"
 #include "zoneplate/job/option_values.h"
+#include "zoneplate/job/parts/scene_of_files.h"
 #include "zoneplate/job/render_job.h"
-#include "zoneplate/job/scene_of_files.h"
 #include "zoneplate/os/file.h"
 
 namespace zoneplate {

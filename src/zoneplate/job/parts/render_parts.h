@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "zoneplate/base/ranks.h"
+#include "zoneplate/base/ranks/ranks.h"
 #include "zoneplate/job/job_sink.h"
 #include "zoneplate/job/picture.h"
 #include "zoneplate/raster/parts/partition.h"

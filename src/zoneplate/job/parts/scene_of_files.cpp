@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/job/scene_of_files.h"
+#include "zoneplate/job/parts/scene_of_files.h"
 
 #include <memory>
 #include <optional>

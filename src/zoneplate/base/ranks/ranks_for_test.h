@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-#include "zoneplate/base/ranks.h"
+#include "zoneplate/base/ranks/ranks.h"
 
 namespace zoneplate {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/job/render_parts.h"
+#include "zoneplate/job/parts/render_parts.h"
 
 #include <optional>
 #include <utility>
@@ -8,11 +8,10 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/job/import_time.h"
+#include "zoneplate/job/parts/scene_of_files.h"
 #include "zoneplate/job/render_job.h"
 #include "zoneplate/job/resolve.h"
-#include "zoneplate/job/scene_of_files.h"
 #include "zoneplate/render/frame_parts.h"
-#include "zoneplate/scene/usual_options.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate {
@@ -92,7 +91,7 @@ Summary render_parts(PartsJob parts, Ranks& ranks, const std::function<void(cons
     if (dims_lights(job, files.scene))
       refuse("the lights of the files may be dimmed, for which each rank needs the whole scene: see --light-intensity");
     view.camera = camera_of(job, files);
-    if (!job.point_size) job.point_size = usual_point_size(files.points, job.options.width, job.options.height);
+    resolve_point_size(files.points, job);
     prepared.emplace(std::move(files.scene), job.mips);
   });
   summary.times.emplace_back("read", reading.ms());

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "zoneplate/base/ranks.h"
+#include "zoneplate/base/ranks/ranks.h"
 #include "zoneplate/scene/scene.h"
 
 namespace zoneplate {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/render/draw_image.h"
+#include "zoneplate/raster/tile/draw_image.h"
 
 #include "zoneplate/raster/tile/rasterize.h"
 

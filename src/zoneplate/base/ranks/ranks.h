@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "zoneplate/base/byte_buffer.h"
+#include "zoneplate/base/ranks/byte_buffer.h"
 
 namespace zoneplate {
 
