@@ -39,7 +39,7 @@ template <class F>
 
 /// Weighted moments of places (x, y) and values.
 template <class F>
-struct Moments {
+struct PlaneMoments {
   F one{0.0f}, x{0.0f}, y{0.0f}, xx{0.0f}, xy{0.0f}, yy{0.0f}, f{0.0f}, xf{0.0f}, yf{0.0f}, ff{0.0f};
 
   [[gnu::always_inline]] void add(F weight, F px, F py, F value) {
@@ -56,7 +56,7 @@ struct FittedPlane {
   F at_origin;
   F variance;  ///< of the values about it
 
-  [[gnu::always_inline]] explicit FittedPlane(const Moments<F>& m) {
+  [[gnu::always_inline]] explicit FittedPlane(const PlaneMoments<F>& m) {
     const F mx = m.x / m.one, my = m.y / m.one, mf = m.f / m.one;
     const F xx = m.xx / m.one - mx * mx + F(flatness), yy = m.yy / m.one - my * my + F(flatness);
     const F xy = m.xy / m.one - mx * my;
@@ -77,7 +77,7 @@ void fit(const GridNeighbours& near, const GridReceivers& receivers, float noise
     F at[3], normal[3];
     for (int c = 0; c < 3; ++c)
       at[c] = F::load(receivers.position[c] + i), normal[c] = F::load(receivers.normal[c] + i);
-    Moments<F> moments;
+    PlaneMoments<F> moments;
     F least = one, greatest = zero;
     F reach = zero, nearest_above(HUGE_VALF);  // squares of distances
     Int count(0);
