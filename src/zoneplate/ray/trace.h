@@ -40,6 +40,20 @@ inline BvhView view_of(const Bvh& bvh) {
   return {bvh.nodes().empty() ? nullptr : bvh.nodes().data(), bvh.leaves().data()};
 }
 
+/// The parts of a tree that rays of one origin can meet: nodes whose children are nodes and leaves of that tree.
+struct BvhTop {
+  static constexpr int capacity = 6;
+  int count = 0;
+  BvhNode nodes[capacity];
+};
+
+/// The half of a ball above a surface.
+struct HalfBall {
+  float origin[3];
+  float normal[3];  ///< unit
+  float radius;
+};
+
 /// Queries of rays against a BVH. What one ray gets does not depend on the others.
 ///
 /// A ray through an edge or a vertex of a closed mesh hits at least one of the triangles there: vertices are sheared
@@ -53,6 +67,13 @@ struct RayKernels : PerIsa<RayKernels> {
   /// Rays that take similar ways, 32 in succession, are traced in less time.
   void (*visibility)(const BvhView& bvh, const Ray* rays, std::size_t count, const OpacityOfHits& opacity,
                      float* visibility);
+  /// Sets `top` to what rays of unit length from the origin may meet in a half ball: what lies below its plane or
+  /// beyond its radius by more than rounding is left out, and nodes about the origin are divided. No nodes: they meet
+  /// nothing.
+  void (*find_top)(const BvhView& bvh, const HalfBall& within, BvhTop& top);
+  /// The same as `visibility`, for rays from the origin of the half ball of `top` that end within its radius.
+  void (*visibility_below)(const BvhView& bvh, const BvhTop& top, const Ray* rays, std::size_t count,
+                           const OpacityOfHits& opacity, float* visibility);
   /// The hit of least t of each ray; of equal ones, that of the least instance and then primitive.
   void (*nearest)(const BvhView& bvh, const Ray* rays, std::size_t count, RayHit* hits);
 };

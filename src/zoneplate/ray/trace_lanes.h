@@ -161,14 +161,15 @@ struct StreamEntry {
   RayBits rays;
 };
 
-/// Stores the visibility of these rays, each node and leaf being visited once by all that meet it. Returns those that
-/// meet several translucent triangles, whose product is to be rounded in the order of a ray that is traced alone.
+/// Stores the visibility of these rays from some nodes on, the last one first, each node and leaf being visited once by
+/// all that meet it. Returns those that meet several translucent triangles, whose product is to be rounded in the order
+/// of a ray that is traced alone.
 ///
 /// The tests are those of each ray by itself, which wait for each other less than those of one ray after the other. The
 /// first child is the largest, where any hit is found soonest.
 template <class F, class G>
-RayBits trace_visibility(const BvhView& bvh, const PreparedRays<F>& rays, const RayBits which,
-                         const OpacityOfHits& opacity, float* visible) {
+RayBits trace_visibility(const BvhView& bvh, const BvhNode* tops, int top_count, const PreparedRays<F>& rays,
+                         const RayBits which, const OpacityOfHits& opacity, float* visible) {
   using Int = typename F::Int;
   for (RayBits left = which; left != 0; left &= left - 1) visible[lowest_bit(left)] = 1;
   const bool is_single = (which & (which - 1)) == 0;
@@ -177,8 +178,9 @@ RayBits trace_visibility(const BvhView& bvh, const PreparedRays<F>& rays, const 
   StreamEntry stack[RayStack::capacity];
   int height = 0;
   StreamEntry at{0, which};
+  const BvhNode* top = tops + --top_count;  // null: `at` is to be visited
   while (true) {
-    if (at.child & BvhNode::leaf) {
+    if (top == nullptr && (at.child & BvhNode::leaf)) {
       const BvhLeaf& leaf = bvh.leaves[at.child - BvhNode::leaf];
       for (RayBits left = at.rays; left != 0; left &= left - 1) {
         const int r = lowest_bit(left);
@@ -197,7 +199,8 @@ RayBits trace_visibility(const BvhView& bvh, const PreparedRays<F>& rays, const 
         }
       }
     } else {
-      const BvhNode& node = bvh.nodes[at.child];
+      const BvhNode& node = top != nullptr ? *top : bvh.nodes[at.child];
+      top = nullptr;
       alignas(32) std::int32_t met[BvhNode::width];
       unsigned children = 0;
       for (int i = 0; i < BvhNode::width; i += F::lanes) {
@@ -222,28 +225,116 @@ RayBits trace_visibility(const BvhView& bvh, const PreparedRays<F>& rays, const 
       }
     }
     do {
-      if (height == 0) return unsure & open;
-      at = stack[--height];
+      if (height > 0) {
+        at = stack[--height];
+      } else {
+        if (top_count == 0) return unsure & open;
+        top = tops + --top_count, at.rays = which;
+      }
       at.rays &= open;
+      if (open == 0) return 0;
     } while (at.rays == 0);
   }
 }
 
 template <class F, class G>
-void visibility(const BvhView& bvh, const Ray* rays, std::size_t count, const OpacityOfHits& opacity, float* visible) {
+[[gnu::always_inline]] inline void visibility_from(const BvhView& bvh, const BvhNode* tops, int top_count,
+                                                   const Ray* rays, std::size_t count, const OpacityOfHits& opacity,
+                                                   float* visible) {
   constexpr std::size_t most = PreparedRays<F>::capacity;
   for (std::size_t first = 0; first < count; first += most) {
     const int n = static_cast<int>(count - first < most ? count - first : most);
-    if (bvh.nodes == nullptr) {
+    if (top_count == 0) {
       for (int r = 0; r < n; ++r) visible[first + static_cast<std::size_t>(r)] = 1;
       continue;
     }
     const PreparedRays<F> prepared(rays + first, n);
     const RayBits all = ~RayBits{0} >> (PreparedRays<F>::capacity - n);
-    RayBits unsure = trace_visibility<F, G>(bvh, prepared, all, opacity, visible + first);
+    RayBits unsure = trace_visibility<F, G>(bvh, tops, top_count, prepared, all, opacity, visible + first);
     for (; unsure != 0; unsure &= unsure - 1)
-      trace_visibility<F, G>(bvh, prepared, unsure & -unsure, opacity, visible + first);
+      trace_visibility<F, G>(bvh, bvh.nodes, 1, prepared, unsure & -unsure, opacity, visible + first);
   }
+}
+
+template <class F, class G>
+void visibility(const BvhView& bvh, const Ray* rays, std::size_t count, const OpacityOfHits& opacity, float* visible) {
+  visibility_from<F, G>(bvh, bvh.nodes, bvh.nodes == nullptr ? 0 : 1, rays, count, opacity, visible);
+}
+
+template <class F, class G>
+void visibility_below(const BvhView& bvh, const BvhTop& top, const Ray* rays, std::size_t count,
+                      const OpacityOfHits& opacity, float* visible) {
+  visibility_from<F, G>(bvh, top.nodes, top.count, rays, count, opacity, visible);
+}
+
+/// How far a ray of a half ball comes to lie below its plane, relative to the distance: by the rounding of its
+/// direction and of the tests of triangles, less than 2^-20.
+inline constexpr float below_plane = 0x1p-18f;
+
+/// Whether all of these triangles lie below the plane.
+template <class G>
+[[gnu::always_inline]] inline bool is_below(const BvhLeaf& leaf, const HalfBall& within) {
+  for (int i = 0; i < BvhLeaf::width; i += G::lanes)
+    for (int k = 0; k < 3; ++k) {
+      G height(0.0f), size(0.0f);
+      for (int a = 0; a < 3; ++a) {
+        const G from = G::load(leaf.vertex[k][a] + i) - G(within.origin[a]);
+        height = height + from * G(within.normal[a]), size = size + abs(from);
+      }
+      if (!none(height + size * G(below_plane) >= G(0.0f))) return false;
+    }
+  return true;
+}
+
+template <class F, class G>
+void find_top(const BvhView& bvh, const HalfBall& within, BvhTop& top) {
+  const auto set_child = [&](int place, const BvhNode& from, int c) {
+    BvhNode& to = top.nodes[place / BvhNode::width];
+    const int i = place % BvhNode::width;
+    for (int a = 0; a < 3; ++a) to.bound[0][a][i] = from.bound[0][a][c], to.bound[1][a][i] = from.bound[1][a][c];
+    to.child[i] = from.child[c];
+  };
+  BvhNode nothing;
+  for (int a = 0; a < 3; ++a)
+    nothing.bound[0][a][0] = std::numeric_limits<float>::infinity(),
+    nothing.bound[1][a][0] = -std::numeric_limits<float>::infinity();
+  nothing.child[0] = 0;
+  std::uint32_t open[BvhTop::capacity * BvhNode::width] = {0};
+  int height = bvh.nodes == nullptr ? 0 : 1, places = 0;
+  while (height > 0) {
+    const BvhNode& node = bvh.nodes[open[--height]];
+    alignas(32) float square[BvhNode::width];
+    unsigned reached = 0;
+    for (int i = 0; i < BvhNode::width; i += F::lanes) {
+      F top_height(0.0f), size(0.0f), distance(0.0f);
+      for (int a = 0; a < 3; ++a) {
+        const F low = F::load(node.bound[0][a] + i) - F(within.origin[a]);
+        const F high = F::load(node.bound[1][a] + i) - F(within.origin[a]);
+        const F outside = max(max(low, -high), F(0.0f));
+        top_height = top_height + (within.normal[a] > 0 ? high : low) * F(within.normal[a]);
+        size = size + max(abs(low), abs(high)), distance = distance + outside * outside;
+      }
+      distance.store(square + i);
+      constexpr float margin = 1 + 0x1p-12f;
+      const auto is_near = F(within.radius * within.radius * margin) >= distance;
+      reached |= bits_of((top_height + size * F(below_plane) >= F(0.0f)) & is_near) << i;
+    }
+    for (; reached != 0; reached &= reached - 1) {
+      const int c = lowest_bit(reached);
+      const std::uint32_t child = node.child[c];
+      const bool is_about_origin = square[c] == 0;
+      if (is_about_origin && (child & BvhNode::leaf) && is_below<G>(bvh.leaves[child - BvhNode::leaf], within))
+        continue;
+      // A node that is opened has eight children, as have those that wait and the rest of this one.
+      const bool has_room = places + (height + 2) * BvhNode::width <= BvhTop::capacity * BvhNode::width;
+      if (is_about_origin && !(child & BvhNode::leaf) && has_room)
+        open[height++] = child;
+      else
+        set_child(places++, node, c);
+    }
+  }
+  top.count = (places + BvhNode::width - 1) / BvhNode::width;
+  for (; places % BvhNode::width != 0; ++places) set_child(places, nothing, 0);
 }
 
 /// A child with the t at which the ray enters its box.
@@ -312,7 +403,10 @@ void nearest(const BvhView& bvh, const Ray* rays, std::size_t count, RayHit* hit
 
 template <class F, class G>
 constexpr RayKernels ray_kernels() {
-  return {.visibility = &visibility<F, G>, .nearest = &nearest<F, G>};
+  return {.visibility = &visibility<F, G>,
+          .find_top = &find_top<F, G>,
+          .visibility_below = &visibility_below<F, G>,
+          .nearest = &nearest<F, G>};
 }
 
 }  // namespace zoneplate::stages

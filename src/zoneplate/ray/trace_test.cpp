@@ -184,6 +184,73 @@ TEST(Trace, RaysTogetherAreRaysAlone) { compare_with_single_rays(400000); }
 
 TEST(Trace, DISABLED_OneHundredMillionRaysTogetherAreRaysAlone) { compare_with_single_rays(34000000); }
 
+/// Compares rays over the surfaces of a mesh and of its neighbours by find_top with those by the whole tree.
+void compare_with_whole_tree(std::uint32_t receivers) {
+  const TestMesh sphere = bumpy_sphere(100), soup = triangle_soup(20000, 0.05f);
+  ShadowCaster casters[] = {sphere.caster(), soup.caster()};
+  casters[1].is_translucent = true;
+  const OpacityOfHits weights{[](const void*, const RayHit& hit) { return 0.7f * hit.b1; }, nullptr};
+  const Bvh bvh(casters);
+  const RayKernels& kernels = RayKernels::of();
+  std::uint32_t free = 0, hit_count = 0;
+  for (std::uint32_t k = 0; k < receivers; ++k) {
+    const std::size_t triangle = hash(k, 21) % (sphere.index.size() / 3);
+    const auto p = [&](std::size_t v) { return sphere.position[sphere.index[3 * triangle + v]]; };
+    float3 normal = normalize(cross(p(1) - p(0), p(2) - p(0)), {0, 1, 0});
+    const float4 r = random_numbers(k, 22);
+    // On the surface, and anywhere at a slant to it.
+    float3 origin = p(0) + (p(1) - p(0)) * (0.5f * r.x) + (p(2) - p(0)) * (0.5f * r.y);
+    if (dot(normal, origin) < 0) normal = -normal;
+    origin = origin + normal * 4e-6f;
+    if (k % 3 == 1) origin = {4 * r.x - 2, 4 * r.y - 2, 4 * r.z - 2};
+    if (k % 3 == 2) normal = normalize(normal + float3{r.x - 0.5f, r.y - 0.5f, r.z - 0.5f}, normal);
+    const float radius = k % 5 == 0 ? 1e6f : 0.1f + r.w;
+    BvhTop top;
+    kernels.find_top(view_of(bvh), {{origin.x, origin.y, origin.z}, {normal.x, normal.y, normal.z}, radius}, top);
+    free += top.count == 0;
+    std::vector<Ray> rays;
+    for (std::uint32_t s = 0; s < 64; ++s) {
+      const float4 random = random_numbers(64 * k + s, 23);
+      float3 d = normalize(float3{random.x - 0.5f, random.y - 0.5f, random.z - 0.5f}, normal);
+      const float below = std::min(0.0f, dot(d, normal));
+      d = normalize(d - normal * ((s % 2 == 0 ? 2 : 1) * below), normal);  // every other one of those along the plane
+      rays.push_back({{origin.x, origin.y, origin.z}, {d.x, d.y, d.z}, radius});
+    }
+    float whole[64], part[64];
+    kernels.visibility(view_of(bvh), rays.data(), rays.size(), weights, whole);
+    kernels.visibility_below(view_of(bvh), top, rays.data(), rays.size(), weights, part);
+    for (std::size_t s = 0; s < 64; ++s) {
+      ASSERT_EQ(part[s], whole[s]) << k << ' ' << s;
+      hit_count += whole[s] < 1;
+    }
+  }
+  EXPECT_GT(free, receivers / 20);
+  EXPECT_GT(hit_count, receivers);
+}
+
+TEST(Trace, TopsLeaveOutNothingThatRaysMeet) { compare_with_whole_tree(16000); }
+
+TEST(Trace, DISABLED_TopsLeaveOutNothingThatOneHundredMillionRaysMeet) { compare_with_whole_tree(1600000); }
+
+TEST(TraceBits, TopsAreTheSameForAllInstructionSets) {
+  const TestMesh sphere = bumpy_sphere(60);
+  const Bvh bvh(std::vector{sphere.caster()});
+  for (std::uint32_t k = 0; k < 2000; ++k) {
+    const Ray ray = random_ray(k);
+    const float3 normal = normalize(float3{ray.direction[0], ray.direction[1], ray.direction[2]}, {0, 0, 1});
+    const HalfBall within{{ray.origin[0], ray.origin[1], ray.origin[2]}, {normal.x, normal.y, normal.z}, 1.5f};
+    BvhTop first;
+    RayKernels::scalar.find_top(view_of(bvh), within, first);
+    for (const Isa isa : supported_isas()) {
+      BvhTop top;
+      RayKernels::of(isa).find_top(view_of(bvh), within, top);
+      ASSERT_EQ(top.count, first.count);
+      for (int i = 0; i < top.count; ++i)
+        for (int c = 0; c < BvhNode::width; ++c) ASSERT_EQ(top.nodes[i].child[c], first.nodes[i].child[c]);
+    }
+  }
+}
+
 TEST(TraceBits, AreTheSameForAllInstructionSets) {
   const TestMesh sphere = bumpy_sphere(40), soup = triangle_soup(2000, 0.3f);
   const ShadowCaster casters[] = {sphere.caster(), soup.caster()};

@@ -133,21 +133,22 @@ void TracedVisibility::of_light(int k, const Receivers& receivers, float* visibl
 }
 
 /// The mean over directions of a density proportional to the cosine.
-float TracedVisibility::of_uniform_light(const Receivers& receivers, int i, float3 origin) const {
+float TracedVisibility::of_uniform_light(const Receivers& receivers, int i, float3 origin, const BvhTop& top) const {
   const DirectionsAbout directions(at(receivers.normal, i));
   const auto see = [&](const ShiftedDisc::Point* points, int count, float* visible) {
     Ray rays[AdaptiveDisc::most_points];
     for (int s = 0; s < count; ++s) rays[s] = make_ray(origin, directions.of_cosine(points[s]), occlusion_.distance);
-    kernels_.visibility(bvh_, rays, static_cast<std::size_t>(count), opacity_, visible);
+    kernels_.visibility_below(bvh_, top, rays, static_cast<std::size_t>(count), opacity_, visible);
   };
   return hemisphere_.mean(receivers.seed[i], std::ref(see));
 }
 
 /// The mean over equal parts of the environment's irradiance.
-float TracedVisibility::of_rays(EnvironmentRays::Hemisphere& light, std::uint32_t seed, float3 origin) const {
+float TracedVisibility::of_rays(EnvironmentRays::Hemisphere& light, std::uint32_t seed, float3 origin,
+                                const BvhTop& top) const {
   Ray rays[chunk];
   float seen[chunk];
-  if (!light.is_lit()) return 1;
+  if (!light.is_lit() || top.count == 0) return 1;
   light.begin(seed);
   float sum = 0;
   for (int first = 0; first < occlusion_.samples; first += chunk) {
@@ -155,7 +156,7 @@ float TracedVisibility::of_rays(EnvironmentRays::Hemisphere& light, std::uint32_
     EnvironmentRays::Hemisphere::Directions d;
     light.next(count, d);
     for (int s = 0; s < count; ++s) rays[s] = make_ray(origin, {d[0][s], d[1][s], d[2][s]}, occlusion_.distance);
-    kernels_.visibility(bvh_, rays, static_cast<std::size_t>(count), opacity_, seen);
+    kernels_.visibility_below(bvh_, top, rays, static_cast<std::size_t>(count), opacity_, seen);
     for (int s = 0; s < count; ++s) sum += seen[s];
   }
   return sum / static_cast<float>(occlusion_.samples);
@@ -167,13 +168,15 @@ void TracedVisibility::of_environment(const Receivers& receivers, float* visible
     const float3 origin = origin_of(receivers, i, 1), normal = at(receivers.normal, i);
     visible[i] = 1;
     if (distance_squared(bounds_, origin) > occlusion_.distance * occlusion_.distance) continue;
+    BvhTop top;
+    kernels_.find_top(bvh_, {{origin.x, origin.y, origin.z}, {normal.x, normal.y, normal.z}, occlusion_.distance}, top);
     if (!environment_) {
-      visible[i] = of_uniform_light(receivers, i, origin);
+      visible[i] = of_uniform_light(receivers, i, origin, top);
       continue;
     }
     // The neighbours on a plane have the same normal.
     if (!light || !light->is_about(normal)) light.emplace(*environment_, normal, occlusion_.samples);
-    visible[i] = of_rays(*light, receivers.seed[i], origin);
+    visible[i] = of_rays(*light, receivers.seed[i], origin, top);
   }
 }
 

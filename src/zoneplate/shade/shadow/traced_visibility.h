@@ -51,8 +51,8 @@ class TracedVisibility : public LightVisibility {
   SeenLight see(std::size_t k, float3 from) const;
   template <class MakeRay>
   float mean_visibility(const MakeRay& ray) const;
-  float of_uniform_light(const Receivers& receivers, int i, float3 origin) const;
-  float of_rays(EnvironmentRays::Hemisphere& light, std::uint32_t seed, float3 origin) const;
+  float of_uniform_light(const Receivers& receivers, int i, float3 origin, const BvhTop& top) const;
+  float of_rays(EnvironmentRays::Hemisphere& light, std::uint32_t seed, float3 origin, const BvhTop& top) const;
 
   BvhView bvh_;
   Box bounds_;  ///< of all casters
