@@ -31,8 +31,8 @@ struct Case {
 constexpr std::array<Case, 3> cases = {
     {{"panning-wires", "The first frame", "Without history: the mean of several samples, not the nearest one alone.", 0,
       0.22, 0.42},
-     {"light-switch", "A switched light", "History of the other light is dropped, and few samples are smoothed.", 13,
-      0.42, 0.45},
+     {"light-switch", "A switched light",
+      "History of the other light is dropped, but for its highlight at the left: a ghost.", 13, 0.42, 0.45},
      {"teleport", "Turning spokes", "Where it fails: beside a spoke some of the last positions are kept.", 13, 0.5,
       0.5}}};
 
