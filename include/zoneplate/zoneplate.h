@@ -37,7 +37,7 @@ extern "C" {
 
 /// ZONEPLATE_ABI_VERSION of the library, which may differ from that of the header.
 uint32_t zoneplate_abi_version(void);
-/// The version of the library, such as "0.1.0".
+/// The version of the library, such as "0.2.0".
 const char* zoneplate_version(void);
 
 /// The result of a function. The first five are the exit codes of the command.
