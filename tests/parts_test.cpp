@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
+#include <span>
 #include <string>
 
 #include "zoneplate/antialias/methods.h"
@@ -151,7 +151,7 @@ RenderSettings settings_for(ImageForm form, Planes planes = {}) {
 template <class T>
 bool has_same_bytes(const Plane<T>& a, const Plane<T>& b) {
   return a.width() == b.width() && a.height() == b.height() &&
-         std::memcmp(a.values().data(), b.values().data(), a.values().size_bytes()) == 0;
+         std::ranges::equal(std::as_bytes(a.values()), std::as_bytes(b.values()));
 }
 
 void expect_same(RenderedImage& a, RenderedImage& b) {
