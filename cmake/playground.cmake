@@ -17,7 +17,8 @@ list(APPEND readers src/zoneplate/codec/hdr.cpp src/zoneplate/codec/bitmap/tga.c
 sources_of(lessons lessons)
 make_table(lessons lessons demos lessons/demo.h Demo zoneplate::lessons demos demo_)
 set(figures imaging/sdf/atlas_file imaging/sdf/show_field imaging/sdf/text_error job/output/false_color formats/font/text_outline
-    report/figure report/page_table report/plot_labels report/plot_palette metrics/mse metrics/flip/magma)
+    report/figure report/page_table report/plot_labels report/plot_palette metrics/mse metrics/power metrics/psnr
+    metrics/flip/magma)
 list(TRANSFORM figures REPLACE "(.+)" "src/zoneplate/\\1.cpp")
 # Compiled alone, since they define the same names as others of their folders.
 set_source_files_properties(src/zoneplate/formats/gltf/mesh.cpp src/zoneplate/formats/obj/mtl_material.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -120,7 +120,8 @@ class ResolvedTiles {
   std::size_t number(std::size_t i) const { return numbers_[i]; }
   ResolvedTile& operator[](std::size_t i) { return *tiles_[i]; }
   ResolvedTile& of(std::size_t tile) {
-    return *tiles_[static_cast<std::size_t>(std::ranges::lower_bound(numbers_, tile) - numbers_.begin())];
+    return *tiles_[static_cast<std::size_t>(std::lower_bound(numbers_.begin(), numbers_.end(), tile) -
+                                            numbers_.begin())];
   }
 
  private:
@@ -561,7 +562,8 @@ void PartsOfFrame::add_samples(ResolvedTile& of, std::uint32_t pixel, std::span<
       if (setup_.stores_color()) behind[std::countr_zero(left)] = b.opaque.colors[f];
       of.sums.coverage[pixel] += 1;
     }
-  const bool has_pieces = std::ranges::adjacent_find(layers, {}, &PlacedLayer::id) != layers.end();
+  const auto is_same_id = [](const PlacedLayer& p, const PlacedLayer& q) { return p.id == q.id; };
+  const bool has_pieces = std::adjacent_find(layers.begin(), layers.end(), is_same_id) != layers.end();
   for (int s = 0; s < pass_count_; ++s) {
     b.sample_layers.clear();
     for (const PlacedLayer& layer : layers) {
@@ -581,7 +583,7 @@ void PartsOfFrame::add_samples(ResolvedTile& of, std::uint32_t pixel, std::span<
 /// The greatest of the ranks' bounds.
 float brightest_of_all(const FragmentShader& shader, Ranks& ranks) {
   const std::vector<float> bounds = all_values(ranks, shader.brightest());
-  return *std::ranges::max_element(bounds);
+  return *std::max_element(bounds.begin(), bounds.end());
 }
 
 }  // namespace
