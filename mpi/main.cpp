@@ -13,11 +13,13 @@
 #include <vector>
 
 #include "mpi_ranks.h"
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/base/processors.h"
 #include "zoneplate/batch/item_files.h"
+#include "zoneplate/cli/exit_code.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/render/args.h"
 #include "zoneplate/job/check.h"
@@ -25,22 +27,20 @@
 #include "zoneplate/job/parts/render_parts.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/mapped_file_guard.h"
+#include "zoneplate/os/memory_limit.h"
+#include "zoneplate/process/item_process.h"
 
 namespace zoneplate::cli {
 namespace {
-
-int exit_code(ErrorKind kind) {
-  constexpr int codes[] = {1, 2, 3, 4};  // as of the command
-  return codes[kind == ErrorKind::Usage ? 1 : kind == ErrorKind::Input ? 2 : kind == ErrorKind::Output ? 3 : 0];
-}
 
 /// An error of some rank that every rank has.
 struct SharedError : Error {
   using Error::Error;
 };
 
-/// Runs `body` on every rank. If it fails on some, every rank throws the error of the first of them.
-void agree(Ranks& ranks, const std::function<void()>& body) {
+/// Runs `body` on every rank. If it fails on some, every rank throws the error of the first of them; `memory` is that
+/// of an allocation that fails.
+void agree(Ranks& ranks, const std::function<void()>& body, const std::string& memory = "out of memory") {
   std::optional<Error> own;
   try {
     body();
@@ -49,7 +49,7 @@ void agree(Ranks& ranks, const std::function<void()>& body) {
   } catch (const Error& error) {
     own.emplace(error.kind(), error.what());
   } catch (const std::bad_alloc&) {
-    own.emplace(ErrorKind::Failed, "out of memory");
+    own.emplace(ErrorKind::Failed, memory);
   } catch (const std::exception& error) {
     own.emplace(ErrorKind::Failed, error.what());
   }
@@ -103,8 +103,23 @@ struct MpiArgs : RenderArgs {
   Partition partition = Partition::Index;
 };
 
+/// Whether an option of render is one of batches, or of what the command does beside rendering.
+bool is_of_command(const Option& option) {
+  constexpr std::string_view names[] = {"--dry-run",  "--preset",  "--no-config", "--json",
+                                        "--progress", "--sandbox", "--no-sandbox"};
+  return option.group == "Batches" || std::ranges::find(names, names_of(option).front()) != std::end(names);
+}
+
 Syntax mpi_syntax(MpiArgs& args) {
   Syntax syntax = render_syntax(args);
+  syntax.program = "zoneplate-mpi";
+  syntax.summary = "Render one image of a model, or of several that form one scene, by the ranks of MPI";
+  syntax.operands = "IN... -o OUT";
+  syntax.examples =
+      "  mpirun -n 2 zoneplate-mpi render chair.glb -o chair.png --size 1920x1080\n"
+      "  mpirun -n 4 zoneplate-mpi render floor*.obj -o house.png --aa msaa\n";
+  syntax.notes = "Each rank rasterizes and shades a part of the triangles; the file has the bytes of one process.";
+  std::erase_if(syntax.options, is_of_command);
   static const Choices names = {"node", "index", "interleaved"};
   syntax.options.push_back(choice_option(
       "--partition", "HOW",
@@ -124,9 +139,6 @@ std::optional<PartsJob> parse_parts(MpiArgs& args, std::vector<std::string> argu
   args.inputs = syntax.found_operands;
   if (args.inputs.empty()) refuse("no input: give a model, or several that form one scene");
   args.input = args.inputs.front();
-  if (!args.manifest.empty() || !args.shard_text.empty() || !args.ledger.empty() || args.skip_existing ||
-      args.is_dry_run)
-    refuse("ranks render one image: --manifest, --shard, --ledger, --skip-existing and --dry-run are of batches");
   set_output(args, args.output, 0);
   check_args(args);
   return PartsJob{args, args.inputs, args.partition};
@@ -158,14 +170,24 @@ void run(MpiRanks& ranks, std::vector<std::string> arguments) {
   int threads = args.threads;
   if (threads == 0) threads = std::max(1, usable_processors() / ranks.count_on_machine());
   FilesAtEnd files(args);
-  with_isa(args.isa, [&] {
-    with_threads(threads, [&] {
-      PartTimes times;
-      const Summary summary = render_parts(
-          std::move(*parts), ranks, [&](const std::function<void()>& body) { agree(ranks, body); }, files, times);
-      report(args, ranks, summary, times);
+  const std::string memory = fmt::format("{}: needs more memory than the limit of {}", args.input,
+                                         memory_limit_text(args.load.limits.memory, "--max-memory"));
+  limit_memory(args.load.limits.memory);
+  try {
+    with_isa(args.isa, [&] {
+      with_threads(threads, [&] {
+        with_deadline(args.max_seconds, ErrorKind::Failed, late_item(args.input, args.max_seconds), [&] {
+          PartTimes times;
+          const Summary summary = render_parts(
+              std::move(*parts), ranks, [&](const std::function<void()>& body) { agree(ranks, body, memory); }, files,
+              times);
+          report(args, ranks, summary, times);
+        });
+      });
     });
-  });
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorKind::Failed, memory);
+  }
   files.write(ranks);
 }
 

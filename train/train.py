@@ -202,7 +202,7 @@ def main():
     parser.add_argument("--held", help="folder of further ones, made as the data are")
     parser.add_argument("-o", "--output", default="out", help="folder of checkpoints, curves and weights")
     parser.add_argument("--steps", type=int, default=2000)
-    parser.add_argument("--minutes", type=float, help="train for so long, instead of so many steps")
+    parser.add_argument("--minutes", type=float, help="train for this time, instead of a number of steps")
     parser.add_argument("--stop", type=int, help="stop after so many steps, at the rate that they have in --steps")
     parser.add_argument("--batch", type=int, default=6)
     parser.add_argument("--window", type=int, default=4, help="frames through which gradients pass")

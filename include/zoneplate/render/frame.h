@@ -113,14 +113,20 @@ struct Frame {
   /// Requires  both have the same number of triangle planes by sample.
   template <class Use>
   static void for_data_planes(Frame& a, Frame& b, Use use) {
+    for_surface_planes(a, b, use);
+    use(a.coverage, b.coverage), use(a.error, b.error);
+    for (std::size_t k = 0; k < a.light.size(); ++k) use(a.light[k], b.light[k]);
+    for (std::size_t s = 0; s < a.sample_triangle.size(); ++s) use(a.sample_triangle[s], b.sample_triangle[s]);
+  }
+  /// The same for those planes whose values are of the nearest surface of a pixel.
+  template <class Use>
+  static void for_surface_planes(Frame& a, Frame& b, Use use) {
     use(a.data_position, b.data_position), use(a.depth, b.depth), use(a.reversed_depth, b.reversed_depth);
     use(a.normal, b.normal), use(a.albedo, b.albedo), use(a.uv, b.uv);
     use(a.mip_level, b.mip_level), use(a.anisotropy, b.anisotropy), use(a.object_id, b.object_id);
     use(a.material_id, b.material_id), use(a.primitive_id, b.primitive_id), use(a.instance, b.instance);
-    use(a.position, b.position), use(a.motion, b.motion), use(a.flow, b.flow), use(a.coverage, b.coverage);
-    use(a.last_position, b.last_position), use(a.was_visible, b.was_visible), use(a.error, b.error);
-    for (std::size_t k = 0; k < a.light.size(); ++k) use(a.light[k], b.light[k]);
-    for (std::size_t s = 0; s < a.sample_triangle.size(); ++s) use(a.sample_triangle[s], b.sample_triangle[s]);
+    use(a.position, b.position), use(a.motion, b.motion), use(a.flow, b.flow);
+    use(a.last_position, b.last_position), use(a.was_visible, b.was_visible);
   }
 };
 

@@ -73,7 +73,8 @@ std::string help_line(const Option& option) {
 }
 
 std::string usage_line(const Syntax& syntax) {
-  return fmt::format("Usage: zoneplate {} {} [OPTIONS]\n\n{}.\n", syntax.verb, syntax.operands, syntax.summary);
+  return fmt::format("Usage: {} {} {} [OPTIONS]\n\n{}.\n", syntax.program, syntax.verb, syntax.operands,
+                     syntax.summary);
 }
 
 // A heading as one word: "materials-and-lights".
@@ -201,8 +202,9 @@ std::vector<std::string> options_near(const std::string& given, const std::vecto
   const std::string name = given.substr(0, given.find('='));
   const std::vector<std::string> near = options_near(name, names);
   throw Error(ErrorKind::Usage,
-              near.empty() ? fmt::format("unknown option {} (zoneplate {} --help lists them)", name, syntax.verb)
-                           : fmt::format("unknown option {}; did you mean {}?", name, fmt::join(near, " or ")));
+              near.empty()
+                  ? fmt::format("unknown option {} ({} {} --help lists them)", name, syntax.program, syntax.verb)
+                  : fmt::format("unknown option {}; did you mean {}?", name, fmt::join(near, " or ")));
 }
 
 void set(const Option& option, const std::string& text) {
@@ -288,7 +290,7 @@ std::string short_help(const Syntax& syntax) {
   for (const Option& option : syntax.options)
     if (option.is_basic) text += help_line(option);
   if (!syntax.examples.empty()) text += "\nExamples:\n" + syntax.examples;
-  return text + fmt::format("\nAll options: zoneplate {} --help\n", syntax.verb);
+  return text + fmt::format("\nAll options: {} {} --help\n", syntax.program, syntax.verb);
 }
 
 namespace {

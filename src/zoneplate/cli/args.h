@@ -18,6 +18,7 @@ struct Syntax {
   std::string notes;     ///< paragraphs at the end of the full help
   std::vector<Option> options;
   std::vector<std::string> found_operands;  ///< filled by `parse`
+  std::string program = "zoneplate";
 };
 
 /// Parses the arguments after the verb: options in any order, `--name=value` or `--name value`; `--` ends options, and

@@ -12,6 +12,7 @@
 
 #include "zoneplate/base/closest.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/cli/exit_code.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/cli/version.h"
@@ -106,20 +107,6 @@ extern "C" void leave(int signal) {
   end_programs();
   if (has_progress_bar) static_cast<void>(!::write(STDERR_FILENO, "\n", 1));
   ::_exit(128 + signal);
-}
-
-int exit_code(ErrorKind kind) {
-  switch (kind) {
-    case ErrorKind::Failed:
-      return 1;
-    case ErrorKind::Usage:
-      return 2;
-    case ErrorKind::Input:
-      return 3;
-    case ErrorKind::Output:
-      return 4;
-  }
-  return 1;
 }
 
 }  // namespace

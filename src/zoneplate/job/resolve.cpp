@@ -62,10 +62,14 @@ float metered_exposure(const PreparedScene& scene, const Camera& camera, const J
   return auto_exposure(metered_image(renderer, camera, job.options));
 }
 
+bool may_dim_lights(const Job& job, bool is_linear) {
+  return job.lighting.source == LightSource::Scene && !job.lighting.environment && !job.has_own_brightness &&
+         !is_linear;
+}
+
 std::string set_light_dimming(Job& job, const PreparedScene& lit, bool is_linear) {
   job.light_dimming = 1;
-  if (job.lighting.source != LightSource::Scene || job.lighting.environment || job.has_own_brightness || is_linear)
-    return {};
+  if (!may_dim_lights(job, is_linear)) return {};
   const auto [factor, white] = dimming_of(lit, make_resolver(antialias::methods(), "none"));
   job.light_dimming = factor;
   if (factor == 1) return {};

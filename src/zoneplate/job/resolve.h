@@ -29,9 +29,13 @@ struct LitStill {
 /// brightness. `camera` is used in place of the view of the job, if it is not null.
 LitStill light_still(Job job, const PreparedScene& scene, bool is_linear, const Camera* camera = nullptr);
 
+/// Whether the lights of a file may be dimmed: options choose neither the lights nor the brightness, and the image is
+/// not linear.
+bool may_dim_lights(const Job& job, bool is_linear);
+
 /// Sets `job.light_dimming`: where the lights of a file would clip a quarter of the surfaces or more to white, the
-/// factor that brings them to the brightness of --exposure auto; 1 for others, where options choose the lights or the
-/// brightness, and for linear images. Returns the warning about it; empty for a factor of 1.
+/// factor that brings them to the brightness of --exposure auto; 1 for others, and where they may not be dimmed.
+/// Returns the warning about it; empty for a factor of 1.
 std::string set_light_dimming(Job& job, const PreparedScene& lit, bool is_linear);
 
 /// The exposure of --exposure auto: auto_exposure (image/auto_exposure.h) of an image of at most 256 pixels a side,

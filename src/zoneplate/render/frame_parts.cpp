@@ -22,9 +22,7 @@ std::vector<PlaneBytes> planes_of(Frame& frame, bool data) {
   std::vector<PlaneBytes> out;
   const auto add = [&](auto&... planes) { (add_plane(planes, out), ...); };
   if (data) {
-    add(frame.data_position, frame.depth, frame.reversed_depth, frame.normal, frame.albedo, frame.uv, frame.mip_level,
-        frame.anisotropy, frame.object_id, frame.material_id, frame.primitive_id, frame.instance, frame.position,
-        frame.motion, frame.flow, frame.last_position, frame.was_visible);
+    Frame::for_surface_planes(frame, frame, [&](auto& plane, auto&) { add_plane(plane, out); });
     return out;
   }
   add(frame.color, frame.display8, frame.coverage, frame.error, frame.edge_distance);

@@ -28,15 +28,11 @@ void check_still(const Job& job) {
 void check_files(const Job& job) {
   if (job.meters_exposure) refuse("--exposure auto needs the whole scene, and each rank has a part of it alone");
   if (!job.solid_texture.empty()) refuse("--solid-texture needs the whole scene, and each rank has a part of it alone");
+  if (!job.section.planes.empty()) refuse("--section needs the whole scene, and each rank has a part of it alone");
   if (job.view.index) refuse("--camera-index: the cameras of several files cannot be used");
   for (const Aov* aov : job.aovs)
     if (aov->plane == &Planes::sample_triangles)
       refuse("--aov cryptomatte needs the whole scene, and each rank has a part of it alone");
-}
-
-bool dims_lights(const Job& job, const Scene& scene) {
-  return scene.needs_fill_light && job.lighting.source == LightSource::Scene && !job.lighting.environment &&
-         !job.has_own_brightness && !is_linear(job.named_output());
 }
 
 Scene read_scene(const Job& job, const std::string& input) {
@@ -88,7 +84,7 @@ Summary render_parts(PartsJob parts, Ranks& ranks, const std::function<void(cons
   agree([&] {
     if (!has_files) return prepared.emplace(std::move(read.front()), job.mips), void();
     files = join_files(parts.inputs, std::move(read), ranks);
-    if (dims_lights(job, files.scene))
+    if (files.scene.needs_fill_light && may_dim_lights(job, is_linear(job.named_output())))
       refuse("the lights of the files may be dimmed, for which each rank needs the whole scene: see --light-intensity");
     view.camera = camera_of(job, files);
     resolve_point_size(files.points, job);

@@ -148,6 +148,9 @@ TEST_F(ShellFiles, RefuseWhatNeedsAllOfThem) {
   job = job_of(names.front());
   job.meters_exposure = true;
   EXPECT_THROW(render(job, names, 1), Error);
+  job = job_of(names.front());
+  job.section.planes.emplace_back();
+  EXPECT_THROW(render(job, names, 1), Error);
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ class Network {
   /// sample begin.
   static constexpr int per_pixel = 32, begins[2] = {0, 4};
   static constexpr float levels = 127;  ///< the activation that stands for 1
-  /// Where the history has so many samples, corrections of weights change half as much as where it has none.
+  /// The number of the history's samples at which corrections of weights change half as much as without history.
   static constexpr float count_at_rest = 4;
 
   /// The network that the program contains.
