@@ -16,7 +16,6 @@ namespace zoneplate {
 namespace {
 
 constexpr int most_side = 32768;
-constexpr double most_pixels = 1 << 28;
 
 }  // namespace
 
@@ -68,9 +67,14 @@ sdf::Raster raster_of(const sdf::SceneFile& scene, const ShapeSceneOptions& args
     raster.scale = std::min(width / extent.x, height / extent.y);
     raster.origin = (area.low + area.high) * 0.5 - sdf::Point{width, height} * (0.5 / raster.scale);
   }
-  if (width > most_side || height > most_side || width * height > most_pixels)
-    throw Error(ErrorKind::Usage,
-                fmt::format("{}: an image of {:.0f} × {:.0f} pixels is too large", operand, width, height));
+  const auto check = [&](bool fits, const std::string& limit) {
+    if (!fits)
+      throw Error(ErrorKind::Usage, fmt::format("{}: an image of {:.0f} × {:.0f} pixels is too large, the limit is {}",
+                                                operand, width, height, limit));
+  };
+  const std::uint64_t pixels = args.limits.load.pixels;
+  check(width <= most_side && height <= most_side, fmt::format("{} per side", most_side));
+  check(width * height <= static_cast<double>(pixels), fmt::format("{} (--max-pixels)", pixels));
   raster.width = std::max(1, static_cast<int>(width)), raster.height = std::max(1, static_cast<int>(height));
   return raster;
 }

@@ -29,7 +29,7 @@ sdf::SceneFile load_shape_scene(const std::string& operand, const sdf::SceneFile
 /// The pixels of the scene's canvas, or of its shapes with a margin; scaled, or fitted to the chosen size.
 ///
 /// Errors    ErrorKind::Input for a scene without a canvas and without a finite shape; ErrorKind::Usage for an image of
-///           more than 2^28 pixels.
+///           more pixels than the limit, or than 32768 per side.
 sdf::Raster raster_of(const sdf::SceneFile& scene, const ShapeSceneOptions& args, const std::string& operand);
 
 }  // namespace zoneplate

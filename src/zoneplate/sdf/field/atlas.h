@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <span>
 #include <utility>
@@ -37,9 +38,12 @@ struct Atlas {
 struct AtlasOptions {
   FieldKind kind = FieldKind::Multi;
   double size = 32, range = 4;
+  std::uint64_t most_texels = std::uint64_t{1} << 28;  ///< of the image (--max-pixels)
 };
 
 /// Lays the glyphs out in rows, tallest first, in an image about as wide as high.
+///
+/// Errors    ErrorKind::Usage if it has more texels than the limit.
 Atlas make_atlas(std::span<const GlyphOutline> glyphs, const AtlasOptions& options);
 
 /// The atlas with distances rounded to 8 bits, as its PNG image holds them: ½ + distance / range.
