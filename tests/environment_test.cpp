@@ -120,6 +120,21 @@ TEST_F(EnvironmentImages, AreFilteredOnceAndKept) {
   EXPECT_EQ(text_of(place / "d.png"), text_of(place / "none.png"));
 }
 
+// The verbs beside render keep them too: the studio, which a data set and a sheet prepare once, and an image.
+TEST_F(EnvironmentImages, AreKeptByEveryVerbThatRenders) {
+  const Cache cache(place / "cache");
+  const auto run_with = [&](const std::string& words) { EXPECT_EQ(ProgramTest::run(words).code, 0) << words; };
+  const std::string sheet = "contact-sheet teapot -o a.png --size 40x30 --quiet ";
+  run_with(sheet + "--no-cache");
+  EXPECT_TRUE(cached().empty());
+  run_with("dataset teapot --layout npy -o data --sequences 1 --frames 2 --size 32x24 --reference none");
+  EXPECT_EQ(cached().size(), 1u);
+  run_with(sheet);
+  EXPECT_EQ(cached().size(), 1u);
+  run_with(sheet + "--hdri-file sky.exr");
+  EXPECT_EQ(cached().size(), 2u);
+}
+
 // Whatever has the name of a file of the cache, or of the cache, the image is the same at once, and no other file is
 // written.
 TEST_F(EnvironmentImages, NothingInTheCacheIsFollowedOrWaitedFor) {

@@ -50,9 +50,9 @@ struct LightingOptions {
 /// radiance of the environment is also the ambient light of (Blinn-)Phong materials where the scene has none.
 Lighting make_lighting(const Scene& scene, const LightingOptions& options = {});
 
-/// Lights the scene by make_lighting without options: a scene that has lights keeps them, and gets a fill light if it
+/// Lights the scene by make_lighting: without options, a scene that has lights keeps them, and gets a fill light if it
 /// needs one; any other gets the default ones. The renderer itself adds no lights.
-void light_unlit(Scene& scene);
+void light_unlit(Scene& scene, const LightingOptions& options = {});
 
 /// Gives a material another shading model, and the nearest parameters that the model has.
 void convert_material(Material& material, ShadingModel model);

@@ -11,6 +11,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/size_text.h"
+#include "zoneplate/batch/items.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/job/environment_file.h"
 #include "zoneplate/job/import_time.h"
@@ -43,7 +44,9 @@ Rgba8Image placeholder(int width, int height) {
 std::vector<std::uint8_t> cell_codes(BatchItem render, ItemSender& sender) {
   Scene scene;
   Environments environments;
-  if (!render.hdri_file.empty()) complete_environments(environments, render, {}, sender);
+  if (!render.hdri_file.empty())
+    complete_environments(
+        environments, render, [&](std::uint64_t key, auto bytes) { sender.environment(key, bytes); }, sender);
   within_import_time(render.input, render.load.limits, [&] { scene = load_scene(render.input, render.load); });
   sender.has_read();
   convert_materials(render, scene);
@@ -65,8 +68,7 @@ int columns_for(const ContactSheet& sheet, const BatchItem& cell, std::size_t co
 
 }  // namespace
 
-void use_studio(BatchItem& render, const std::string& cache) {
-  render.cache = cache;
+void use_studio(BatchItem& render) {
   Environments environments;
   environments.complete(render, [&](std::uint64_t key, std::span<const std::uint8_t> bytes) {
     store_environment(render.cache, key, bytes);
@@ -78,17 +80,15 @@ SheetCell render_cell(const BatchItem& render, const std::string& name,
                       const std::function<void(const std::string&)>& warn) {
   const std::string& input = render.input;
   try {
-    std::vector<std::string> readable = readable_paths(input, render.load);
-    for (std::string& path : environment_files(render)) readable.push_back(std::move(path));
-    for (std::string& path : render.default_material.files()) readable.push_back(std::move(path));
     ItemProcess process({.name = input,
                          .load = render.load.limits,
                          .seconds = render.max_seconds,
                          .is_sandboxed = uses_sandbox(render.is_sandboxed, warn),
-                         .readable = std::move(readable)},
+                         .readable = item_readable_paths(render)},
                         1, [&](std::size_t, ItemSender& sender) { return cell_codes(render, sender); });
     ItemEvents events;
     events.text = [&](TextKind, const std::string& warning) { warn(warning); };
+    events.environment = environment_storer(render);
     const std::vector<std::uint8_t> codes = process.next(events);
     Rgba8Image image(render.options.width, render.options.height);
     if (codes.size() != image.values().size_bytes())

@@ -17,8 +17,8 @@ struct ContactSheet {
   int columns = 0;  ///< 0: the number with which the aspect ratio is closest to 4:3
 };
 
-/// Prepares the studio, once for the processes of all models, and caches it in this folder.
-void use_studio(BatchItem& cell, const std::string& cache);
+/// Prepares the studio, once for the processes of all models, and caches it.
+void use_studio(BatchItem& cell);
 
 /// The image of a model.
 struct SheetCell {

@@ -25,12 +25,9 @@ namespace {
 /// The limits of several items with one model.
 ItemLimits limits_of(const std::vector<BatchItem>& items, const RunEvents& events, LimitedChildren* siblings) {
   const BatchItem& args = items.front();
-  std::vector<std::string> readable = readable_paths(args.input, args.load);
-  for (const BatchItem& item : items) {
-    for (std::string& path : environment_files(item)) readable.push_back(std::move(path));
-    if (CacheFolder::open(item.cache)) readable.push_back(item.cache);
-    for (std::string& path : item.default_material.files()) readable.push_back(std::move(path));
-  }
+  std::vector<std::string> readable;
+  for (const BatchItem& item : items)
+    for (std::string& path : item_readable_paths(item)) readable.push_back(std::move(path));
   return {.name = args.input == "-" ? "standard input" : args.input,
           .load = args.load.limits,
           .seconds = args.max_seconds,
@@ -59,6 +56,24 @@ std::vector<BatchItem> with_finished_frames(std::vector<BatchItem> items, const 
 }
 
 }  // namespace
+
+std::vector<std::string> item_readable_paths(const BatchItem& item) {
+  std::vector<std::string> paths = readable_paths(item.input, item.load);
+  for (std::string& path : environment_files(item)) paths.push_back(std::move(path));
+  if (CacheFolder::open(item.cache)) paths.push_back(item.cache);
+  for (std::string& path : item.default_material.files()) paths.push_back(std::move(path));
+  return paths;
+}
+
+EnvironmentStorer environment_storer(const BatchItem& item) {
+  return [&item](std::uint64_t key, std::uint64_t size, const ItemEvents::Read& read) {
+    if (item.cache.empty() || size > PreparedEnvironment::most_bytes())
+      throw Error(ErrorKind::Failed, item.input + ": an environment that no cache takes");
+    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
+    read(bytes);
+    store_environment(item.cache, key, bytes);
+  };
+}
 
 RenderItems::RenderItems(std::vector<BatchItem> items, RunEvents events, LimitedChildren* siblings, Ledger* ledger)
     : events_(std::move(events)),
@@ -121,13 +136,7 @@ Summary RenderItems::next() {
     for_parts(size, read, [&](std::span<const std::uint8_t> part) { film->add(part); });
   };
 
-  events.environment = [&](std::uint64_t key, std::uint64_t size, const ItemEvents::Read& read) {
-    if (args.cache.empty() || size > PreparedEnvironment::most_bytes())
-      throw Error(ErrorKind::Failed, args.input + ": an environment that no cache takes");
-    std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
-    read(bytes);
-    store_environment(args.cache, key, bytes);
-  };
+  events.environment = environment_storer(args);
 
   Summary summary = unpack_summary(process_.next(std::move(events)));
   if (film) {

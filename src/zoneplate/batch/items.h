@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "zoneplate/base/sha256.h"
@@ -10,6 +11,14 @@
 #include "zoneplate/process/item_process.h"
 
 namespace zoneplate {
+
+/// The files and folders that the process of an item may read: its model's, environment's and material's, and the
+/// cache.
+std::vector<std::string> item_readable_paths(const BatchItem& item);
+
+/// Stores the environments that the process of an item, which outlives this, has prepared in the item's cache.
+using EnvironmentStorer = decltype(ItemEvents::environment);
+EnvironmentStorer environment_storer(const BatchItem& item);
 
 /// Items with one model (`model_key`), which are processed one after the other in a separate process (item_process.h);
 /// this class writes their files.

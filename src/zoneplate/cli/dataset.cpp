@@ -13,9 +13,11 @@
 #include "zoneplate/cli/args.h"
 #include "zoneplate/cli/common_options.h"
 #include "zoneplate/cli/confined.h"
+#include "zoneplate/cli/environment_cache.h"
 #include "zoneplate/cli/progress.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/evaluate/dataset/sequence.h"
+#include "zoneplate/job/environment_file.h"
 #include "zoneplate/job/options.h"
 #include "zoneplate/job/values.h"
 #include "zoneplate/os/file.h"
@@ -189,6 +191,7 @@ void run_dataset(std::span<const std::string> arguments) {
   with_threads(args.threads, [&] {
     Progress progress(args.progress ? *args.progress : parse_progress("auto"));
     double done = 0;
+    args.sequence.studio = prepared_studio(environment_cache());  // once for the processes of all sequences
     const double count =
         static_cast<double>(args.shard.size_of(static_cast<std::uint64_t>(args.sequences))) * args.sequence.frames;
     for (int number = 0; number < args.sequences; ++number) {

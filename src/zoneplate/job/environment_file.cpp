@@ -167,6 +167,12 @@ void Environments::complete(Job& job, const Store& store, const Progress& progre
   job.lighting.environment->map = map_;
 }
 
+std::function<Map()> prepared_studio(const std::string& cache) {
+  const auto store = [&](std::uint64_t key, auto bytes) { store_environment(cache, key, bytes); };
+  const Map studio = find_or_make(cache, studio_key_number(), store, prepare_studio);
+  return [studio] { return studio; };
+}
+
 void complete_environments(Environments& environments, Job& job, const Environments::Store& store, JobSink& sink) {
   bool is_filtering = false;
   if (!job.hdri_file.empty()) sink.begins_to_read("--hdri-file " + job.hdri_file);

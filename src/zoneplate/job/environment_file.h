@@ -24,6 +24,10 @@ std::vector<std::string> environment_files(const Job& job);
 void store_environment(const std::string& cache, std::uint64_t key, std::span<const std::uint8_t> bytes);
 inline constexpr std::uint64_t most_cache_bytes = std::uint64_t{256} << 20;
 
+/// The studio of the default light, from that folder or stored there; for processes that are forked afterwards and
+/// share it.
+std::function<std::shared_ptr<const PreparedEnvironment>()> prepared_studio(const std::string& cache);
+
 /// The environments of jobs, one after the other.
 class Environments {
  public:

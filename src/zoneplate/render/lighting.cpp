@@ -113,8 +113,8 @@ Lighting make_lighting(const Scene& scene, const LightingOptions& options) {
   return lighting;
 }
 
-void light_unlit(Scene& scene) {
-  Lighting lighting = make_lighting(scene);
+void light_unlit(Scene& scene, const LightingOptions& options) {
+  Lighting lighting = make_lighting(scene, options);
   scene.lights = std::move(lighting.lights);
   scene.environment = lighting.environment;
   scene.ambient_light = lighting.ambient_light;

@@ -11,7 +11,6 @@
 #include "zoneplate/batch/input_names.h"
 #include "zoneplate/batch/item_files.h"
 #include "zoneplate/cli/render/args.h"
-#include "zoneplate/cli/render/environment_cache.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/codec/save.h"
 #include "zoneplate/job/picture.h"
@@ -101,7 +100,7 @@ void run_contact_sheet(std::span<const std::string> arguments) {
   std::size_t failed = 0;
   Json::Array items;
   const auto render_all = [&] {
-    if (args.render.hdri_file.empty()) use_studio(args.render, environment_cache());
+    if (args.render.hdri_file.empty()) use_studio(args.render);
     Progress progress(args.render.verbosity == Verbosity::Quiet ? ProgressKind::None
                       : args.render.progress                    ? *args.render.progress
                                                                 : parse_progress("auto"));

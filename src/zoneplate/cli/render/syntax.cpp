@@ -6,8 +6,8 @@
 
 #include "zoneplate/cli/common_options.h"
 #include "zoneplate/cli/confined.h"
+#include "zoneplate/cli/environment_cache.h"
 #include "zoneplate/cli/render/args.h"
-#include "zoneplate/cli/render/environment_cache.h"
 #include "zoneplate/job/option_values.h"
 #include "zoneplate/job/options.h"
 #include "zoneplate/job/values.h"

@@ -10,6 +10,7 @@
 #include "zoneplate/formats/load.h"
 #include "zoneplate/math/vec.h"
 #include "zoneplate/process/delivery.h"
+#include "zoneplate/render/lighting.h"
 #include "zoneplate/signal/samples.h"
 
 namespace zoneplate {
@@ -44,6 +45,8 @@ struct DatasetSequence {
   DatasetPasses passes;         ///< none in the layout Nss
   std::uint32_t seed = 1;
   LoadOptions load = {};  ///< of the scene
+  /// The studio of the default light; null: prepared where a scene needs it.
+  decltype(LightingOptions::studio) studio = {};
 
   /// Width / height of all views: a frame of fewer pixels shows that of the ground truth.
   float aspect() const { return static_cast<float>(size.x) / static_cast<float>(size.y); }

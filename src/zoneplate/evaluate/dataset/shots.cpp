@@ -61,7 +61,7 @@ Camera Shots::moved(const Camera& camera, int frame) const {
 Scene Shots::at(double seconds) {
   choice_.time = seconds;
   Scene scene = source_.load(choice_);
-  light_unlit(scene);
+  light_unlit(scene, {.studio = sequence_.studio});
   return scene;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/cli/render/environment_cache.h"
+#include "zoneplate/cli/environment_cache.h"
 
 #include <cstdlib>
 
