@@ -111,6 +111,16 @@ TEST_F(RestrictedSystem, NoSandboxGivesNoWarning) {
   EXPECT_FALSE(contains(answer.out, "warning")) << answer.out;
 }
 
+TEST_F(RestrictedSystem, ImagesAreWrittenWhereLinksAreForbidden) {
+  for (const char* before : {"", "an earlier image"}) {
+    if (*before != 0) write("a.png", before);
+    const ProgramAnswer answer = render_refusing({{SYS_linkat, EPERM}});
+    EXPECT_EQ(answer.code, 0) << answer.out;
+    EXPECT_EQ(text_of(place / "a.png"), picture("tri.obj"));
+  }
+  for (const auto& entry : std::filesystem::directory_iterator(place)) EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
+}
+
 TEST_F(RestrictedSystem, FewDescriptorsAreAWarning) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "a sanitizer looks at memory through pipes";

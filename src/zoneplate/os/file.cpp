@@ -5,6 +5,7 @@
 #include <poll.h>
 #include <signal.h>
 #include <sys/mman.h>
+#include <sys/sendfile.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -249,31 +250,21 @@ void leave(Slot* slot) {
 
 }  // namespace
 
-/// A new file in the folder of `target`, which `commit` renames to `target`; otherwise the destructor removes it.
+/// A new file in the folder of `target`, which `commit` gives that name; otherwise the destructor removes it.
+///
+/// Until then it has no name where the file system supports that (O_TMPFILE), so that even SIGKILL leaves nothing
+/// behind; else, as on NFS, and for the moment in which it replaces a file, it has a hidden one.
 class FileWriter::Temporary {
  public:
-  Temporary(const std::filesystem::path& target, const std::string& name) : target_(target.string()) {
-    // Only part of a very long name is used, so that the temporary name does not exceed the limit.
-    const std::string stem = "." + target.filename().string().substr(0, 200) + "." + std::to_string(::getpid());
-    for (int attempt = 0; attempt < 100; ++attempt) {
-      const std::string suffix = attempt == 0 ? ".tmp" : "." + std::to_string(attempt) + ".tmp";
-      path_ = (target.parent_path() / (stem + suffix)).string();
-      slot_ = enter(path_);
-      fd_ = open_retrying(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL, 0666);
-      if (fd_ >= 0) return;
-      const int error = errno;
-      leave(slot_);
-      std::error_code ignored;
-      const std::filesystem::path folder = target.parent_path();
-      if (error == ENOENT && !std::filesystem::is_directory(folder.empty() ? "." : folder, ignored))
-        throw write_error(name, "no directory " + folder.string());
-      if (error != EEXIST) throw write_error(name, cause_of(error));
-    }
-    throw write_error(name, "its temporary names are taken, as " + path_);
+  Temporary(const std::filesystem::path& target, const std::string& name) : target_(target) {
+    const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+    fd_ = open_retrying(folder.c_str(), O_RDWR | O_TMPFILE, 0666);
+    if (fd_ < 0) take_hidden_name(name, [&] { return (fd_ = open_new(path_)) >= 0; });
   }
 
   ~Temporary() {
     if (fd_ >= 0) ::close(fd_);
+    if (path_.empty()) return;
     if (!is_committed_) ::unlink(path_.c_str());
     leave(slot_);
   }
@@ -284,13 +275,63 @@ class FileWriter::Temporary {
   int fd() const { return fd_; }
 
   void commit(const std::string& name) {
+    if (path_.empty()) {
+      // Closing a copy of the descriptor reports what closing the file would, and keeps it.
+      if (const int copy = ::dup(fd_); copy >= 0 && ::close(copy) != 0 && errno != EINTR)
+        throw write_error(name, cause_of(errno));
+      if (link_as(target_)) return;
+      take_hidden_name(name, [&] { return link_as(path_) || (errno != EEXIST && copy_to(path_)); });
+    }
     if (::close(std::exchange(fd_, -1)) != 0 && errno != EINTR) throw write_error(name, cause_of(errno));
     if (::rename(path_.c_str(), target_.c_str()) != 0) throw write_error(name, cause_of(errno));
     is_committed_ = true;
   }
 
  private:
-  std::string target_, path_;
+  static int open_new(const std::string& path) { return open_retrying(path.c_str(), O_RDWR | O_CREAT | O_EXCL, 0666); }
+  bool link_as(const std::string& path) const {
+    const std::string unnamed = "/proc/self/fd/" + std::to_string(fd_);
+    return ::linkat(AT_FDCWD, unnamed.c_str(), AT_FDCWD, path.c_str(), AT_SYMLINK_FOLLOW) == 0;
+  }
+  /// Goes on with a copy, where there is no /proc or a policy forbids links.
+  bool copy_to(const std::string& path) {
+    const int copy = open_new(path);
+    if (copy < 0) return false;
+    off_t at = 0;
+    ssize_t sent = 1;
+    while (sent > 0) sent = ::sendfile(copy, fd_, &at, std::size_t{1} << 30);
+    struct stat status {};
+    if (sent == 0 && ::fstat(fd_, &status) == 0) static_cast<void>(::fchmod(copy, status.st_mode & 07777));
+    const int error = errno;
+    ::close(std::exchange(fd_, copy));
+    if (sent < 0) ::unlink(path.c_str());
+    errno = error;
+    return sent == 0;
+  }
+
+  /// Sets `path_` to a name in the target's folder under which `make` makes the file.
+  void take_hidden_name(const std::string& name, const std::function<bool()>& make) {
+    const std::filesystem::path target = target_, folder = target.parent_path();
+    // Only part of a very long name is used, so that the temporary name does not exceed the limit.
+    const std::string stem = "." + target.filename().string().substr(0, 200) + "." + std::to_string(::getpid());
+    for (int attempt = 0; attempt < 100; ++attempt) {
+      const std::string suffix = attempt == 0 ? ".tmp" : "." + std::to_string(attempt) + ".tmp";
+      path_ = (folder / (stem + suffix)).string();
+      slot_ = enter(path_);
+      if (make()) return;
+      const int error = errno;
+      leave(slot_);
+      const std::string taken = std::exchange(path_, {});
+      std::error_code ignored;
+      if (error == ENOENT && !std::filesystem::is_directory(folder.empty() ? "." : folder, ignored))
+        throw write_error(name, "no directory " + folder.string());
+      if (error != EEXIST) throw write_error(name, cause_of(error));
+      if (attempt == 99) throw write_error(name, "its temporary names are taken, as " + taken);
+    }
+  }
+
+  const std::string target_;
+  std::string path_;  ///< empty while the file has no name
   Slot* slot_ = nullptr;
   int fd_ = -1;
   bool is_committed_ = false;

@@ -48,8 +48,8 @@ void read_parts(const std::string& path, const std::function<bool(std::span<cons
 ///           a device or a socket. It does not wait for the other end of a FIFO.
 void check_is_file(const std::string& path);
 
-/// Writes a file in parts, completely or not at all: to a temporary name in the same directory, which is then renamed.
-/// "-" is stdout.
+/// Writes a file in parts, completely or not at all: to a file without a name in the same directory, or with a hidden
+/// one that is then renamed. "-" is stdout.
 ///
 /// The contents of a target that cannot be renamed (stdout, a device, a pipe) are kept in memory until `commit` writes
 /// them. A temporary file that is not committed is removed; `remove_temporaries` removes it from a signal handler.

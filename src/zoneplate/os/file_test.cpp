@@ -3,13 +3,19 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <numeric>
@@ -279,8 +285,58 @@ TEST_F(File, LeavesNothingBehindWhenTheDiskIsFull) {
   EXPECT_EQ(loaded(path("a")), made(5));
 }
 
+/// Refuses files without names to this process, as NFS does.
+void refuse_unnamed_files() {
+  constexpr __u32 unnamed = O_TMPFILE & ~O_DIRECTORY;
+  sock_filter filter[] = {BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+                          BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_openat, 0, 3),
+                          BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, args[2])),
+                          BPF_JUMP(BPF_JMP | BPF_JSET | BPF_K, unnamed, 0, 1),
+                          BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EOPNOTSUPP),
+                          BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW)};
+  const sock_fprog program{std::size(filter), filter};
+  ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+  ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);
+}
+
+// In one child that has a hidden name for its files, and one that has none.
+TEST_F(File, LeavesNothingBehindWhenTheProcessIsKilled) {
+  std::ofstream(path("a")) << "old";
+  const int probe = ::open(folder_.c_str(), O_RDWR | O_TMPFILE, 0600);
+  if (probe < 0) GTEST_SKIP() << "the file system has no files without names";
+  ::close(probe);
+  for (const bool is_refused : {false, true}) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      if (is_refused) refuse_unnamed_files();
+      FileWriter replaced(path("a")), made_anew(path("b"));
+      replaced.write(made(50000)), made_anew.write(made(50000));
+      ::raise(SIGKILL);
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    EXPECT_EQ(WTERMSIG(status), SIGKILL);
+    EXPECT_EQ(names().size(), is_refused ? 3u : 1u);
+    EXPECT_EQ(std::ranges::count(names(), "a"), 1);
+  }
+}
+
+TEST_F(File, IsTheSameWhereItCannotBeWithoutAName) {
+  std::ofstream(path("b")) << "old";
+  EXPECT_EQ(exit_code_in_child([&] {
+              refuse_unnamed_files();
+              save_bytes(path("a"), made(50000)), save_bytes(path("b"), made(70000));
+              return 0;
+            }),
+            0);
+  EXPECT_EQ(names(), (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(loaded(path("a")), made(50000));
+  EXPECT_EQ(loaded(path("b")), made(70000));
+}
+
 TEST_F(File, LeavesNothingBehindWhenASignalEndsTheProcess) {
   EXPECT_EQ(exit_code_in_child([&] {
+              refuse_unnamed_files();
               // The signal arrives during writing, while the temporary file exists.
               ::signal(SIGXFSZ, [](int) {
                 remove_temporaries();
