@@ -42,7 +42,7 @@ Limits full_limits() {
 }
 /// The same in less time, with so much air that a busy machine does not matter.
 Limits quick_limits() {
-  return {{"--max-memory", "100M", "--max-import-seconds", "0.5", "--max-seconds", "1"}, 10, 160'000'000};
+  return {{"--max-memory", "100M", "--max-import-seconds", "0.25", "--max-seconds", "0.5"}, 10, 160'000'000};
 }
 
 class Appetite : public testing::Test {
