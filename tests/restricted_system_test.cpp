@@ -118,7 +118,8 @@ TEST_F(RestrictedSystem, ImagesAreWrittenWhereLinksAreForbidden) {
     EXPECT_EQ(answer.code, 0) << answer.out;
     EXPECT_EQ(text_of(place / "a.png"), picture("tri.obj"));
   }
-  for (const auto& entry : std::filesystem::directory_iterator(place)) EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
+  for (const auto& entry : std::filesystem::directory_iterator(place))
+    EXPECT_NE(entry.path().extension(), ".tmp") << entry.path();
 }
 
 TEST_F(RestrictedSystem, FewDescriptorsAreAWarning) {
