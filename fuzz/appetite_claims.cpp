@@ -10,7 +10,7 @@ using Json = Gltf::Json;
 constexpr const char* one_pixel =
     "data:image/"
     "png;base64,iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGNgAAAAAgABSK+kcQAAAABJRU5ErkJggg==";
-constexpr std::size_t most_zeros = std::size_t{1} << 22;  ///< elements without bytes that the reader accepts
+constexpr std::size_t max_zeros = std::size_t{1} << 22;  ///< elements without bytes that the reader accepts
 
 /// A name is kept once for each instance, node, material or animation that has it, if it is copied.
 void add_names(Collection& out) {
@@ -42,7 +42,7 @@ void add_instances(Collection& out) {
   };
   add("instances-30k-10k.gltf", 30000, 10000);
   add("instances-300k-100k.gltf", 300000, 100000);
-  add("instances-3-4m.gltf", 3, most_zeros);
+  add("instances-3-4m.gltf", 3, max_zeros);
 
   Gltf twice;  // all places of one node again for each of many nodes
   const std::size_t mesh = twice.zero_mesh(3), places = twice.zeros(100000, "VEC3");
@@ -98,19 +98,19 @@ void add_roots(Collection& out) {
 void add_accessors(Collection& out) {
   Gltf many;
   Json primitives = Json::array();
-  for (int i = 0; i < 1000; ++i) primitives.push_back({{"attributes", {{"POSITION", many.zeros(most_zeros, "VEC3")}}}});
+  for (int i = 0; i < 1000; ++i) primitives.push_back({{"attributes", {{"POSITION", many.zeros(max_zeros, "VEC3")}}}});
   many.append("meshes", {{"primitives", primitives}});
   many.add_root({{"mesh", 0}});
   out.add("accessors", "accessors-1000.gltf", many.json(), within_limits);
 
   Gltf indexed;
-  const std::size_t order = indexed.zeros(most_zeros, "SCALAR", 5125);
+  const std::size_t order = indexed.zeros(max_zeros, "SCALAR", 5125);
   indexed.mesh({{"POSITION", indexed.zeros(3, "VEC3")}, {"NORMAL", indexed.zeros(3, "VEC3")}}, {{"indices", order}});
   indexed.add_root({{"mesh", 0}});
   out.add("accessors", "accessors-indices.gltf", indexed.json(), within_limits);
 
   Gltf normals;  // every corner becomes a vertex where normals are missing
-  normals.mesh({{"POSITION", normals.zeros(3, "VEC3")}}, {{"indices", normals.zeros(most_zeros, "SCALAR", 5125)}});
+  normals.mesh({{"POSITION", normals.zeros(3, "VEC3")}}, {{"indices", normals.zeros(max_zeros, "SCALAR", 5125)}});
   normals.add_root({{"mesh", 0}});
   out.add("accessors", "accessors-flat-normals.gltf", normals.json(), within_limits);
 
@@ -134,7 +134,7 @@ void add_accessors(Collection& out) {
 void add_topologies(Collection& out) {
   for (const int mode : {0, 1, 6}) {
     Gltf file;
-    file.mesh({{"POSITION", file.zeros(most_zeros, "VEC3")}}, {{"mode", mode}});
+    file.mesh({{"POSITION", file.zeros(max_zeros, "VEC3")}}, {{"mode", mode}});
     file.add_root({{"mesh", 0}});
     out.add("topologies",
             std::string("topology-") +

@@ -87,9 +87,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const std::string name = "image";
     if (const auto animation = zoneplate::open_animation(bytes, name, max_pixels)) {
-      constexpr std::size_t most_frames = 20;
+      constexpr std::size_t max_frames = 20;
       const auto info = animation->info();
-      for (std::size_t i = 0; i < std::min(info.frames, most_frames); ++i) {
+      for (std::size_t i = 0; i < std::min(info.frames, max_frames); ++i) {
         const zoneplate::TexelImage frame = animation->next().image;
         if (frame.width() != info.size.x || frame.height() != info.size.y) std::abort();
       }

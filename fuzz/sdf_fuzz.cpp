@@ -14,7 +14,7 @@ namespace zoneplate {
 namespace {
 
 void check(const sdf::SceneFile& scene) {
-  constexpr std::size_t most_evaluated = 4096;  // instructions, of each of the first shapes
+  constexpr std::size_t max_evaluated = 4096;  // instructions, of each of the first shapes
   sdf::PointBatch points;
   for (int i = 0; i < sdf::batch_size; ++i)
     points.x[i] = static_cast<float>(i % 8) * 7.5f - 20, points.y[i] = static_cast<float>(i / 8) * 9.25f - 30;
@@ -22,7 +22,7 @@ void check(const sdf::SceneFile& scene) {
   std::size_t evaluated = 0;
   for (const sdf::Drawing::Layer& layer : scene.drawing.layers) {
     evaluated += layer.shape.end - layer.shape.first;
-    if (evaluated > most_evaluated) return;
+    if (evaluated > max_evaluated) return;
     sdf::CoverageKernels::of(Isa::Scalar).evaluate(scene.drawing.program, layer.shape, points, stacks);
     for (const float d : stacks.values[0].d)
       if (std::isnan(d)) std::abort();
@@ -33,8 +33,8 @@ void check(const sdf::SceneFile& scene) {
 }  // namespace zoneplate
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  constexpr std::size_t most_bytes = 1 << 16;
-  if (size > most_bytes) return 0;
+  constexpr std::size_t max_bytes = 1 << 16;
+  if (size > max_bytes) return 0;
   try {
     zoneplate::check(zoneplate::sdf::read_scene_file({reinterpret_cast<const char*>(data), size}, "scene"));
   } catch (const zoneplate::Error& error) {

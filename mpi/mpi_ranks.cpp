@@ -10,12 +10,12 @@ namespace zoneplate {
 namespace {
 
 /// MPI counts bytes by int.
-constexpr std::size_t most_bytes_at_once = std::size_t{1} << 30;
+constexpr std::size_t max_bytes_at_once = std::size_t{1} << 30;
 
 template <class Begin>
 void for_pieces(std::size_t size, Begin begin) {
-  for (std::size_t at = 0; at < size; at += most_bytes_at_once)
-    begin(at, static_cast<int>(std::min(most_bytes_at_once, size - at)));
+  for (std::size_t at = 0; at < size; at += max_bytes_at_once)
+    begin(at, static_cast<int>(std::min(max_bytes_at_once, size - at)));
 }
 
 }  // namespace

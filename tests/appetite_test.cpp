@@ -33,8 +33,8 @@ struct Input {
 /// What the program is given, and what it is held to.
 struct Limits {
   Words words;
-  double most_seconds;
-  std::uint64_t most_bytes;  ///< resident, of all processes together
+  double max_seconds;
+  std::uint64_t max_bytes;  ///< resident, of all processes together
 };
 
 Limits full_limits() {
@@ -126,13 +126,13 @@ void Appetite::expect_within(const Limits& limits, const Input& input) const {
   words.insert(words.end(), limits.words.begin(), limits.words.end());
   for (const auto& [option, value] : input.options.items())
     if (option != "output") words.insert(words.end(), {"--" + option, value});
-  const MeasuredRun run = run_measured(words, place, 2 * limits.most_seconds);
+  const MeasuredRun run = run_measured(words, place, 2 * limits.max_seconds);
   std::printf("%-12s %-32s exit %d %6.2f s %5.0f MB (%.0f MB shared out) %s\n", input.kind.c_str(), input.name.c_str(),
               run.code, run.seconds, static_cast<double>(run.resident_bytes) / 1e6,
               static_cast<double>(run.proportional_bytes) / 1e6, run.err.substr(0, run.err.find('\n')).c_str());
   EXPECT_NE(std::find(input.codes.begin(), input.codes.end(), run.code), input.codes.end()) << run.code << run.err;
-  EXPECT_LT(run.seconds, limits.most_seconds);
-  EXPECT_LT(run.resident_bytes, limits.most_bytes);
+  EXPECT_LT(run.seconds, limits.max_seconds);
+  EXPECT_LT(run.resident_bytes, limits.max_bytes);
   EXPECT_TRUE(is_read_by_assimp(input) || run.err.find("crashed (signal") == std::string::npos) << run.err;
   if (run.code == 0)
     EXPECT_EQ(run.err.find("error: "), std::string::npos) << run.err;
@@ -147,13 +147,13 @@ void Appetite::expect_within(const Limits& limits, const FileCommand& command, c
   SCOPED_TRACE(command.name + ": " + file.filename().string());
   Words words = command.with(file.string(), "images/image.png");
   words.insert(words.end(), limits.words.begin(), limits.words.end());
-  const MeasuredRun run = run_measured(words, place, 2 * limits.most_seconds);
+  const MeasuredRun run = run_measured(words, place, 2 * limits.max_seconds);
   std::printf("%-14s %-32s exit %d %6.2f s %5.0f MB %s\n", command.name.c_str(), file.filename().c_str(), run.code,
               run.seconds, static_cast<double>(run.resident_bytes) / 1e6,
               run.err.substr(0, run.err.find('\n')).c_str());
   EXPECT_TRUE(run.code == 0 || run.code == 1 || run.code == 3 || (command.writes_always && run.code == 5)) << run.code;
-  EXPECT_LT(run.seconds, limits.most_seconds);
-  EXPECT_LT(run.resident_bytes, limits.most_bytes);
+  EXPECT_LT(run.seconds, limits.max_seconds);
+  EXPECT_LT(run.resident_bytes, limits.max_bytes);
   const bool is_foreign = file.string().find("foreign") != std::string::npos;
   EXPECT_TRUE(is_foreign || run.err.find("crashed (signal") == std::string::npos) << run.err;
   if (run.code == 1 || run.code == 3) {
@@ -185,11 +185,11 @@ void Appetite::expect_others_are_done(const Limits& limits, const std::vector<In
   manifest.close();
   Words words{"--manifest", "jobs.jsonl"};
   words.insert(words.end(), limits.words.begin(), limits.words.end());
-  const double most_seconds = limits.most_seconds * static_cast<double>(hungry.size());
-  const MeasuredRun run = run_measured(words, place, most_seconds);
+  const double max_seconds = limits.max_seconds * static_cast<double>(hungry.size());
+  const MeasuredRun run = run_measured(words, place, max_seconds);
   EXPECT_EQ(run.code, 5) << run.err;
-  EXPECT_LT(run.seconds, most_seconds);
-  EXPECT_LT(run.resident_bytes, limits.most_bytes);
+  EXPECT_LT(run.seconds, max_seconds);
+  EXPECT_LT(run.resident_bytes, limits.max_bytes);
   std::printf("a batch of %zu jobs: exit %d %.1f s %.0f MB\n", jobs, run.code, run.seconds,
               static_cast<double>(run.resident_bytes) / 1e6);
 

@@ -254,14 +254,14 @@ TEST(EnvironmentError, DISABLED_OfPhotographsAndSuns) {
     expect_at_most(0.005, least, all, print_errors(" to the light at roughness 0", view, SplineRadiance(cube), all));
   };
   const auto measure = [&](const std::string& name, const TexelImage& image, float least = 0.1f,
-                           float least_of_image = 0.1f) {
+                           float min_of_image = 0.1f) {
     CubeImage cube = cube_of_equirectangular(image, cube_side(image.width()));
     const PreparedEnvironment environment(cube);
     // Without its source the cube map is the spline, wider than the image, that a mirror reflects.
     cube.source.clear();
     measure_spline(name, cube, least);
     const EnvironmentView view = environment.view({.color = {1, 1, 1}}, {0, 1, 0});
-    expect_at_most(0.005, least_of_image, wide, print_errors(" to the image", view, ImageRadiance(image), wide));
+    expect_at_most(0.005, min_of_image, wide, print_errors(" to the image", view, ImageRadiance(image), wide));
   };
   measure_spline("studio", studio_cube(64), 0.1f);
   for (const std::string& path : shared_files_ending("data/env", {".hdr"})) {

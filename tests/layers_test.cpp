@@ -193,13 +193,13 @@ TEST(Layers, AllHeaderIncludesEveryPublicHeader) {
 
 // What a job leaves to the scene is decided in one place, which every caller uses.
 TEST(Layers, OnlyResolveKnowsDefaultsThatDependOnTheScene) {
-  const std::set<std::string> owners = {"job/resolve.cpp", "scene/usual_options.h", "scene/usual_options.cpp",
+  const std::set<std::string> owners = {"job/resolve.cpp", "scene/default_options.h", "scene/default_options.cpp",
                                         "render/metering/metering.h", "render/metering/metering.cpp"};
   int uses = 0;
   for (const fs::path& file : source_files()) {
     if (is_test(file)) continue;
     const std::string code = code_of(file);
-    for (const char* name : {"usual_point_size", "usual_anisotropy", "dimming_of"}) {
+    for (const char* name : {"default_point_size", "default_anisotropy", "dimming_of"}) {
       const bool is_used = code.find(name) != code.npos &&  // regular expressions are slow
                            std::regex_search(code, std::regex(std::string("\\b") + name + "\\b"));
       EXPECT_TRUE(!is_used || owners.contains(file)) << file << ": " << name << " is for job/resolve.cpp";

@@ -62,9 +62,9 @@ inline std::uint64_t proportional_bytes_of(pid_t process) {
 }
 
 /// Runs the built program in a folder, stdout and stderr to the files `out` and `err` there; it is killed, with all its
-/// children, after `most_seconds`.
+/// children, after `max_seconds`.
 inline MeasuredRun run_measured(std::vector<std::string> words, const std::filesystem::path& folder,
-                                double most_seconds) {
+                                double max_seconds) {
   words.insert(words.begin(), program_file);
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
@@ -92,7 +92,7 @@ inline MeasuredRun run_measured(std::vector<std::string> words, const std::files
     run.resident_bytes = std::max(run.resident_bytes, resident);
     run.proportional_bytes = std::max(run.proportional_bytes, proportional);
     run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    if (run.seconds > most_seconds) ::kill(-child, SIGKILL);
+    if (run.seconds > max_seconds) ::kill(-child, SIGKILL);
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   run.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

@@ -57,7 +57,7 @@ std::optional<float2> name_at(const Frame& frame, float x, float y, std::uint32_
 
 struct Followed {
   int points = 0;
-  float greatest_miss = 0, greatest_step = 0;  // pixels
+  float max_miss = 0, max_step = 0;  // pixels
 };
 
 // Follows every point back to the last image, and finds by its name how far beside itself it lands.
@@ -105,8 +105,8 @@ Followed follow(Look now, Look last) {
       if (det <= 1e-4 * xx * yy) continue;  // seen nearly from its edge: the four names say little
       const double mx = (yy * xd - xy * yd) / det, my = (xx * yd - xy * xd) / det;
       ++out.points;
-      out.greatest_miss = std::max(out.greatest_miss, static_cast<float>(std::sqrt(mx * mx + my * my)));
-      out.greatest_step = std::max(out.greatest_step, length(step));
+      out.max_miss = std::max(out.max_miss, static_cast<float>(std::sqrt(mx * mx + my * my)));
+      out.max_step = std::max(out.max_step, length(step));
     }
   return out;
 }
@@ -119,8 +119,8 @@ TEST(Motion, APointOfATurningWheelIsFollowed) {
   const RenderOptions large{.width = 1200, .height = 880};  // its triangles are small
   const Followed found = follow({now, camera, large}, {last, camera, large});
   EXPECT_GT(found.points, 5000);
-  EXPECT_GT(found.greatest_step, 10);
-  EXPECT_LT(found.greatest_miss, 1.0f / 16);
+  EXPECT_GT(found.max_step, 10);
+  EXPECT_LT(found.max_miss, 1.0f / 16);
 }
 
 TEST(Motion, TheCamerasOwnWayIsPartOfIt) {
@@ -130,8 +130,8 @@ TEST(Motion, TheCamerasOwnWayIsPartOfIt) {
   now.world_from_camera = rotation({0, 1, 0}, 0.05f) * translation({0.02f, 0.03f, -0.1f}) * now.world_from_camera;
   const Followed found = follow({scene, now}, {scene, last});
   EXPECT_GT(found.points, 2000);
-  EXPECT_GT(found.greatest_step, 10);
-  EXPECT_LT(found.greatest_miss, 1.0f / 16);
+  EXPECT_GT(found.max_step, 10);
+  EXPECT_LT(found.max_miss, 1.0f / 16);
 }
 
 TEST(Motion, SignsAndUnits) {
@@ -282,17 +282,17 @@ void expect_followed(const std::string& path) {
     return source.load_shape({.animation = SceneChoice::all_animations, .time = time});
   };
   int points = 0;
-  float greatest_step = 0;
+  float max_step = 0;
   for (const double time : {0.3, 0.8}) {
     const Scene now = at(time), last = at(time - 1.0 / 24);
     const Camera camera = camera_of(last);
     const Followed found = follow({now, camera}, {last, camera});
     points += found.points;
-    greatest_step = std::max(greatest_step, found.greatest_step);
-    EXPECT_LT(found.greatest_miss, 1.0f / 16) << time;
+    max_step = std::max(max_step, found.max_step);
+    EXPECT_LT(found.max_miss, 1.0f / 16) << time;
   }
   EXPECT_GT(points, 2000);
-  EXPECT_GT(greatest_step, 1);
+  EXPECT_GT(max_step, 1);
 }
 
 class MovingSheet : public testing::TestWithParam<const char*> {};

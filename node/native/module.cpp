@@ -101,7 +101,7 @@ std::optional<std::vector<float>> light_of(Members& members, const char* name) {
 }
 
 /// Sizes have 32 bits here, and the image and the tables of a scene need memory in addition to its file.
-constexpr double usual_memory = 1 << 30, most_memory = std::numeric_limits<std::int32_t>::max();
+constexpr double default_memory = 1 << 30, max_memory = std::numeric_limits<std::int32_t>::max();
 
 ScenePointer load(const Input& request) {
   Members members(request.value("load", Input()), "model");
@@ -115,9 +115,9 @@ ScenePointer load(const Input& request) {
     else
       animation = members.whole("animation");
   }
-  const double time = members.number("time").value_or(0), memory = members.number("maxMemory").value_or(usual_memory);
+  const double time = members.number("time").value_or(0), memory = members.number("maxMemory").value_or(default_memory);
   const double seconds = members.number("maxSeconds").value_or(0);
-  if (!(memory >= 1 && memory <= most_memory)) members.refuse("maxMemory", fmt::format("bytes, 1 to {}", most_memory));
+  if (!(memory >= 1 && memory <= max_memory)) members.refuse("maxMemory", fmt::format("bytes, 1 to {}", max_memory));
   if (!(seconds >= 0)) members.refuse("maxSeconds", "0 or more");
   members.finish();
 
@@ -212,10 +212,10 @@ Json::Object render(const Input& request) {
   options.form = static_cast<zoneplate_form>(members.chosen("dtype", {"uint8", "uint16", "float32"}));
   if (crop) std::copy(crop->begin(), crop->end(), options.crop);
   // A plane of four floats has at most 1 GiB.
-  constexpr double most_pixels = 1 << 26;
+  constexpr double max_pixels = 1 << 26;
   const auto& rendered = crop ? std::vector(crop->begin() + 2, crop->end()) : size.value_or(std::vector{800, 600});
-  if (static_cast<double>(rendered[0]) * rendered[1] > most_pixels)
-    members.refuse(crop ? "crop" : "size", fmt::format("at most {} pixels", most_pixels));
+  if (static_cast<double>(rendered[0]) * rendered[1] > max_pixels)
+    members.refuse(crop ? "crop" : "size", fmt::format("at most {} pixels", max_pixels));
   options.exposure = members.real("exposure").value_or(0);
   const auto background = color_of(members, "background"), environment = light_of(members, "environment");
   options.background = background ? background->data() : nullptr;

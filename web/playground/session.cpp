@@ -36,7 +36,7 @@
 #include "zoneplate/report/json.h"
 #include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/scene/builtin/make.h"
-#include "zoneplate/scene/usual_options.h"
+#include "zoneplate/scene/default_options.h"
 #include "zoneplate/shade/environment/layout.h"
 #include "zoneplate/shade/environment/prepared_environment.h"
 #include "zoneplate/upscale/upscaler.h"
@@ -56,7 +56,7 @@ namespace {
 
 constexpr double frame_rate = 24;
 constexpr int turntable_frames = 240;
-constexpr int most_warm_up = 32;
+constexpr int max_warm_up = 32;
 constexpr int no_frame = -1;
 
 template <class Row>
@@ -264,8 +264,8 @@ RenderSettings Session::settings() const {
   RenderSettings out;
   out.options.width = width_, out.options.height = height_;
   // What the command `render` chooses where its user does not.
-  out.options.anisotropy = is_builtin_ ? 1 : usual_anisotropy;
-  out.options.point_size = usual_point_size(scene(), width_, height_);
+  out.options.anisotropy = is_builtin_ ? 1 : default_anisotropy;
+  out.options.point_size = default_point_size(scene(), width_, height_);
   out.options.display.background = background_;
   out.options.display.mapping = tone_mapping_;
   set_look(look_, out.options);
@@ -295,7 +295,7 @@ Json::Object Session::about() const {
 }
 
 /// Renders a frame of the sequence, or a still image for -1. A method with history gets the frames before it, if they
-/// are not those that were rendered last, but at most `most_warm_up`.
+/// are not those that were rendered last, but at most `max_warm_up`.
 Json::Object Session::render(const std::string& method, const std::string& look, int frame) {
   if (!renderer_ || method_ != method) {
     std::unique_ptr<Resolver> resolver = upscale::make_method(method);
@@ -318,7 +318,7 @@ Json::Object Session::render(const std::string& method, const std::string& look,
     }
     const bool continues = frame == next_frame_;
     if (!continues) renderer_->begin_sequence();
-    for (int f = continues || !has_history_ ? frame : std::max(0, frame - most_warm_up); f <= frame; ++f) {
+    for (int f = continues || !has_history_ ? frame : std::max(0, frame - max_warm_up); f <= frame; ++f) {
       SceneView view = sequence_->view(f);
       renderer_->set_scene(std::move(view.scene));
       camera_ = view.camera;

@@ -47,7 +47,7 @@ struct Sampler {
 /// A decoded image file.
 struct TextureImage {
   /// Maximum of texels along a side. Larger images are reduced to a half, a quarter, ... of that side.
-  static constexpr int most_side = 32768;
+  static constexpr int max_side = 32768;
 
   std::string name{};   ///< its file or image, for messages
   TexelImage pixels{};  ///< in the file's own precision, row 0 at the top

@@ -43,7 +43,7 @@ double quota_1(const std::string& folder) {
 
 /// The least quota of a group and its ancestors, up to the mounted folder. In a container the group's own folder may be
 /// missing, because the mounted folder is the container's.
-double least_quota(const std::string& mount, std::string group, double (*quota_of)(const std::string&)) {
+double min_quota(const std::string& mount, std::string group, double (*quota_of)(const std::string&)) {
   double least = quota_of(mount);
   while (group.size() > 1) {
     least = std::min(least, quota_of(mount + group));
@@ -77,8 +77,8 @@ double cpu_quota(const std::string& membership, const std::string& mount) {
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
     if (first == std::string::npos || second == std::string::npos) continue;
     const std::string controllers = line.substr(first + 1, second - first - 1), group = line.substr(second + 1);
-    if (controllers.empty()) least = std::min(least, least_quota(mount, group, quota_2));
-    if (names_cpu(controllers)) least = std::min(least, least_quota(mount + "/cpu", group, quota_1));
+    if (controllers.empty()) least = std::min(least, min_quota(mount, group, quota_2));
+    if (names_cpu(controllers)) least = std::min(least, min_quota(mount + "/cpu", group, quota_1));
   }
   return least;
 }

@@ -61,7 +61,7 @@ void add_files(const BatchItem& args, std::uint64_t item, OutputFiles& files) {
     return;
   }
   const SequenceArgs& s = args.sequence;
-  const std::int64_t first = s.first_frame(), longest = std::int64_t{most_frames - 1} * s.jump;
+  const std::int64_t first = s.first_frame(), longest = std::int64_t{max_frames - 1} * s.jump;
   const FrameNumbers frames{first, s.last_frame().value_or(first + longest), s.jump};
   files.add(args.output, *args.frame_place, frames, item);
   for (const Aov* aov : args.aovs)

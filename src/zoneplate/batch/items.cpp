@@ -67,7 +67,7 @@ std::vector<std::string> item_readable_paths(const BatchItem& item) {
 
 EnvironmentStorer environment_storer(const BatchItem& item) {
   return [&item](std::uint64_t key, std::uint64_t size, const ItemEvents::Read& read) {
-    if (item.cache.empty() || size > PreparedEnvironment::most_bytes())
+    if (item.cache.empty() || size > PreparedEnvironment::max_bytes())
       throw Error(ErrorKind::Failed, item.input + ": an environment that no cache takes");
     std::vector<std::uint8_t> bytes(static_cast<std::size_t>(size));
     read(bytes);

@@ -101,8 +101,8 @@ std::optional<BatchPin> find_pin(const std::string& ledger, const LoadLimits& li
   for (const Stopwatch waited; is_empty(path) && waited.ms() < 2000;)
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   if (is_empty(path)) return std::nullopt;
-  constexpr std::uint64_t most_bytes = 1 << 16;
-  const FileBytes file(path, most_bytes);
+  constexpr std::uint64_t max_bytes = 1 << 16;
+  const FileBytes file(path, max_bytes);
   ImportBudget budget(path, limits);
   const JsonValue value = parse_json(file.bytes(), budget);
   const JsonView view(value, path);

@@ -13,23 +13,23 @@
 namespace zoneplate {
 namespace {
 
-constexpr std::size_t most_jobs = 1'000'000, most_line_bytes = std::size_t{1} << 16, block_bytes = std::size_t{1} << 20;
+constexpr std::size_t max_jobs = 1'000'000, max_line_bytes = std::size_t{1} << 16, block_bytes = std::size_t{1} << 20;
 
 }  // namespace
 
-Manifest::Manifest(const std::string& path, std::uint64_t most_bytes) : name_(path == "-" ? "standard input" : path) {
+Manifest::Manifest(const std::string& path, std::uint64_t max_bytes) : name_(path == "-" ? "standard input" : path) {
   std::uint64_t bytes = 0;
   read_parts(path, [&](std::span<const std::uint8_t> part) {
     bytes += part.size();
-    if (bytes > most_bytes)
+    if (bytes > max_bytes)
       throw Error(ErrorKind::Input, fmt::format("{}: a manifest of more than {} bytes, half of --max-memory: split it",
-                                                name_, most_bytes));
+                                                name_, max_bytes));
     std::string_view text(reinterpret_cast<const char*>(part.data()), part.size());
     for (;;) {
       const std::size_t end = text.find('\n');
-      line_ += text.substr(0, std::min(end, most_line_bytes + 1));
-      if (line_.size() > most_line_bytes)
-        throw Error(ErrorKind::Input, fmt::format("{}: longer than {} bytes", place_of(number_ + 1), most_line_bytes));
+      line_ += text.substr(0, std::min(end, max_line_bytes + 1));
+      if (line_.size() > max_line_bytes)
+        throw Error(ErrorKind::Input, fmt::format("{}: longer than {} bytes", place_of(number_ + 1), max_line_bytes));
       if (end == text.npos) return true;
       end_line();
       text.remove_prefix(end + 1);
@@ -43,8 +43,8 @@ std::string Manifest::place_of(std::uint64_t number) const { return fmt::format(
 void Manifest::end_line() {
   ++number_;
   if (line_.find_first_not_of(" \t\r") != line_.npos) {
-    if (lines_.size() == most_jobs)
-      throw Error(ErrorKind::Input, fmt::format("{}: a manifest of more than {} jobs: split it", name_, most_jobs));
+    if (lines_.size() == max_jobs)
+      throw Error(ErrorKind::Input, fmt::format("{}: a manifest of more than {} jobs: split it", name_, max_jobs));
     if (blocks_.empty() || used_ + line_.size() > block_bytes) {
       blocks_.push_back(std::make_unique_for_overwrite<char[]>(block_bytes));
       used_ = 0;

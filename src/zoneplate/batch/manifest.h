@@ -17,7 +17,7 @@ namespace zoneplate {
 /// Errors    ErrorKind::Input naming the file, the line, the limit and what to do about it.
 class Manifest {
  public:
-  Manifest(const std::string& path, std::uint64_t most_bytes);
+  Manifest(const std::string& path, std::uint64_t max_bytes);
 
   std::uint64_t size() const { return lines_.size(); }
   std::string_view text(std::uint64_t i) const { return lines_[i].text; }

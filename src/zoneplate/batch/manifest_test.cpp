@@ -21,10 +21,10 @@ class ManifestFile : public testing::Test {
   }
   ~ManifestFile() override { std::filesystem::remove(path); }
 
-  std::string error_of(const std::string& text, std::uint64_t most_bytes = 1 << 28) const {
+  std::string error_of(const std::string& text, std::uint64_t max_bytes = 1 << 28) const {
     std::ofstream(path) << text;
     try {
-      const Manifest manifest(path, most_bytes);
+      const Manifest manifest(path, max_bytes);
       return "";
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::Input);

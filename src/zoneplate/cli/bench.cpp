@@ -102,13 +102,13 @@ std::string timing_text(const BenchWork& work, const BenchTiming& t, const Machi
 
 // The efficiency of each loop and of the frame on more threads, simulated from the items' times on one.
 std::string schedule_text(const BenchWork& work, const WorkTimes& times) {
-  constexpr int most_threads = 64;
+  constexpr int max_threads = 64;
   std::string text = fmt::format("{} {}x: {:.2f} ms a frame on one thread\n  {:<22}{:>8}{:>12}", work.scene,
                                  work.samples, times.total, "", "ms", "longest ms");
-  for (int threads = 2; threads <= most_threads; threads *= 2) text += fmt::format("{:>5} x", threads);
+  for (int threads = 2; threads <= max_threads; threads *= 2) text += fmt::format("{:>5} x", threads);
   const auto add = [&](const std::string& name, double ms, double longest, const auto& ms_on) {
     text += fmt::format("\n  {:<22}{:8.3f}{:12.3f}", name, ms, longest);
-    for (int threads = 2; threads <= most_threads; threads *= 2)
+    for (int threads = 2; threads <= max_threads; threads *= 2)
       text += fmt::format("{:5.0f} %", 100 * ms / (threads * ms_on(threads)));
   };
   for (const LoopTimes& items : times.loops)

@@ -10,15 +10,15 @@
 namespace zoneplate::cli {
 namespace {
 
-constexpr int most_side = 1 << 20;
+constexpr int max_side = 1 << 20;
 
 /// The rectangle of "x,y,width,height".
 metrics::IgnoredRegions::Rectangle parse_rectangle(const std::string& text) {
   std::vector<std::string> parts{""};
   for (const char c : text) c == ',' ? static_cast<void>(parts.emplace_back()) : parts.back().push_back(c);
   if (parts.size() != 4) throw Error(ErrorKind::Usage, text + ": expected x,y,width,height or an image file");
-  return {parse_whole(parts[0], 0, most_side), parse_whole(parts[1], 0, most_side), parse_whole(parts[2], 1, most_side),
-          parse_whole(parts[3], 1, most_side)};
+  return {parse_whole(parts[0], 0, max_side), parse_whole(parts[1], 0, max_side), parse_whole(parts[2], 1, max_side),
+          parse_whole(parts[3], 1, max_side)};
 }
 
 void add(const std::string& text, IgnoredInputs& args) {

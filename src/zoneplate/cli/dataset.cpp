@@ -38,9 +38,9 @@ struct DatasetArgs {
 };
 
 /// Static and moving, thin, bright, textured and hidden surfaces: what users complain of.
-constexpr const char* usual_scenes[] = {"panning-wires", "passing-fence", "teleport", "disocclusion",
-                                        "light-switch",  "foliage",       "stars",    "near-axis",
-                                        "metal",         "tiles",         "sun-roof", "teapot"};
+constexpr const char* default_scenes[] = {"panning-wires", "passing-fence", "teleport", "disocclusion",
+                                          "light-switch",  "foliage",       "stars",    "near-axis",
+                                          "metal",         "tiles",         "sun-roof", "teapot"};
 
 std::vector<double> parse_ratios(const std::string& text) {
   std::vector<double> out;
@@ -178,7 +178,7 @@ void run_dataset(std::span<const std::string> arguments) {
   Syntax syntax = make_syntax(args);
   if (!parse(syntax, arguments)) return;
   args.scenes = syntax.found_operands;
-  if (args.scenes.empty()) args.scenes.assign(std::begin(usual_scenes), std::end(usual_scenes));
+  if (args.scenes.empty()) args.scenes.assign(std::begin(default_scenes), std::end(default_scenes));
   if (args.sequence.folder.empty()) throw Error(ErrorKind::Usage, "no output: name a folder with -o");
   if (!args.has_layout) throw Error(ErrorKind::Usage, "--layout is missing: nss, npy or exr");
   if (args.sequence.layout == DatasetLayout::Nss && args.sequence.passes.any())

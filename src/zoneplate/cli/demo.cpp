@@ -122,7 +122,7 @@ Rgba8Image centred(const Rgba8Image& image, int2 size) {
 /// The lesson with the largest panels with which it fits into the slide. The sizes of texts are proportional to the
 /// panels, up to where lines are broken, so that a few attempts suffice.
 ComposedLesson fitted(const Demo& demo, const Settings& settings, int2 slide) {
-  constexpr int least_panel = 64, most_panel = 1024, attempts = 8;
+  constexpr int min_panel = 64, max_panel = 1024, attempts = 8;
   DemoSize size;
   for (int i = 0; i < attempts; ++i) {
     ComposedLesson lesson = composed(demo, settings, size);
@@ -130,13 +130,13 @@ ComposedLesson fitted(const Demo& demo, const Settings& settings, int2 slide) {
     const double room =
         std::min(static_cast<double>(slide.x) / first.width(), static_cast<double>(slide.y) / first.height());
     constexpr double loose = 1.03;  // less room than this is not worth another attempt
-    if (room >= 1 && (room < loose || i > 1 || size.panel == most_panel)) {
+    if (room >= 1 && (room < loose || i > 1 || size.panel == max_panel)) {
       for (Rgba8Image& frame : lesson.animation.frames) frame = centred(frame, slide);
       return lesson;
     }
-    if (size.panel == least_panel) break;
+    if (size.panel == min_panel) break;
     const int next = static_cast<int>(size.panel * room * (i > 1 ? 0.98 : 1.0));
-    size.panel = std::clamp(next, least_panel, most_panel);
+    size.panel = std::clamp(next, min_panel, max_panel);
   }
   throw Error(ErrorKind::Usage,
               fmt::format("--slide: the lesson {} does not fit into {} × {} pixels", demo.name, slide.x, slide.y));

@@ -219,12 +219,12 @@ class Recorder : public Resolver {
 // Half floats of the input and the output round by 2⁻¹¹ each; tests of locks and depth may decide otherwise.
 struct TemporalUpscaler {
   const char* name;
-  double least_psnr;
+  double min_psnr;
 };
 class FilterUpscaler : public FilterVerb, public ::testing::WithParamInterface<TemporalUpscaler> {};
 
 TEST_P(FilterUpscaler, TreatsFramesOfAnotherRendererAsOwnOnes) {
-  const auto [name, least_psnr] = GetParam();
+  const auto [name, min_psnr] = GetParam();
   Scene scene = *make_builtin_scene("teapot");
   const Box box = scene.bounds();
   Renderer renderer(PreparedScene(std::move(scene)),
@@ -247,7 +247,7 @@ TEST_P(FilterUpscaler, TreatsFramesOfAnotherRendererAsOwnOnes) {
     const auto psnr =
         metrics::peak_signal_to_noise(metrics::make_picture(LinearImage(direct[static_cast<std::size_t>(i)])),
                                       metrics::make_picture(LinearImage(found)));
-    EXPECT_GT(psnr, least_psnr) << i;
+    EXPECT_GT(psnr, min_psnr) << i;
   }
 }
 INSTANTIATE_TEST_SUITE_P(All, FilterUpscaler,

@@ -13,7 +13,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr int most_side = 1 << 24;
+constexpr int max_side = 1 << 24;
 
 /// The order of the pixels in the file: scanlines run along one axis and follow each other along the other axis.
 struct Scan {
@@ -30,7 +30,7 @@ struct Scan {
 int take_number(std::string_view& text) {
   long value = 0;
   while (!text.empty() && text.front() >= '0' && text.front() <= '9') {
-    value = std::min<long>(value * 10 + (text.front() - '0'), most_side);
+    value = std::min<long>(value * 10 + (text.front() - '0'), max_side);
     text.remove_prefix(1);
   }
   return static_cast<int>(value);
@@ -67,8 +67,8 @@ struct Header {
 };
 
 std::optional<Header> parse_header(std::span<const std::uint8_t> bytes) {
-  constexpr std::size_t most_header = std::size_t{1} << 16;
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), most_header));
+  constexpr std::size_t max_header = std::size_t{1} << 16;
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), std::min(bytes.size(), max_header));
   Header header;
   bool is_over = false;  // the empty line after the header was found
   for (std::size_t at = 0;;) {
@@ -193,10 +193,10 @@ Image decode(std::span<const std::uint8_t> bytes, const std::string& name, std::
 
   // The size in the header is verified before memory is allocated: a scanline has at least four bytes, and if the file
   // is smaller than run-length coding of images usually achieves, a first pass over it is cheap.
-  constexpr std::uint64_t usual_ratio = 64;
+  constexpr std::uint64_t default_ratio = 64;
   const std::span<const std::uint8_t> packed = bytes.subspan(header->end);
   if (packed.size() < static_cast<std::uint64_t>(scan.lines()) * 4) throw fail("the file ends early");
-  if (pixels / usual_ratio > packed.size()) for_pixels(scan, packed, name, [](int, int, Rgbe) {});
+  if (pixels / default_ratio > packed.size()) for_pixels(scan, packed, name, [](int, int, Rgbe) {});
 
   Image image(scan.width, scan.height);
   for_pixels(scan, packed, name, [&](int x, int y, Rgbe pixel) { image(x, y) = to_pixel(light_of(pixel)); });

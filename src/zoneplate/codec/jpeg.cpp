@@ -51,10 +51,10 @@ void keep_warning(j_common_ptr jpeg, int level) {
 
 /// The limit of scans: a small file can contain very many scans of a large image. Encoders write about ten. The limit
 /// is 200, reduced for large images to 2^31 pixels in total, but not below 32.
-int most_scans(const jpeg_decompress_struct& jpeg) {
-  constexpr std::uint64_t most_pixels = std::uint64_t{1} << 31, least = 32, most = 200;
+int max_scans(const jpeg_decompress_struct& jpeg) {
+  constexpr std::uint64_t max_pixels = std::uint64_t{1} << 31, least = 32, most = 200;
   const std::uint64_t pixels = std::max<std::uint64_t>(std::uint64_t{jpeg.image_width} * jpeg.image_height, 1);
-  return static_cast<int>(std::clamp(most_pixels / pixels, least, most));
+  return static_cast<int>(std::clamp(max_pixels / pixels, least, most));
 }
 
 /// libjpeg's progress monitor, called between rows of blocks while scans are read and pixels are decoded.
@@ -67,9 +67,9 @@ void check_progress(j_common_ptr jpeg) {
     check_deadline();
     return true;
   });
-  if (has_time && decoder->input_scan_number <= most_scans(*decoder)) return;
+  if (has_time && decoder->input_scan_number <= max_scans(*decoder)) return;
   std::snprintf(report->message.data(), report->message.size(), "more than %d scans of %u x %u pixels",
-                most_scans(*decoder), decoder->image_width, decoder->image_height);
+                max_scans(*decoder), decoder->image_width, decoder->image_height);
   std::longjmp(report->place, 1);
 }
 

@@ -50,7 +50,7 @@ std::vector<std::uint8_t> encode_codes(const Rgba8Image& image, bool has_alpha, 
                                        const std::string& name, const ColorProfile& profile) {
   if (has_alpha) check_alpha(extension, name);
   if (extension == ".png") return encode_png(image, {.has_alpha = has_alpha, .profile = profile});
-  if (extension == ".jpg" || extension == ".jpeg") return encode_jpeg(image, usual_jpeg_quality, profile.icc);
+  if (extension == ".jpg" || extension == ".jpeg") return encode_jpeg(image, default_jpeg_quality, profile.icc);
   if (extension == ".webp") return encode_webp(image, has_alpha, std::nullopt, profile.icc);
   if (extension == ".avif") return encode_avif(image, has_alpha);
   if (extension == ".jxl") return encode_jxl(image, has_alpha);

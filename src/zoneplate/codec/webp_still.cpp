@@ -37,9 +37,9 @@ Rgba8Image decode_webp(std::span<const std::uint8_t> bytes, const std::string& n
     fail("has " + std::to_string(pixels) + " pixels, the limit is " + std::to_string(max_pixels) + " (--max-pixels)");
   // A small file can be a valid image of one colour. If it claims many pixels, libwebp first decodes it into its own
   // buffer, of which only the written pages take memory, so that a corrupt file takes none.
-  constexpr std::uint64_t most_per_byte = 256;
+  constexpr std::uint64_t max_per_byte = 256;
   check_deadline();
-  if (pixels / most_per_byte > bytes.size()) {
+  if (pixels / max_per_byte > bytes.size()) {
     int2 size;
     const std::unique_ptr<std::uint8_t, decltype(&WebPFree)> decoded(
         WebPDecodeRGBA(bytes.data(), bytes.size(), &size.x, &size.y), &WebPFree);

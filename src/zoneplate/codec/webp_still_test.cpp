@@ -47,14 +47,14 @@ TEST(WebpStill, AClaimOfManyPixelsTakesNoMemory) {
                                      'V',  'P', '8', 'L', 13, 0, 0,    0,    0x2f, 0xff, 0xff, 0xff,
                                      0x0f, 0,   0,   0,   0,  0, 0xff, 0xff, 0xff, 0xff};
   ASSERT_EQ(find_webp_size(bytes), (int2{16384, 16384}));
-  const auto most_memory = [] {
+  const auto max_memory = [] {
     rusage usage{};
     ::getrusage(RUSAGE_SELF, &usage);
     return usage.ru_maxrss;  // KiB
   };
-  const long before = most_memory();
+  const long before = max_memory();
   EXPECT_THROW(decode_webp(bytes, "a", 1 << 28), Error);
-  EXPECT_LT(most_memory() - before, 200 << 10);
+  EXPECT_LT(max_memory() - before, 200 << 10);
 }
 
 }  // namespace

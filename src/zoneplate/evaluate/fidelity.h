@@ -38,8 +38,8 @@ int2 unpack_size(std::span<const std::uint8_t> bytes);
 struct FidelityVerdict {
   std::string nearest;
   double decibels = 0, median = 0, bound = 0, overlap = 0;
-  bool is_good() const { return decibels <= bound && overlap >= least_overlap; }
-  static constexpr double least_overlap = 0.995, always_good = -24, margin = 2;
+  bool is_good() const { return decibels <= bound && overlap >= min_overlap; }
+  static constexpr double min_overlap = 0.995, always_good = -24, margin = 2;
 };
 
 /// Compares the image `output` with those of the peers, by their names; unpack_verdict has the result.

@@ -33,7 +33,7 @@ constexpr std::string_view environment_extension = ".env";
 Map read_cached(const std::string& cache, std::uint64_t key) {
   const std::optional<CacheFolder> folder = CacheFolder::open(cache);
   if (!folder) return nullptr;
-  const std::optional<FileBytes> file = folder->read(environment_name(key), PreparedEnvironment::most_bytes());
+  const std::optional<FileBytes> file = folder->read(environment_name(key), PreparedEnvironment::max_bytes());
   if (!file) return nullptr;
   std::optional<PreparedEnvironment> found = PreparedEnvironment::from_bytes(file->bytes());
   return found ? std::make_shared<const PreparedEnvironment>(std::move(*found)) : nullptr;
@@ -57,7 +57,7 @@ void store_environment(const std::string& cache, std::uint64_t key, std::span<co
   const std::optional<CacheFolder> folder = CacheFolder::make(cache);
   if (!folder) return;
   folder->store(environment_name(key), bytes);
-  folder->trim(environment_extension, most_cache_bytes);
+  folder->trim(environment_extension, max_cache_bytes);
 }
 
 std::vector<std::string> environment_files(const Job& job) {

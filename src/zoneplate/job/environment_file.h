@@ -19,10 +19,10 @@ std::string environment_name(std::uint64_t key);
 /// The files of --hdri-file: one, or the six squares of a cube map; none where it is not given.
 std::vector<std::string> environment_files(const Job& job);
 
-/// Stores an environment that was prepared, and removes others that exceed `most_cache_bytes`. The
+/// Stores an environment that was prepared, and removes others that exceed `max_cache_bytes`. The
 /// cache is an optimisation: nothing happens where it cannot be written.
 void store_environment(const std::string& cache, std::uint64_t key, std::span<const std::uint8_t> bytes);
-inline constexpr std::uint64_t most_cache_bytes = std::uint64_t{256} << 20;
+inline constexpr std::uint64_t max_cache_bytes = std::uint64_t{256} << 20;
 
 /// The studio of the default light, from that folder or stored there; for processes that are forked afterwards and
 /// share it.

@@ -20,13 +20,13 @@
 #include "zoneplate/render/render.h"
 #include "zoneplate/render/sequence.h"
 #include "zoneplate/render/view.h"
-#include "zoneplate/scene/usual_options.h"
+#include "zoneplate/scene/default_options.h"
 #include "zoneplate/shade/environment/layout.h"
 
 namespace zoneplate {
 
 /// The most frames of a sequence.
-inline constexpr int most_frames = 100'000;
+inline constexpr int max_frames = 100'000;
 
 /// The longest side of an image, in pixels: the range of the rasterizer's fixed-point coordinates.
 inline constexpr int max_side = 16384;
@@ -56,7 +56,7 @@ struct SequenceArgs {
 
 /// How files of encoded images are compressed.
 struct FileOptions {
-  std::optional<int> jpeg_quality;                ///< 1 to 100; none: usual_jpeg_quality
+  std::optional<int> jpeg_quality;                ///< 1 to 100; none: default_jpeg_quality
   std::optional<int> webp_quality;                ///< 0 to 100; none: lossless
   bool is_small_png = false;                      ///< slower, smaller
   std::optional<ExrCompression> exr_compression;  ///< none: Zip
@@ -76,13 +76,13 @@ struct Job {
   bool dithers = false;
   FileOptions file;
   std::vector<const Aov*> aovs;
-  std::string method = usual_method;
+  std::string method = default_method;
   bool has_method = false;                   ///< --anti-aliasing is given
   std::string upscaler;                      ///< follows the method; check_job appends it to `method`
   std::optional<double> render_scale;        ///< of `upscaler`
   RenderOptions options;                     ///< `anisotropy` and `point_size` are set by resolve
-  std::optional<int> anisotropy;             ///< none: usual_anisotropy, or the own one of a built-in scene
-  std::optional<float> point_size;           ///< none: usual_point_size
+  std::optional<int> anisotropy;             ///< none: default_anisotropy, or the own one of a built-in scene
+  std::optional<float> point_size;           ///< none: default_point_size
   DisplayOptions display;                    ///< `mapping` and `background` are set by resolve
   std::optional<ToneMapping> tone_mapping;   ///< none: that of the light, see Lighting
   bool meters_exposure = false;              ///< --exposure auto: resolve_brightness sets `display.exposure`

@@ -52,8 +52,8 @@ std::vector<double> parse_distortion(const std::string& text) {
 }
 
 Lens read_calibration(const std::string& path) {
-  constexpr std::uint64_t most_bytes = 1 << 20;
-  const FileBytes file(path, most_bytes);
+  constexpr std::uint64_t max_bytes = 1 << 20;
+  const FileBytes file(path, max_bytes);
   LoadLimits limits;
   ImportBudget budget(path, limits);
   const JsonValue value = parse_json(file.bytes(), budget);

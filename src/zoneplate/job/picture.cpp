@@ -176,7 +176,7 @@ std::vector<std::uint8_t> encode_picture(const Rendered& picture, const std::str
   if (extension == ".exr")
     return picture.exr.empty() ? exr_of(picture.linear, {}, picture.attributes, options) : picture.exr;
   if (extension == ".jpg" || extension == ".jpeg")
-    return encode_jpeg(picture.image, options.jpeg_quality.value_or(usual_jpeg_quality));
+    return encode_jpeg(picture.image, options.jpeg_quality.value_or(default_jpeg_quality));
   if (extension == ".webp") return encode_webp(picture.image, picture.has_alpha, options.webp_quality);
   if (extension == ".avif" || extension == ".jxl")
     return encode_codes(picture.image, picture.has_alpha, extension, output);
@@ -212,7 +212,7 @@ std::string clipping(const Job& job, const Rgba8Image& image, const std::functio
     white += c.r == 255 && c.g == 255 && c.b == 255;
   }
   const double part = static_cast<double>(white) / static_cast<double>(std::max<std::size_t>(surfaces, 1));
-  if (part < least_white || !is_well_above_white(job.display.exposure, metered())) return {};
+  if (part < min_white || !is_well_above_white(job.display.exposure, metered())) return {};
   return fmt::format(
       "{}: {:.0f} % of the surfaces are clipped to white; see --exposure auto, --lights and "
       "--tone-mapping",

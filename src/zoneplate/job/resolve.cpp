@@ -8,7 +8,7 @@
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/image/auto_exposure.h"
 #include "zoneplate/render/metering/metering.h"
-#include "zoneplate/scene/usual_options.h"
+#include "zoneplate/scene/default_options.h"
 
 namespace zoneplate {
 namespace {
@@ -31,8 +31,8 @@ bool has_own_view(const Job& job, const Scene& scene) {
 
 Job resolve(Job job, const Scene& scene, ToneMapping of_light) {
   RenderOptions& options = job.options;
-  options.point_size = job.point_size.value_or(usual_point_size(scene, options.width, options.height));
-  options.anisotropy = job.anisotropy.value_or(is_builtin(job) ? 1 : usual_anisotropy);
+  options.point_size = job.point_size.value_or(default_point_size(scene, options.width, options.height));
+  options.anisotropy = job.anisotropy.value_or(is_builtin(job) ? 1 : default_anisotropy);
   job.view.up = job.up.value_or(scene.up);
   job.view.lens = job.lens.lens(job.options.width, job.options.height);
   if (has_own_view(job, scene) && !job.view.index && !job.view.position) job.view.index = 0;
@@ -42,7 +42,7 @@ Job resolve(Job job, const Scene& scene, ToneMapping of_light) {
 }
 
 void resolve_point_size(double points, Job& job) {
-  if (!job.point_size) job.point_size = usual_point_size(points, job.options.width, job.options.height);
+  if (!job.point_size) job.point_size = default_point_size(points, job.options.width, job.options.height);
 }
 
 LitStill light_still(Job job, const PreparedScene& scene, bool is_linear, const Camera* camera) {

@@ -112,11 +112,11 @@ class Plan {
   int last_of_animation(int first) const {
     const SequenceArgs& s = job_.sequence;
     const double last = std::floor(end_ * s.rate + 1e-6);
-    if (!((last - first) / s.jump < most_frames))
+    if (!((last - first) / s.jump < max_frames))
       throw Error(ErrorKind::Input,
                   fmt::format("{}: its animation ends at {:.6g} s, which is more than {} frames: choose some of them "
                               "with --frames or --frame-end",
-                              job_.input, end_, most_frames));
+                              job_.input, end_, max_frames));
     return static_cast<int>(std::max(last, -1.0));
   }
 
@@ -128,8 +128,8 @@ class Plan {
     if (last < first) throw Error(ErrorKind::Usage, fmt::format("there is no frame from {} to {}", first, last));
     if (last > std::numeric_limits<int>::max())
       throw Error(ErrorKind::Usage, fmt::format("no frame has the number {}", last));
-    if ((last - first) / s.jump >= most_frames)
-      throw Error(ErrorKind::Usage, fmt::format("more than {} frames", most_frames));
+    if ((last - first) / s.jump >= max_frames)
+      throw Error(ErrorKind::Usage, fmt::format("more than {} frames", max_frames));
     for (std::int64_t f = first; f <= last; f += s.jump) frames_.push_back(static_cast<int>(f));
   }
 
@@ -347,9 +347,9 @@ void add_output_warnings(const Job& job, std::size_t frames, bool is_numbered, s
   if (!is_numbered && frames == 1 && !is_one_frame(job.sequence))
     warnings.push_back(
         fmt::format("{}: has no animation, so that {} has one frame; see --turntable", job.input, job.output));
-  if (extension_of(job.output) == ".gif" && job.sequence.rate > most_gif_rate)
+  if (extension_of(job.output) == ".gif" && job.sequence.rate > max_gif_rate)
     warnings.push_back(fmt::format("{}: has {} of {:g} frames per second, as many as a GIF can have in browsers",
-                                   job.output, most_gif_rate, job.sequence.rate));
+                                   job.output, max_gif_rate, job.sequence.rate));
 }
 
 }  // namespace

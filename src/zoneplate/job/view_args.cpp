@@ -73,8 +73,8 @@ View KeyedViews::at(double time, View base) const {
 }
 
 KeyedViews read_camera_path(const std::string& path) {
-  constexpr std::uint64_t most_bytes = 1 << 26;
-  const FileBytes file(path, most_bytes);
+  constexpr std::uint64_t max_bytes = 1 << 26;
+  const FileBytes file(path, max_bytes);
   LoadLimits limits;
   ImportBudget budget(path, limits);
   const JsonValue value = parse_json(file.bytes(), budget);

@@ -46,14 +46,14 @@ constexpr double frame_pixels_per_pixel = 2;
 LensPoint distorted(const Lens& lens, LensPoint undistorted) { return distortion(lens, undistorted).at; }
 
 std::optional<LensPoint> undistorted(const Lens& lens, LensPoint wanted) {
-  constexpr int most_steps = 100;
+  constexpr int max_steps = 100;
   const auto error_of = [&](const Distortion& d) {
     return std::max(std::abs(d.at.x - wanted.x), std::abs(d.at.y - wanted.y));
   };
   const double tolerance = 1e-14 * (1 + std::max(std::abs(wanted.x), std::abs(wanted.y)));
   LensPoint p = wanted;
   Distortion d = distortion(lens, p);
-  for (int step = 0; step < most_steps && error_of(d) > tolerance; ++step) {
+  for (int step = 0; step < max_steps && error_of(d) > tolerance; ++step) {
     const double determinant = d.determinant();
     if (!(determinant > 0)) return std::nullopt;
     const double ex = wanted.x - d.at.x, ey = wanted.y - d.at.y;

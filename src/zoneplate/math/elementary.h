@@ -44,8 +44,8 @@ struct Angle {
   float r;
 };
 constexpr Angle split_angle(float x) {
-  x = x > -greatest_angle ? x : -greatest_angle;
-  x = x < greatest_angle ? x : greatest_angle;
+  x = x > -max_angle ? x : -max_angle;
+  x = x < max_angle ? x : max_angle;
   const std::int32_t quarter = nearest(x * two_over_pi);
   const float k = static_cast<float>(quarter);
   x = x - k * half_pi_parts[0];
@@ -102,7 +102,7 @@ constexpr float exp(float x) {
 /// The logarithm to base 2. Edges: -infinity below 2^-126, including negative x; 128 for infinity. Exact: within 3 ulp.
 constexpr float log2(float x) {
   using namespace elementary;
-  if (!(x >= least_normal)) return std::bit_cast<float>(0xff800000);
+  if (!(x >= min_normal)) return std::bit_cast<float>(0xff800000);
   const Log l = split_log(x);
   const float z = l.s * l.s;
   const float tail = two_log2_e_tail + z * (log2_c[0] + z * (log2_c[1] + z * log2_c[2]));
@@ -123,7 +123,7 @@ constexpr float coarse_log2(float x) {
 /// The natural logarithm. Edges: as for log2. Exact: within 3 ulp.
 constexpr float log(float x) {
   using namespace elementary;
-  if (!(x >= least_normal)) return std::bit_cast<float>(0xff800000);
+  if (!(x >= min_normal)) return std::bit_cast<float>(0xff800000);
   const Log l = split_log(x);
   const float z = l.s * l.s;
   const float tail = l.e * ln2_tail + l.s * (z * (log_c[0] + z * (log_c[1] + z * log_c[2])));

@@ -32,7 +32,7 @@ inline constexpr float log2_c[3] = {0x1.ec70d2p-1f, 0x1.274c4ep-1f, 0x1.b94d12p-
 inline constexpr float coarse_log2_c[3] = {-0x1.c35c0ap-2f, 0x1.f0fcb0p-3f, -0x1.4e4c50p-4f};
 inline constexpr float two_log2_e_head = 0x1.7140p+1f;
 inline constexpr float two_log2_e_tail = 0x1.47652cp-11f;
-inline constexpr float least_normal = 0x1p-126f;
+inline constexpr float min_normal = 0x1p-126f;
 /// The bits of the float just below √½, the lower end of the range [√½, √2) of mantissas.
 inline constexpr int root_half_bits = 0x3f3504f3;
 
@@ -41,7 +41,7 @@ inline constexpr float sin_c[3] = {-0x1.555546p-3f, 0x1.110760p-7f, -0x1.994eb0p
 inline constexpr float cos_c[3] = {0x1.55554ap-5f, -0x1.6c0c8cp-10f, 0x1.9a0252p-16f};
 inline constexpr float two_over_pi = 0x1.45f306p-1f;
 inline constexpr float half_pi_parts[4] = {0x1.92p+0f, 0x1.fb4p-12f, 0x1.444p-24f, 0x1.68c234p-39f};
-inline constexpr float greatest_angle = 0x1p20f;
+inline constexpr float max_angle = 0x1p20f;
 
 /// (atan t - t) / t^3 in powers of t^2, |t| <= tan(π/8).
 inline constexpr float atan_c[5] = {-0x1.55554ap-2f, 0x1.9991aep-3f, -0x1.23b6c8p-3f, 0x1.b2030cp-4f, -0x1.f25ae4p-5f};

@@ -85,7 +85,7 @@ struct Angle {
 };
 template <class D>
 HWY_INLINE Angle<D> split_angle(D d, hn::Vec<D> x) {
-  const auto low = hn::Set(d, -elementary::greatest_angle), high = hn::Set(d, elementary::greatest_angle);
+  const auto low = hn::Set(d, -elementary::max_angle), high = hn::Set(d, elementary::max_angle);
   x = hn::IfThenElse(hn::Gt(x, low), x, low);
   x = hn::IfThenElse(hn::Lt(x, high), x, high);
   const auto quarter = nearest(d, hn::Mul(x, hn::Set(d, elementary::two_over_pi)));
@@ -153,7 +153,7 @@ HWY_INLINE hn::Vec<D> exp(D d, hn::Vec<D> x) {
 template <class D>
 HWY_INLINE hn::Vec<D> log_or_edge(D d, hn::Vec<D> x, hn::Vec<D> value) {
   const auto edge = hn::BitCast(d, hn::Set(hn::RebindToSigned<D>(), static_cast<std::int32_t>(0xff800000)));
-  return hn::IfThenElse(hn::Ge(x, hn::Set(d, elementary::least_normal)), value, edge);
+  return hn::IfThenElse(hn::Ge(x, hn::Set(d, elementary::min_normal)), value, edge);
 }
 
 template <class D>

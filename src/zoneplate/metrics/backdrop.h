@@ -21,8 +21,8 @@ inline bool is_finite(const Linear& c) {
 }
 
 inline float finite(float v) {
-  constexpr float greatest_half = 65504;
-  return std::isfinite(v) ? v : std::isnan(v) ? 0.0f : std::copysign(greatest_half, v);
+  constexpr float max_half = 65504;
+  return std::isfinite(v) ? v : std::isnan(v) ? 0.0f : std::copysign(max_half, v);
 }
 inline Linear finite(Linear c) { return {finite(c.r), finite(c.g), finite(c.b), finite(c.a)}; }
 

@@ -12,19 +12,19 @@
 namespace zoneplate::metrics {
 namespace {
 
-constexpr double least_change = 0.125, greatest_rest = 1.0 / 64;  // codes
-constexpr double least_share = 0.001;                             // of the pixels
+constexpr double min_change = 0.125, max_rest = 1.0 / 64;  // codes
+constexpr double min_share = 0.001;                        // of the pixels
 
-double greatest_difference(Display a, Display b) {
+double max_difference(Display a, Display b) {
   const Codes p = codes_on_black(a), q = codes_on_black(b);
   return std::max({std::abs(p.r - q.r), std::abs(p.g - q.g), std::abs(p.b - q.b)});
 }
 
 bool is_event(Frames reference, int x, int y) {
   const auto code = [&](std::size_t frame) { return reference[frame].display(x, y); };
-  if (!(greatest_difference(code(0), code(1)) > least_change)) return false;
+  if (!(max_difference(code(0), code(1)) > min_change)) return false;
   for (std::size_t frame = 2; frame < reference.size(); ++frame)
-    if (greatest_difference(code(1), code(frame)) > greatest_rest) return false;
+    if (max_difference(code(1), code(frame)) > max_rest) return false;
   return true;
 }
 
@@ -55,7 +55,7 @@ std::optional<EventResponse> event_response(Frames reference, Frames test) {
     });
   };
   const double pixels = sum_over_event([](int, int) { return 1.0; });
-  if (pixels < least_share * static_cast<double>(mask.values().size())) return std::nullopt;
+  if (pixels < min_share * static_cast<double>(mask.values().size())) return std::nullopt;
 
   const auto change = [&](int x, int y) { return difference(reference[0].linear(x, y), reference[1].linear(x, y)); };
   const double energy = sum_over_event([&](int x, int y) { return product(change(x, y), change(x, y)); });
@@ -69,7 +69,7 @@ std::optional<EventResponse> event_response(Frames reference, Frames test) {
   for_rows(height, [&](int y) {
     for (int x = 0; x < width; ++x) {
       if (mask(x, y) == 0) continue;
-      const double error = greatest_difference(reference[1].display(x, y), test[1].display(x, y));
+      const double error = max_difference(reference[1].display(x, y), test[1].display(x, y));
       out.map(x, y) = static_cast<float>(std::min(1.0, error));
     }
   });

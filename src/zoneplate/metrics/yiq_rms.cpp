@@ -19,7 +19,7 @@ namespace zoneplate::metrics {
 namespace {
 
 // The greatest possible distance of codes in 0 to 255.
-constexpr double greatest_distance = 35215;
+constexpr double max_distance = 35215;
 
 /// An image's codes in 0 to 255, composited over white.
 Codes codes_on_white(Display c) {
@@ -57,7 +57,7 @@ std::optional<Score> measure(const Picture& whole_reference, const DisplayImage&
       if (!is_seen(x, y)) continue;
       const double d = distance(codes_of(reference(x, y), ignores_empty), codes_of(test(x, y), ignores_empty));
       row += d * d;
-      score.map(x, y) = static_cast<float>(std::sqrt(d / greatest_distance));
+      score.map(x, y) = static_cast<float>(std::sqrt(d / max_distance));
     }
     return row;
   });
@@ -67,7 +67,7 @@ std::optional<Score> measure(const Picture& whole_reference, const DisplayImage&
     return row;
   });
   if (count == 0) return std::nullopt;
-  const double ratio = sum > 0 ? std::sqrt(sum / count) / greatest_distance : 0;
+  const double ratio = sum > 0 ? std::sqrt(sum / count) / max_distance : 0;
   score.value = 10 * decimal_log(ratio);
   score.more = {{"ratio", ratio, ""}, {"seen", count / static_cast<double>(test.values().size()), "share of pixels"}};
   return score;

@@ -169,13 +169,13 @@ LimitedChild::~LimitedChild() {
 }
 
 bool LimitedChildren::wait_for(const LimitedChild& child) {
-  constexpr std::size_t most_kept = std::size_t{256} << 20;
+  constexpr std::size_t max_kept = std::size_t{256} << 20;
   std::size_t kept = 0;
   for (const LimitedChild* other : all_) kept += other->kept_.size() - other->taken_;
   std::vector<LimitedChild*> others;
   std::vector<pollfd> pipes{{child.pipe_, POLLIN, 0}};
   for (LimitedChild* other : all_)
-    if (other != &child && !other->has_ended_ && kept < most_kept)
+    if (other != &child && !other->has_ended_ && kept < max_kept)
       others.push_back(other), pipes.push_back({other->pipe_, POLLIN, 0});
   if (::poll(pipes.data(), pipes.size(), poll_ms) <= 0) return false;
   bool is_one_at_its_end = false;

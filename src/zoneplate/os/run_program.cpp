@@ -30,14 +30,14 @@
 namespace zoneplate {
 namespace {
 
-constexpr std::string_view usual_folders = "/usr/local/bin:/usr/bin:/bin";
+constexpr std::string_view default_folders = "/usr/local/bin:/usr/bin:/bin";
 
 /// The folders of PATH, followed by the default ones. Relative folders are ignored, because the found program must not
 /// depend on the working directory.
 std::string search_path() {
   const char* const variable = std::getenv("PATH");
   std::string out;
-  std::istringstream folders((variable ? variable : "") + std::string(":") + std::string(usual_folders));
+  std::istringstream folders((variable ? variable : "") + std::string(":") + std::string(default_folders));
   for (std::string folder; std::getline(folders, folder, ':');)
     if (folder.starts_with('/')) out += (out.empty() ? "" : ":") + folder;
   return out;

@@ -237,8 +237,8 @@ void limit_resources(std::uint64_t bytes, double seconds) {
   rlimit data{};
   ::getrlimit(RLIMIT_DATA, &data);
   data.rlim_max = data.rlim_cur;
-  constexpr double most_seconds = 1e9;
-  const rlim_t time = seconds < most_seconds ? static_cast<rlim_t>(seconds) + 1 : RLIM_INFINITY;
+  constexpr double max_seconds = 1e9;
+  const rlim_t time = seconds < max_seconds ? static_cast<rlim_t>(seconds) + 1 : RLIM_INFINITY;
   const rlimit processor{time, time}, none{0, 0};
   ::setrlimit(RLIMIT_DATA, &data);
   ::setrlimit(RLIMIT_CPU, &processor);

@@ -95,8 +95,8 @@ class PlotReader {
     curve.color = whole_number(Curve::grey, 1000);
     curve.opacity = in_.value<double>();
     curve.labels_are = static_cast<Curve::Beside>(whole_number(0, static_cast<int>(Curve::Beside::LeftAbove)));
-    constexpr std::uint64_t most_points = 1 << 20;
-    for (std::uint64_t n = count(most_points); n > 0; --n) {
+    constexpr std::uint64_t max_points = 1 << 20;
+    for (std::uint64_t n = count(max_points); n > 0; --n) {
       const double x = in_.value<double>(), y = in_.value<double>();
       curve.points.emplace_back(x, y);
     }
@@ -106,9 +106,9 @@ class PlotReader {
     return curve;
   }
   Panel panel() {
-    constexpr int most_side = 4096;
+    constexpr int max_side = 4096;
     Panel panel{.picture = {}, .caption = in_.text()};
-    const int width = whole_number(0, most_side), height = whole_number(0, most_side);
+    const int width = whole_number(0, max_side), height = whole_number(0, max_side);
     if (width > 0 && height > 0) panel.picture = Rgba8Image(width, height);
     for (Rgba8& c : panel.picture.values()) c = in_.value<Rgba8>();
     if (flag()) panel.plot = plot();

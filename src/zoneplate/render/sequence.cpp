@@ -63,8 +63,8 @@ class Poses {
 
   /// Whether further poses would take too much time or memory.
   bool are_enough() const {
-    constexpr std::size_t least = 16, most_cost = 1 << 22, most_kept = 1 << 20;
-    return count_ >= least && (cost_ >= most_cost || kept_ >= most_kept);
+    constexpr std::size_t least = 16, max_cost = 1 << 22, max_kept = 1 << 20;
+    return count_ >= least && (cost_ >= max_cost || kept_ >= max_kept);
   }
 
   Scene take() { return std::move(all_); }

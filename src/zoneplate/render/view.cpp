@@ -38,7 +38,7 @@ Pose turned(const Pose& pose, float azimuth, float elevation) {
 }
 
 // Reversed floating-point depth has enough precision for a far plane 100,000 times as far as the near one.
-constexpr float least_near = 1e-5f;
+constexpr float min_near = 1e-5f;
 
 // Sets near and far around distances along the view axis. An orthographic camera moves back until they are positive;
 // returns how far.
@@ -54,7 +54,7 @@ float enclose(Camera& camera, AxisRange range) {
     nearest += step, farthest += step;
   }
   camera.far = farthest + margin;
-  camera.near = std::max(nearest - margin, camera.far * least_near);
+  camera.near = std::max(nearest - margin, camera.far * min_near);
   return step;
 }
 
@@ -179,7 +179,7 @@ Camera enclosing(Camera camera, const Scene& scene) {
   Camera around = camera;
   const float step = enclose(around, *range);
   around.far = is_behind ? around.far : camera.far + step;
-  const float least = camera.is_orthographic ? 0 : around.far * least_near;
+  const float least = camera.is_orthographic ? 0 : around.far * min_near;
   around.near = std::min(camera.near + step, is_before ? std::max(around.near, least) : camera.near + step);
   return around;
 }

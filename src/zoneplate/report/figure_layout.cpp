@@ -6,7 +6,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr int least_width_em = 20;   // minimum width of a figure, so that a title fits over a small image
+constexpr int min_width_em = 20;     // minimum width of a figure, so that a title fits over a small image
 constexpr int hairline_share = 110;  // of 255: darkness of an image's outline
 constexpr double title_scale = 1.5;  // documented in figure.h
 
@@ -97,7 +97,7 @@ FigureLayout lay_out(const Figure& figure, const FigureStyle& style) {
   const Faces faces(style);
   const int gap = style.gap_px, caption_gap = gap / 2;
   std::vector<Row> rows;
-  int inner = least_width_em * style.text_px;
+  int inner = min_width_em * style.text_px;
   for (const std::vector<Panel>& panels : figure.rows) {
     Row& row = rows.emplace_back();
     for (const Panel& panel : panels) row.push_back(placed(faces, panel));

@@ -48,7 +48,7 @@ std::string table_text(const Table& table) {
   return text;
 }
 
-Rgba8Image table_picture(const Table& table, const FigureStyle& style, int least_width) {
+Rgba8Image table_picture(const Table& table, const FigureStyle& style, int min_width) {
   constexpr int rule_share = 110;  // of 255: darkness of the line below the header
   const Typeface text(Typeface::Weight::Regular, style.text_px), head(Typeface::Weight::Bold, style.text_px);
   const auto widths = widths_of(table, [&](const std::string& cell, bool is_head) {
@@ -59,9 +59,9 @@ Rgba8Image table_picture(const Table& table, const FigureStyle& style, int least
   int sum = 0;
   for (const int w : widths) sum += w;
   const int gaps = std::max(1, static_cast<int>(widths.size()) - 1);
-  const int gap = std::max(style.text_px * 3 / 2, (least_width - sum - 2) / gaps);
+  const int gap = std::max(style.text_px * 3 / 2, (min_width - sum - 2) / gaps);
   const int row_height = text.leading() + style.text_px / 5, head_height = row_height + style.text_px / 3;
-  const int width = std::max(least_width, sum + gap * (static_cast<int>(widths.size()) - 1) + 2);
+  const int width = std::max(min_width, sum + gap * (static_cast<int>(widths.size()) - 1) + 2);
   const int height = head_height + static_cast<int>(table.rows.size()) * row_height + 2;
 
   Rgba8Image picture(width, height, style.paper);

@@ -20,7 +20,7 @@ struct Table {
 /// The table for a terminal: columns two spaces apart, each line terminated.
 std::string table_text(const Table& table);
 
-/// The table for a figure, in its style; at least `least_width` wide, with a border in the background colour.
-Rgba8Image table_picture(const Table& table, const FigureStyle& style, int least_width = 0);
+/// The table for a figure, in its style; at least `min_width` wide, with a border in the background colour.
+Rgba8Image table_picture(const Table& table, const FigureStyle& style, int min_width = 0);
 
 }  // namespace zoneplate

@@ -31,7 +31,7 @@ class FirstOfEqual {
   template <class Equal, class MakeKey>
   std::uint32_t put(std::uint32_t number, std::size_t hash, const Equal& is_equal, const MakeKey& make_key) {
     const std::size_t mask = slots_.size() - 1;
-    for (std::size_t i = 0; i < most_probes; ++i) {
+    for (std::size_t i = 0; i < max_probes; ++i) {
       std::uint32_t& slot = slots_[(hash + i) & mask];
       if (slot == none) return slot = number;
       if (is_equal(slot)) return slot;
@@ -45,7 +45,7 @@ class FirstOfEqual {
 
  private:
   static constexpr std::uint32_t none = 0xffffffffu;
-  static constexpr std::size_t most_probes = 64;
+  static constexpr std::size_t max_probes = 64;
 
   std::vector<std::uint32_t> slots_;
   std::map<Key, std::uint32_t> crowded_;

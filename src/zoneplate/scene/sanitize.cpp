@@ -2,12 +2,22 @@
 #include "zoneplate/scene/sanitize.h"
 
 #include <algorithm>
-#include <span>
 
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/scene/serial_ranges.h"
 
 namespace zoneplate {
+
+// Sums x - x, which is 0 for finite x and NaN otherwise, with four independent accumulators.
+bool are_finite(std::span<const float> values) {
+  float sums[4] = {0, 0, 0, 0};
+  std::size_t i = 0;
+  for (; i + 4 <= values.size(); i += 4)
+    for (std::size_t k = 0; k < 4; ++k) sums[k] += values[i + k] - values[i + k];
+  for (; i < values.size(); ++i) sums[0] += values[i] - values[i];
+  return sums[0] + sums[1] + sums[2] + sums[3] == 0;
+}
+
 namespace {
 
 constexpr std::size_t range_size = 1 << 15;
@@ -20,27 +30,17 @@ std::span<const float> floats_of(const std::vector<V>& values, std::size_t begin
   return {reinterpret_cast<const float*>(values.data()) + begin * each, (end - begin) * each};
 }
 
-/// Sums x - x, which is 0 for finite x and NaN otherwise, with four independent accumulators.
-bool all_finite(std::span<const float> values) {
-  float sums[4] = {0, 0, 0, 0};
-  std::size_t i = 0;
-  for (; i + 4 <= values.size(); i += 4)
-    for (std::size_t k = 0; k < 4; ++k) sums[k] += values[i + k] - values[i + k];
-  for (; i < values.size(); ++i) sums[0] += values[i] - values[i];
-  return sums[0] + sums[1] + sums[2] + sums[3] == 0;
-}
-
 bool all_finite(const Mesh& m, std::size_t begin, std::size_t end) {
-  return all_finite(floats_of(m.position, begin, end)) && all_finite(floats_of(m.normal, begin, end)) &&
-         all_finite(floats_of(m.tangent, begin, end)) && all_finite(floats_of(m.uv0, begin, end)) &&
-         all_finite(floats_of(m.uv1, begin, end)) && all_finite(floats_of(m.color, begin, end));
+  return are_finite(floats_of(m.position, begin, end)) && are_finite(floats_of(m.normal, begin, end)) &&
+         are_finite(floats_of(m.tangent, begin, end)) && are_finite(floats_of(m.uv0, begin, end)) &&
+         are_finite(floats_of(m.uv1, begin, end)) && are_finite(floats_of(m.color, begin, end));
 }
 
 /// Replaces the attributes of a vertex that are not finite; returns whether there are any.
 bool make_finite(Mesh& m, std::size_t i) {
   bool is_replaced = false;
   const auto replace = [&](auto& values, auto value) {
-    if (all_finite(floats_of(values, i, i + 1))) return;
+    if (are_finite(floats_of(values, i, i + 1))) return;
     values[i] = value;
     is_replaced = true;
   };
@@ -67,7 +67,7 @@ NotFinite drop_not_finite(Mesh& m) {
     for (std::size_t i = begin; i < end; ++i)
       if (!is_clean[i / range_size]) {
         if (make_finite(m, i)) ++out.replaced;
-        is_bad[i] = !all_finite(floats_of(m.position, i, i + 1));
+        is_bad[i] = !are_finite(floats_of(m.position, i, i + 1));
         if (is_bad[i]) m.position[i] = {};
       }
   });

@@ -2,10 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 
 #include "zoneplate/scene/mesh.h"
 
 namespace zoneplate {
+
+bool are_finite(std::span<const float> values);
 
 /// What drop_not_finite changed.
 struct NotFinite {

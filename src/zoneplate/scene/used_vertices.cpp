@@ -18,7 +18,7 @@ constexpr std::size_t instances_per_range = 4096;
 constexpr std::size_t few_vertices = 64;
 
 /// An upper bound of dot(axis, transform_point(m, p)), computed in floats, for all points p of the box.
-double most_along(const float4x4& m, const Box& box, float3 axis) {
+double max_along(const float4x4& m, const Box& box, float3 axis) {
   const std::array<double, 3> low{box.low.x, box.low.y, box.low.z}, high{box.high.x, box.high.y, box.high.z};
   double most = 0, magnitude = 0;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -104,7 +104,7 @@ std::vector<std::size_t> UsedVertices::farthest_by_box(std::span<const float3> a
       const Instance& instance = scene_.instances[i];
       const Box& box = *local_[static_cast<std::size_t>(instance.mesh)];
       for (std::size_t a = 0; a < axes.size() && !box.empty(); ++a)
-        if (const double most = most_along(instance.world_from_object, box, axes[a]); most > best[a].most)
+        if (const double most = max_along(instance.world_from_object, box, axes[a]); most > best[a].most)
           best[a] = {most, i};
     }
   });
@@ -141,7 +141,7 @@ std::vector<std::size_t> UsedVertices::reaching(std::span<const float3> axes) {
       return false;
     if (scene_.meshes[mesh].position.size() <= few_vertices) return true;
     for (std::size_t a = 0; a < axes.size(); ++a)
-      if (!(most_along(instance.world_from_object, *local_[mesh], axes[a]) < double{least[a]})) return true;
+      if (!(max_along(instance.world_from_object, *local_[mesh], axes[a]) < double{least[a]})) return true;
     return false;
   };
   serial_ranges(instances.size(), [&](std::size_t begin, std::size_t end) {

@@ -9,15 +9,13 @@
 #include <span>
 
 #include "zoneplate/scene/material_layers.h"
+#include "zoneplate/scene/sanitize.h"
 #include "zoneplate/scene/serial_ranges.h"
 
 namespace zoneplate {
 namespace {
 
-bool all_finite(std::span<const float> floats) {
-  return std::all_of(floats.begin(), floats.end(), [](float f) { return std::isfinite(f); });
-}
-bool all_finite(std::initializer_list<float> floats) { return all_finite(std::span(floats.begin(), floats.size())); }
+bool all_finite(std::initializer_list<float> floats) { return are_finite(std::span(floats.begin(), floats.size())); }
 
 bool is_finite(const float4x4& m) {
   return std::all_of(std::begin(m.column), std::end(m.column), [](float4 c) {
@@ -27,12 +25,12 @@ bool is_finite(const float4x4& m) {
 
 template <class V>
 bool all_finite(const std::vector<V>& values) {
-  bool are_finite = true;
+  bool is_finite = true;
   serial_ranges(values.size(), [&](std::size_t begin, std::size_t end) {
     const auto* const floats = reinterpret_cast<const float*>(values.data() + begin);
-    are_finite = are_finite && all_finite(std::span(floats, (end - begin) * sizeof(V) / sizeof(float)));
+    is_finite = is_finite && are_finite(std::span(floats, (end - begin) * sizeof(V) / sizeof(float)));
   });
-  return are_finite;
+  return is_finite;
 }
 
 template <class V>

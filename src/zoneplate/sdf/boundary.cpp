@@ -167,8 +167,8 @@ class Arrangement {
     }
   }
   void cut(Divided& s, double t, int node) {
-    constexpr std::size_t most_cuts = std::size_t{1} << 17;  // two for each crossing
-    if (++cuts_ > most_cuts) throw Error(ErrorKind::Input, "an outline crosses itself more than 65536 times");
+    constexpr std::size_t max_cuts = std::size_t{1} << 17;  // two for each crossing
+    if (++cuts_ > max_cuts) throw Error(ErrorKind::Input, "an outline crosses itself more than 65536 times");
     s.cuts.push_back({t, node});
   }
   void find_meetings();

@@ -12,7 +12,7 @@
 namespace zoneplate::sdf {
 namespace {
 
-double greatest_difference(const Plane<float>& a, const Plane<float>& b) {
+double max_difference(const Plane<float>& a, const Plane<float>& b) {
   double greatest = 0;
   for (std::size_t i = 0; i < a.values().size(); ++i)
     greatest = std::max(greatest, std::abs(static_cast<double>(a.values()[i]) - static_cast<double>(b.values()[i])));
@@ -29,8 +29,8 @@ TEST(SdfDraw, StraightEdgesHaveTheirExactArea) {
     const Similarity move{.move = {16 + static_cast<double>(part), 15.5}};
     const ShapePtr turned = mapped(move, rotated(degrees, region(polygon(corners))));
     const Similarity whole = move * turned->operands[0]->map;
-    worst = std::max(worst, greatest_difference(coverage_of(turned, raster),
-                                                exact_coverage(polygon(corners).mapped(whole), raster)));
+    worst = std::max(
+        worst, max_difference(coverage_of(turned, raster), exact_coverage(polygon(corners).mapped(whole), raster)));
   }
   EXPECT_LT(worst, 1.0 / 255 / 16);
 }
@@ -72,8 +72,8 @@ TEST(SdfDraw, CurvedEdgesHaveASmallError) {
       pen.close();
       exact = exact_coverage(outline, {side, side, {}, 1});
     }
-    const double one = greatest_difference(coverage_of(moved(c, circle(radius)), {side, side, {}, 1}), exact);
-    const double sixteen = greatest_difference(coverage_of(moved(c, circle(radius)), {side, side, {}, 1}, 4), exact);
+    const double one = max_difference(coverage_of(moved(c, circle(radius)), {side, side, {}, 1}), exact);
+    const double sixteen = max_difference(coverage_of(moved(c, circle(radius)), {side, side, {}, 1}, 4), exact);
     EXPECT_LT(one, 0.118 / radius + 1e-4) << radius;
     EXPECT_LT(sixteen, 0.118 / 4 / radius + 1e-4) << radius;
     RecordProperty("r" + std::to_string(static_cast<int>(radius)), std::to_string(one) + " " + std::to_string(sixteen));

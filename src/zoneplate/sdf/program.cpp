@@ -114,9 +114,9 @@ struct Program::Emitter {
     constexpr std::size_t instructions_per_check = 4096;
     const std::size_t size = program.instructions_.size();
     if (size % instructions_per_check == 0) check_deadline();
-    if (size - first == Shape::most_instructions)
-      refuse(fmt::format("the shape has more than {} instructions", Shape::most_instructions));
-    if (size == most_instructions) refuse(fmt::format("the shapes have more than {} instructions", most_instructions));
+    if (size - first == Shape::max_instructions)
+      refuse(fmt::format("the shape has more than {} instructions", Shape::max_instructions));
+    if (size == max_instructions) refuse(fmt::format("the shapes have more than {} instructions", max_instructions));
     return program.instructions_.emplace_back(instruction);
   }
   void push() { program.value_depth_ = std::max(program.value_depth_, ++values); }
@@ -144,8 +144,8 @@ struct Program::Emitter {
       for (const Contour& contour : shape.outline->contours)
         for (const Segment& segment : contour)
           for (const Segment& part : gentle_parts(segment)) (part.degree == 1 ? lines : curves).push_back(part);
-      if (program.pieces_.size() + lines.size() + curves.size() > most_pieces)
-        refuse(fmt::format("the outlines have more than {} parts", most_pieces));
+      if (program.pieces_.size() + lines.size() + curves.size() > max_pieces)
+        refuse(fmt::format("the outlines have more than {} parts", max_pieces));
       for (const Segment& s : lines) program.pieces_.push_back(piece_of(s, stored.centre, extent));
       stored.curves = static_cast<std::int32_t>(program.pieces_.size());
       for (const Segment& s : curves) program.pieces_.push_back(piece_of(s, stored.centre, extent));
@@ -264,7 +264,7 @@ ShapeCode Program::add(const ShapePtr& shape) {
   Emitter emitter{*this};
   emitter.evaluate(*shape, {});
   slots_ = std::max(slots_, assign_slots(instructions_, emitter.first, static_cast<std::int32_t>(emitter.kept.size())));
-  if (slots_ > most_slots) refuse(fmt::format("more than {} operands are shared at once", most_slots));
+  if (slots_ > max_slots) refuse(fmt::format("more than {} operands are shared at once", max_slots));
   const ShapeCode code{emitter.first, instructions_.size(), shape->bounds};
   if (shape.use_count() > 1) shared_.emplace(shape.get(), std::pair(shape, code));
   return code;

@@ -67,11 +67,11 @@ struct ShapeCode {
 /// compiled again, and an operand that several operations share is evaluated once where its coordinates are the same.
 class Program {
  public:
-  static constexpr std::size_t most_instructions = std::size_t{1} << 22;  ///< of all shapes
-  static constexpr std::size_t most_pieces = std::size_t{1} << 22;
-  static constexpr std::int32_t most_slots = 4096;  ///< kept values, 768 bytes each
-  static constexpr double farthest = 1e6;           ///< the greatest coordinate or size
-  static constexpr double smallest = 1e-4;          ///< the least size of a unit of a shape, as scaled
+  static constexpr std::size_t max_instructions = std::size_t{1} << 22;  ///< of all shapes
+  static constexpr std::size_t max_pieces = std::size_t{1} << 22;
+  static constexpr std::int32_t max_slots = 4096;  ///< kept values, 768 bytes each
+  static constexpr double farthest = 1e6;          ///< the greatest coordinate or size
+  static constexpr double smallest = 1e-4;         ///< the least size of a unit of a shape, as scaled
 
   /// Errors    ErrorKind::Input: too many instructions, or a number that is out of range.
   ShapeCode add(const ShapePtr& shape);

@@ -67,14 +67,14 @@ ShapePtr make(Shape shape) {
   std::size_t instructions = 1;
   for (const ShapePtr& operand : shape.operands) {
     shape.depth = std::max(shape.depth, operand->depth + 1);
-    instructions = std::max(instructions, operand->least_instructions + (shape.kind != Shape::Kind::Mapped));
+    instructions = std::max(instructions, operand->min_instructions + (shape.kind != Shape::Kind::Mapped));
   }
   if (shape.kind == Shape::Kind::Repeat) instructions *= static_cast<std::size_t>(shape.columns() * shape.rows());
   if (shape.depth > Shape::deepest)
     throw Error(ErrorKind::Input, fmt::format("operations are nested more than {} deep", Shape::deepest));
-  if (instructions > Shape::most_instructions)
-    throw Error(ErrorKind::Input, fmt::format("the shape has more than {} instructions", Shape::most_instructions));
-  shape.least_instructions = instructions;
+  if (instructions > Shape::max_instructions)
+    throw Error(ErrorKind::Input, fmt::format("the shape has more than {} instructions", Shape::max_instructions));
+  shape.min_instructions = instructions;
   shape.bounds = bounds_of(shape);
   return std::make_shared<const Shape>(std::move(shape));
 }

@@ -48,18 +48,18 @@ struct Shape {
   /// The number of operations within operations, at most `deepest`: functions may recurse to the operands.
   int depth = 0;
   /// A lower bound of the number of instructions that evaluate the shape, even if operands are shared.
-  std::size_t least_instructions = 1;
+  std::size_t min_instructions = 1;
 
   /// Of a repetition: the number of columns and rows near a point, whose copies may be nearest to it.
   int columns() const { return a > 0 ? 2 : 1; }
   int rows() const { return b > 0 ? 2 : 1; }
 
   static constexpr int deepest = 64;
-  static constexpr std::size_t most_instructions = std::size_t{1} << 20;  ///< of one shape
+  static constexpr std::size_t max_instructions = std::size_t{1} << 20;  ///< of one shape
 };
 
 // All functions that make shapes throw ErrorKind::Input for operations that are nested more than Shape::deepest deep,
-// or that need more than Shape::most_instructions. A shape may be an operand of several others.
+// or that need more than Shape::max_instructions. A shape may be an operand of several others.
 
 // Closed shapes, with their centre at the origin.
 

@@ -87,18 +87,18 @@ std::unique_ptr<SpatialUpscaler> make_spatial_upscaler(std::string_view text) {
 
 namespace {
 
-constexpr float least_rest = 1.0f / 32768;  // of 1 - c / (1 + c): the greatest light is its reciprocal
+constexpr float min_rest = 1.0f / 32768;  // of 1 - c / (1 + c): the greatest light is its reciprocal
 
 /// The display-referred values of premultiplied light, and back.
 Display mapped_light(const Linear& c) {
   if (!(c.a > 0)) return Display{0, 0, 0, 0};
-  const auto straight = [&](float v) { return v > 0 ? std::min(v / c.a, 1 / least_rest) : 0.0f; };
+  const auto straight = [&](float v) { return v > 0 ? std::min(v / c.a, 1 / min_rest) : 0.0f; };
   const float r = straight(c.r), g = straight(c.g), b = straight(c.b), scale = 1 / (1 + std::max({r, g, b}));
   return Display{std::sqrt(r * scale), std::sqrt(g * scale), std::sqrt(b * scale), std::min(c.a, 1.0f)};
 }
 Linear unmapped_light(const Display& c) {
   const float r = c.r * c.r, g = c.g * c.g, b = c.b * c.b;
-  const float scale = c.a / std::max(least_rest, 1 - std::max({r, g, b}));
+  const float scale = c.a / std::max(min_rest, 1 - std::max({r, g, b}));
   return Linear{r * scale, g * scale, b * scale, c.a};
 }
 
@@ -117,9 +117,9 @@ UpscaledLight upscale_linear(const SpatialUpscaler& upscaler, const LinearImage&
   for (const Linear& c : image.values()) {
     const float least = std::min({c.r, c.g, c.b, c.a}), most = std::max({c.r, c.g, c.b});
     out.negative += least < 0;
-    out.bright += c.a > 0 && most / c.a > 1 / least_rest;
+    out.bright += c.a > 0 && most / c.a > 1 / min_rest;
     out.additive += !(c.a > 0) && most > 0;
-    if (c.a > 0) out.brightest = std::max(out.brightest, std::min(most / c.a, 1 / least_rest));
+    if (c.a > 0) out.brightest = std::max(out.brightest, std::min(most / c.a, 1 / min_rest));
   }
   out.constant = upscaled_constant(upscaler, out.brightest);
   DisplayImage mapped(image.width(), image.height());

@@ -12,7 +12,7 @@ namespace zoneplate {
 struct DisplacementOptions {
   float tolerance = 0.001f;  ///< greatest distance between a mesh and its height map, relative to the longest side of
                              ///< the mesh's bounds
-  std::size_t most_triangles = 4'000'000;  ///< of a mesh; where it is reached, the mesh stays coarser, with a warning
+  std::size_t max_triangles = 4'000'000;  ///< of a mesh; where it is reached, the mesh stays coarser, with a warning
 };
 
 /// Turns height textures into geometry: every triangle mesh whose material has a height texture is refined where the

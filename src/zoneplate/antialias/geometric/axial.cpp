@@ -156,9 +156,9 @@ class Axial : public Resolver {
 
   /// True if two pixels have the same material of the same object, and normals less than 60 degrees apart.
   bool are_alike(int x, int y, int i, int j) const {
-    constexpr float least_cosine = 0.5f;
+    constexpr float min_cosine = 0.5f;
     return object_(x, y) == object_(i, j) && material_(x, y) == material_(i, j) &&
-           dot(normal_(x, y), normal_(i, j)) > least_cosine;
+           dot(normal_(x, y), normal_(i, j)) > min_cosine;
   }
 
   bool of_surfaces_;

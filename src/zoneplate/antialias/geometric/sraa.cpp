@@ -70,13 +70,13 @@ class Reconstruction {
       std::ranges::fill(weight, 0.0f);
       for (const Offset o : around_[s]) add(s, o, 0, color_.width(), y, sum.data(), weight.data());
       for (std::size_t x = 0; x < width; ++x)
-        out[x] = out[x] + (weight[x] > least_weight ? sum[x] * (1 / weight[x]) : other_mean(s, static_cast<int>(x), y));
+        out[x] = out[x] + (weight[x] > min_weight ? sum[x] * (1 / weight[x]) : other_mean(s, static_cast<int>(x), y));
     }
     for (Linear& c : out) c = c * share;
   }
 
  private:
-  static constexpr float least_weight = 1e-20f;
+  static constexpr float min_weight = 1e-20f;
 
   /// Adds the contributions of the pixels at an offset to sample s of pixels [first, last) of row y; pixels outside the
   /// image contribute nothing.
@@ -94,7 +94,7 @@ class Reconstruction {
     Linear sum{0, 0, 0, 0};
     float weight = 0;
     for (const Offset o : all_around_) add(s, o, x, x + 1, y, &sum, &weight);
-    return weight > least_weight ? sum * (1 / weight) : color_(x, y);
+    return weight > min_weight ? sum * (1 / weight) : color_(x, y);
   }
 
   const LinearImage& color_;

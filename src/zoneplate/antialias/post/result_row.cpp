@@ -9,7 +9,7 @@ namespace antialias {
 namespace {
 
 /// Results of at least this size are written past the caches: a quarter of a typical last-level cache.
-constexpr std::size_t least_streamed = 8 << 20;
+constexpr std::size_t min_streamed = 8 << 20;
 
 }  // namespace
 
@@ -27,7 +27,7 @@ std::span<Rgba8> ResultRow::begin(int y) {
 
 void ResultRow::end() {
   const std::span<Rgba8> row = to_.row(y_);
-  const bool is_large = to_.values().size() * sizeof(Rgba8) >= least_streamed;
+  const bool is_large = to_.values().size() * sizeof(Rgba8) >= min_streamed;
   (is_large ? kernels_.stream : kernels_.copy)(&values_[0].r, &row[0].r, row.size_bytes());
 }
 

@@ -27,7 +27,7 @@ struct AccumulateKernels : PerIsa<AccumulateKernels> {
   void (*mean)(const float* color, const float* weight, bool is_max3, float* out, std::size_t n);
 
   /// The upper limit of means before the inverse mapping: 2^21 times white.
-  static constexpr float greatest_mapped = 1 - 0x1p-21f;
+  static constexpr float max_mapped = 1 - 0x1p-21f;
   static constexpr float luma[3] = {0.2126f, 0.7152f, 0.0722f};  ///< Rec.709
 };
 

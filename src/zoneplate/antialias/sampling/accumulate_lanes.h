@@ -8,7 +8,7 @@ namespace zoneplate::stages {
 
 /// The greatest of red, green and blue, at least 0.
 template <class F>
-[[gnu::always_inline]] inline F greatest_channel(const F (&c)[4]) {
+[[gnu::always_inline]] inline F max_channel(const F (&c)[4]) {
   return max(max(c[0], c[1]), max(c[2], F(0.0f)));
 }
 
@@ -42,7 +42,7 @@ template <class F>
 
 template <class F>
 [[gnu::flatten]] void map_max3(float* color, std::size_t n) {
-  change_pixels<F>(color, n, [](F(&c)[4], std::size_t) { scale_color(c, F(1.0f) / (F(1.0f) + greatest_channel(c))); });
+  change_pixels<F>(color, n, [](F(&c)[4], std::size_t) { scale_color(c, F(1.0f) / (F(1.0f) + max_channel(c))); });
 }
 
 template <class F>
@@ -67,8 +67,8 @@ template <class F, bool is_max3>
     F::load_fours(color + 4 * i, c);
     const F w = F::load(weight + i);
     c[0] = c[0] / w, c[1] = c[1] / w, c[2] = c[2] / w, c[3] = c[3] / w;
-    const F limit(AccumulateKernels::greatest_mapped);
-    if constexpr (is_max3) scale_color(c, F(1.0f) / (F(1.0f) - min(greatest_channel(c), limit)));
+    const F limit(AccumulateKernels::max_mapped);
+    if constexpr (is_max3) scale_color(c, F(1.0f) / (F(1.0f) - min(max_channel(c), limit)));
     F::store_fours(c, to);
   };
   std::size_t i = 0;

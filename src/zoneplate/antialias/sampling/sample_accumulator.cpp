@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t room = 8;             // pixels beyond a row that kernels may access
 constexpr std::size_t rows_of_a_part = 32;  // rows per thread
-constexpr int greatest_reach = 4;           // reach of a filter of radius 4
+constexpr int max_reach = 4;                // reach of a filter of radius 4
 
 /// The kernel's values at a sample's distances from the centres of the neighbouring pixels, the leftmost first.
 std::vector<float> taps_of(const ResolveFilter& filter, std::uint8_t offset) {
@@ -118,10 +118,10 @@ void SampleAccumulator::add_rows(const Frame& frame, std::span<const Taps> taps,
 
 /// Adds row y of samples to rows [first, last) of the sums.
 void SampleAccumulator::spread(const SampleRow& row, const Taps& taps, int y, int first, int last) {
-  std::array<float*, 2 * greatest_reach + 1> colors, weights;
-  std::array<float, 2 * greatest_reach + 1> down;
+  std::array<float*, 2 * max_reach + 1> colors, weights;
+  std::array<float, 2 * max_reach + 1> down;
   const int reach = filter_.reach(), count = last - first, wide = static_cast<int>(taps.across.size());
-  assert(reach <= greatest_reach);
+  assert(reach <= max_reach);
   for (int i = 0; i < count; ++i) {
     const auto at = static_cast<std::size_t>(i), to = static_cast<std::size_t>(first + i) * stride_;
     colors[at] = &sum_[4 * to], weights[at] = &weight_[to];

@@ -20,7 +20,7 @@ std::uint64_t shaded(const Scene& scene, const char* method) {
   return counts.shaded;
 }
 
-double greatest_difference(const LinearImage& a, const LinearImage& b) {
+double max_difference(const LinearImage& a, const LinearImage& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.values().size(); ++i) {
     const Linear p = a.values()[i], q = b.values()[i];
@@ -43,7 +43,7 @@ Scene veil(float alpha) {
 TEST(Ssaa, ABoxOverThePixelIsThePlainMean) {
   // 64 samples in four rounds: their footprint is that of all samples together.
   for (const char* scene : {"cyclic", "checkerboard"})
-    EXPECT_LT(greatest_difference(shot(scene, "ssaa:n=8"), shot(scene, "ssaa:n=8,filter=box,radius=0.5")), 2e-6);
+    EXPECT_LT(max_difference(shot(scene, "ssaa:n=8"), shot(scene, "ssaa:n=8,filter=box,radius=0.5")), 2e-6);
   const Scene scene = *make_builtin_scene("cyclic");
   EXPECT_EQ(shaded(scene, "ssaa:n=8"), shaded(scene, "ssaa:n=8,filter=tent"));
 }
@@ -80,7 +80,7 @@ TEST(Adaptive, WhereNothingDisagreesOneRoundIsEnough) {
 }
 
 TEST(Csaa, WithASlotForEachSurfaceItIsMultisampling) {
-  EXPECT_LT(greatest_difference(shot("cyclic", "csaa:n=8,slots=8"), shot("cyclic", "msaa:n=8")), 1e-6);
+  EXPECT_LT(max_difference(shot("cyclic", "csaa:n=8,slots=8"), shot("cyclic", "msaa:n=8")), 1e-6);
   // With two slots, only pixels of three or more surfaces differ.
   const LinearImage two = shot("cyclic", "csaa:n=8,slots=2"), all = shot("cyclic", "msaa:n=8");
   int differing = 0;
@@ -114,13 +114,13 @@ TEST(Msaa, APlaneLooksTheSameHoweverManyTrianglesItIsMadeOf) {
   // the image are 1e-3.
   for (const char* n : {"4", "8"}) {
     const std::string mean = std::string("msaa:n=") + n, first = mean + ",centroid=first";
-    EXPECT_LT(greatest_difference(shot(slope_of(4), mean), shot(slope_of(40), mean)), 5e-6) << n;
-    EXPECT_GT(greatest_difference(shot(slope_of(4), first), shot(slope_of(40), first)), 5e-5) << n;
+    EXPECT_LT(max_difference(shot(slope_of(4), mean), shot(slope_of(40), mean)), 5e-6) << n;
+    EXPECT_GT(max_difference(shot(slope_of(4), first), shot(slope_of(40), first)), 5e-5) << n;
   }
   // With shading at the pixel's centre, the triangles of a plane are not visible either, except at the plane's own
   // sides.
   const std::string centre = "msaa:n=4,centroid=centre";
-  EXPECT_LT(greatest_difference(shot(slope_of(4), centre), shot(slope_of(8), centre)), 5e-4);
+  EXPECT_LT(max_difference(shot(slope_of(4), centre), shot(slope_of(8), centre)), 5e-4);
 }
 
 TEST(SharedSamples, SmoothEdgesAndKeepFlatColours) {

@@ -377,7 +377,7 @@ void TemporalAccumulation::begin_history(const Frame& frame) {
     step_ = Plane<float>(width, height);
     last_ = fast_ = noise_ = Bordered(width + 2 * border, height + 2 * border);
   }
-  frames_ = Plane<float>(width, height, is_confidence ? 1 / options_.parts.least_weight : 1.0f);
+  frames_ = Plane<float>(width, height, is_confidence ? 1 / options_.parts.min_weight : 1.0f);
 }
 
 void TemporalAccumulation::keep_surfaces(const Frame& frame) {
@@ -399,7 +399,7 @@ LinearImage TemporalAccumulation::blended(Frame& frame) {
     begin_history(frame);
     parts.rejection = TemporalParts::Rejection::None;
     parts.rectification = TemporalParts::Rectification::None;
-    parts.blend = TemporalParts::Blend::Fixed, parts.least_weight = 1;
+    parts.blend = TemporalParts::Blend::Fixed, parts.min_weight = 1;
     parts.weighting = TemporalParts::Weighting::None;
     parts.trusts_rest = false;
   }

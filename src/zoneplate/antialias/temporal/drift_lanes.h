@@ -89,7 +89,7 @@ template <class F>
 template <class Full, class One>
 [[gnu::flatten]] bool find_drift(const DriftRow& row, float* lasting, float* relit, float* next_noise, std::size_t n) {
   // Half a percent, or a code of a dark colour, is not seen.
-  constexpr float least = 0.0003f, least_part = 0.005f;
+  constexpr float least = 0.0003f, min_part = 0.005f;
   constexpr float errors = 4.0f, part_of_range = 0.1f;
   bool is_any = false;
   for_row<Full, One>(n, [&]<class F>(std::size_t at) {
@@ -100,7 +100,7 @@ template <class Full, class One>
     where(is_relit, one).store(relit + i);
 
     const F fast = F::load(row.fast + i), mean = fast - F::load(row.drift + i);
-    const F unseen = F(least) + F(least_part) * fast;
+    const F unseen = F(least) + F(min_part) * fast;
     const F beyond = excess(mean, row.last, row.stride, i), drift = abs(sum_around<F>(row.drift, row.stride, i));
     const F noise = F::load(row.noise + i), frames = F::load(row.frames + i);
     F out = trusted;

@@ -21,7 +21,7 @@ TemporalOptions karis() {
                     .box = Parts::Box::Rounded,
                     .rejection = Parts::Rejection::None,
                     .blend = Parts::Blend::Motion,
-                    .least_weight = 0.04f,
+                    .min_weight = 0.04f,
                     .weighting = Parts::Weighting::Luma},
           .sequence = JitterSequence::UncentredHalton,
           .length = 8,
@@ -37,7 +37,7 @@ TemporalOptions inside() {
                     .is_ycocg = false,
                     .rejection = Parts::Rejection::None,
                     .blend = Parts::Blend::Contrast,
-                    .least_weight = 0.03f},
+                    .min_weight = 0.03f},
           .sequence = JitterSequence::UncentredHalton,
           .current = CurrentFilter::Unjitter};
 }
@@ -45,7 +45,7 @@ TemporalOptions inside() {
 /// Salvi, An Excursion in Temporal Supersampling, GDC 2016: a tenth of the current frame, history clipped to the mean
 /// ± one standard deviation. The talk leaves the other parts open.
 TemporalOptions salvi() {
-  return {.parts = {.rejection = Parts::Rejection::None, .blend = Parts::Blend::Fixed, .least_weight = 0.1f}};
+  return {.parts = {.rejection = Parts::Rejection::None, .blend = Parts::Blend::Fixed, .min_weight = 0.1f}};
 }
 
 /// three.js r187, examples/jsm/tsl/display/TRAANode.js.
@@ -56,7 +56,7 @@ TemporalOptions three() {
                     .moving_gamma = 0.5f,
                     .rejection = Parts::Rejection::Edge,
                     .blend = Parts::Blend::Velocity,
-                    .least_weight = 0.05f,
+                    .min_weight = 0.05f,
                     .weighting = Parts::Weighting::Compressed},
           .sequence = JitterSequence::UncentredHalton,
           .length = 32};
@@ -70,7 +70,7 @@ TemporalOptions playcanvas() {
                     .is_ycocg = false,
                     .rejection = Parts::Rejection::None,
                     .blend = Parts::Blend::Fixed,
-                    .least_weight = 0.05f,
+                    .min_weight = 0.05f,
                     .keeps_current_alpha = true},
           .sequence = JitterSequence::UncentredHalton,
           .follows_camera = true};
@@ -83,7 +83,7 @@ TemporalOptions bevy() {
                     .is_normalized = false,
                     .rejection = Parts::Rejection::None,
                     .blend = Parts::Blend::Confidence,
-                    .least_weight = 0.015f,
+                    .min_weight = 0.015f,
                     .is_compressed = true},
           .sequence = JitterSequence::UncentredHalton,
           .length = 8};
@@ -209,7 +209,7 @@ TemporalOptions temporal_options(const Settings& s) {
   choose("rest", p.trusts_rest);
   choose("blend", p.blend), choose("weigh", p.weighting), choose("range", p.is_compressed);
   choose("frames", o.settling_frames), choose("new", o.new_pixels);
-  set("tolerance", p.tolerance), set("alpha", p.least_weight), set("sharpen", o.sharpening), set("bias", o.bias);
+  set("tolerance", p.tolerance), set("alpha", p.min_weight), set("sharpen", o.sharpening), set("bias", o.bias);
   if (s.is_given("gamma")) p.gamma = p.moving_gamma = static_cast<float>(s.number("gamma"));
   if (o.new_pixels != NewPixels::Sample && p.blend != Parts::Blend::Count)
     throw Error(ErrorKind::Usage,

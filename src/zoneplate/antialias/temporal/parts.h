@@ -41,20 +41,20 @@ struct TemporalParts {
   bool trusts_rest = false;
   float tolerance = 0.01f;  ///< of depths, relative
   Blend blend = Blend::Count;
-  float least_weight = 0.05f;  ///< of the current frame
+  float min_weight = 0.05f;  ///< of the current frame
   Weighting weighting = Weighting::None;
   bool is_compressed = false;        ///< c / (1 + max c) is averaged instead of the straight colour c
   bool keeps_current_alpha = false;  ///< alpha is that of the current frame
   bool has_kernel = false;           ///< the current colour is the mean of 3 × 3 colours with the weights `kernel`
   float kernel[9] = {};              ///< by row; their sum is 1
   /// The number of frames that the history counts as where a surface has left, or the light has changed by more than
-  /// `greatest_change`: what remains fades soon.
+  /// `max_change`: what remains fades soon.
   static constexpr float left_frames = 2;
-  static constexpr float relit_frames = 5;     ///< where the light has changed by less, which the history follows
-  static constexpr float greatest_change = 2;  ///< of the light, by which the history is scaled
-  static constexpr float unlimited = 65536;    ///< more frames do not count
-  static constexpr float known_frames = 3;     ///< in a history whose spread is that of its samples
-  static constexpr float fast = 128;           ///< pixels per frame
+  static constexpr float relit_frames = 5;   ///< where the light has changed by less, which the history follows
+  static constexpr float max_change = 2;     ///< of the light, by which the history is scaled
+  static constexpr float unlimited = 65536;  ///< more frames do not count
+  static constexpr float known_frames = 3;   ///< in a history whose spread is that of its samples
+  static constexpr float fast = 128;         ///< pixels per frame
 };
 
 }  // namespace zoneplate::antialias

@@ -18,14 +18,14 @@ template <class F>
 [[gnu::always_inline]] inline Rgba<F> change_of_light(const antialias::TemporalRow& row, const Neighborhood<F>& around,
                                                       const PastPixels<F>& past, std::ptrdiff_t i) {
   // A code of a dark colour, and the variance of 0.6 percent of a bright one.
-  const F least(0.0003f), least_noise(1e-6f), part_of_square(0.00004f), one(1.0f);
+  const F least(0.0003f), min_noise(1e-6f), part_of_square(0.00004f), one(1.0f);
   return past.with_colors(row.history, [&](const auto& color) {
     Rgba<F> now = Rgba<F>::all(F(0.0f)), then = now;
     for (int k = 0; k < 9; ++k) {
       const int dx = k % 3 - 1, dy = k / 3 - 1;
       const Rgba<F> old = color(dx, dy);
       const F luminance = luminance_of(old), noise = F::load(row.noise + i + dx + dy * row.stride);
-      const F weight = one / (noise + least_noise + part_of_square * (luminance * luminance));
+      const F weight = one / (noise + min_noise + part_of_square * (luminance * luminance));
       now = now + (around.color(k) + Rgba<F>::all(least)) * weight;
       then = then + (old + Rgba<F>::all(least)) * weight;
     }
@@ -44,7 +44,7 @@ struct Relit {
 template <class F>
 [[gnu::always_inline]] inline Relit<F> relit(const Rgba<F>& history, F lasting, const Rgba<F>& change) {
   using antialias::TemporalParts;
-  const F low(1 / TemporalParts::greatest_change), high(TemporalParts::greatest_change);
+  const F low(1 / TemporalParts::max_change), high(TemporalParts::max_change);
   const Rgba<F> bounded = min(max(change, Rgba<F>::all(low)), Rgba<F>::all(high));
   return {history * bounded, select(bounded == change, lasting, F(TemporalParts::left_frames))};
 }

@@ -22,7 +22,7 @@ constexpr const char* all_presets[] = {"best", "karis", "inside", "salvi", "thre
 
 std::string of_preset(const std::string& preset) { return "taa:preset=" + preset; }
 
-float greatest_difference(const LinearImage& a, const LinearImage& b) {
+float max_difference(const LinearImage& a, const LinearImage& b) {
   float most = 0;
   for (std::size_t i = 0; i < a.values().size(); ++i) {
     const Linear &p = a.values()[i], &q = b.values()[i];
@@ -103,9 +103,9 @@ TEST(Taa, WithoutRectificationAStillSceneIsTheWeightedMeanOfItsFrames) {
     };
     mean.values()[p] = color(sum), exponential.values()[p] = color(recursive);
   }
-  EXPECT_LT(greatest_difference(fixed, exponential), 1e-6f);
-  EXPECT_LT(greatest_difference(counted, mean), 1e-6f);
-  EXPECT_GT(greatest_difference(mean, single[0]), 0.1f);
+  EXPECT_LT(max_difference(fixed, exponential), 1e-6f);
+  EXPECT_LT(max_difference(counted, mean), 1e-6f);
+  EXPECT_GT(max_difference(mean, single[0]), 0.1f);
 }
 
 // An edge at rest under a light that is switched every twelve frames, as in the scene light-switch.

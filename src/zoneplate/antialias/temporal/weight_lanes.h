@@ -34,7 +34,7 @@ template <class F>
                                                    const Source<F>& source, const PastPixels<F>& nearest_past,
                                                    const Rgba<F>& current, const Rgba<F>& history, std::ptrdiff_t i) {
   using Blend = TemporalParts::Blend;
-  const F zero(0.0f), one(1.0f), least(parts.least_weight);
+  const F zero(0.0f), one(1.0f), least(parts.min_weight);
   switch (parts.blend) {
     case Blend::Fixed:
       return {least, one};
@@ -43,7 +43,7 @@ template <class F>
       return {max(one / frames, least), frames};
     }
     case Blend::Contrast: {
-      // INSIDE keeps 0.88 to 0.97 of the history: least_weight is 1 - 0.97.
+      // INSIDE keeps 0.88 to 0.97 of the history: min_weight is 1 - 0.97.
       const F a = luminance_of(current), b = luminance_of(history);
       const F likeness = one - abs(a - b) / max(a, max(b, F(0.2f)));
       return {F(0.12f) + (least - F(0.12f)) * (likeness * likeness), one};

@@ -69,7 +69,7 @@ constexpr const char* notes =
 /// The default reference is valid for all scenes, at a quarter of the cost of `converged`. `analytic` is exact for
 /// edges, but it shades each surface of a pixel once and tests alpha on a grid, so that textures, highlights and alpha
 /// tests are aliased as in the tested methods.
-constexpr const char* usual_reference = "converged:samples=256";
+constexpr const char* default_reference = "converged:samples=256";
 
 std::vector<metrics::Choice> metrics_of(const std::string& text, int frames) {
   std::vector<metrics::Choice> out;
@@ -142,7 +142,7 @@ Syntax compare_syntax(CompareArgs& args) {
 TrialOptions trial_options(const CompareArgs& args) {
   TrialOptions out{
       .methods = compared_methods(args.methods), .turns = args.turns, .metrics = metrics_of(args.metrics, args.frames)};
-  out.reference = args.reference.empty() ? usual_reference : args.reference;
+  out.reference = args.reference.empty() ? default_reference : args.reference;
   if (!args.layer.empty() && is_method(out.reference))
     throw Error(ErrorKind::Usage, "--layer: requires --reference with an EXR image");
   std::error_code ignored;

@@ -70,8 +70,8 @@ Config user_config() {
   const std::string path = config_path();
   std::error_code ignored;
   if (path.empty() || !std::filesystem::is_regular_file(path, ignored)) return {.path = path};
-  constexpr std::uint64_t most_bytes = 1 << 20;
-  const FileBytes file(path, most_bytes);
+  constexpr std::uint64_t max_bytes = 1 << 20;
+  const FileBytes file(path, max_bytes);
   return parse_config({reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()}, path);
 }
 

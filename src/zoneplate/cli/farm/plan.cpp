@@ -40,7 +40,7 @@ struct PlanArgs {
 };
 
 /// The most tasks of an array in Slurm's default configuration (MaxArraySize 1001).
-constexpr std::uint64_t most_shards = 1000;
+constexpr std::uint64_t max_shards = 1000;
 
 /// A folder that is removed with its contents.
 class TemporaryFolder {
@@ -192,7 +192,7 @@ Costs costs_of(const PlanArgs& plan, const RenderArgs& common, const Inputs& inp
   // More shards may have to read more models, and take longer.
   const auto shards_for = [&](double seconds) {
     return std::clamp<std::uint64_t>(static_cast<std::uint64_t>(seconds / plan.task_seconds), 1,
-                                     std::min(most_shards, out.items));
+                                     std::min(max_shards, out.items));
   };
   out.shards = plan.shards ? *plan.shards : shards_for(seconds_of(shards_for(seconds_of(1))));
   out.seconds = seconds_of(out.shards);
@@ -202,7 +202,7 @@ Costs costs_of(const PlanArgs& plan, const RenderArgs& common, const Inputs& inp
   out.bytes = static_cast<std::uint64_t>(scale * static_cast<double>(sample.bytes) +
                                          record_bytes * static_cast<double>(out.items));
   constexpr std::uint64_t own_bytes = std::uint64_t{64} << 20;  // of the process that writes, and of waiting results
-  out.memory = sample.peak * most_at_once(common.load.limits.memory) + own_bytes;
+  out.memory = sample.peak * max_at_once(common.load.limits.memory) + own_bytes;
   return out;
 }
 

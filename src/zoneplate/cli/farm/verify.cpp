@@ -193,9 +193,9 @@ class Verification {
       subjects.clear();
     };
     for_subjects([&](Subject& subject) {
-      constexpr std::size_t most_together = 256;
+      constexpr std::size_t max_together = 256;
       subjects.push_back(std::move(subject));
-      if (subjects.size() == most_together) examine_some();
+      if (subjects.size() == max_together) examine_some();
     });
     examine_some();
     return conclude(leftovers, out);

@@ -43,7 +43,7 @@ class Batch {
         took_(std::move(took)),
         size_(size),
         threads_(thread_limit()),
-        most_at_once_(most_at_once(common.load.limits.memory)),
+        max_at_once_(max_at_once(common.load.limits.memory)),
         progress_(common.progress ? *common.progress : parse_progress("auto")),
         prints_text_(::isatty(STDOUT_FILENO) == 1 && !common.prints_json) {}
 
@@ -84,15 +84,15 @@ class Batch {
     int threads = 1;  ///< of the process
 
     bool is_open(const RenderArgs& next) const {
-      if (items.front().error || next.input == "-" || items.size() >= most_together) return false;
+      if (items.front().error || next.input == "-" || items.size() >= max_together) return false;
       const RenderArgs& args = items.front().args;
       return model_key(next) == model_key(args) && next.max_seconds == args.max_seconds &&
              next.is_sandboxed == args.is_sandboxed && can_be_ahead(next) == is_ahead;
     }
     bool is_working() const { return process && process->is_working(); }
   };
-  static constexpr std::size_t most_together = 64;  // limits the delay of results in a long batch
-  static constexpr std::size_t most_waiting = 8;    // groups for each that is processed, while the first one takes long
+  static constexpr std::size_t max_together = 64;  // limits the delay of results in a long batch
+  static constexpr std::size_t max_waiting = 8;    // groups for each that is processed, while the first one takes long
 
   // Whether an item's result may wait in memory. A sequence may be too large for that; and a process whose results are
   // not yet read may come to a stop, which a limit of time would count.
@@ -101,7 +101,7 @@ class Batch {
   }
 
   Group& add_group() {
-    while (groups_.size() >= most_waiting * most_at_once_) report_first();
+    while (groups_.size() >= max_waiting * max_at_once_) report_first();
     return groups_.emplace_back();
   }
 
@@ -113,7 +113,7 @@ class Batch {
       if (item.is_rendered) to_render.push_back(item.args);
     }
     if (to_render.empty()) return;
-    group.threads = threads_ / static_cast<int>(std::min(most_at_once_, groups_.size()));
+    group.threads = threads_ / static_cast<int>(std::min(max_at_once_, groups_.size()));
     group.process.emplace(std::move(to_render), RunEvents{.warn = say_warning}, &processes_, ledger_);
     with_threads(group.threads, [&] { group.process->start_ahead(); });
   }
@@ -124,7 +124,7 @@ class Batch {
     for (const Group& group : groups_) working += group.is_working() ? 1 : 0;
     for (Group& group : groups_) {
       const bool is_first = &group == &groups_.front();
-      if (group.is_started || (!is_first && (working >= most_at_once_ || !group.is_ahead))) continue;
+      if (group.is_started || (!is_first && (working >= max_at_once_ || !group.is_ahead))) continue;
       start(group);
       working += group.is_working() ? 1 : 0;
     }
@@ -277,7 +277,7 @@ class Batch {
   const BatchResult took_;
   const std::uint64_t size_;
   const int threads_;
-  const std::size_t most_at_once_;
+  const std::size_t max_at_once_;
   Progress progress_;
   const bool prints_text_;
   LimitedChildren processes_{[this] { start_some(); }};
@@ -324,7 +324,7 @@ RenderArgs prepared(RenderArgs args) {
 
 }  // namespace
 
-std::size_t most_at_once(std::uint64_t memory_limit) {
+std::size_t max_at_once(std::uint64_t memory_limit) {
   const std::uint64_t fit = machine_memory() / std::max<std::uint64_t>(memory_limit, 1);
   return static_cast<std::size_t>(std::clamp<std::uint64_t>(fit, 1, static_cast<std::uint64_t>(thread_limit())));
 }

@@ -24,7 +24,7 @@ void render_batch(const RenderArgs& args);
 
 /// How many models are processed at once: as many as there are threads, if their memory limits together do not exceed
 /// the machine's memory.
-std::size_t most_at_once(std::uint64_t memory_limit);
+std::size_t max_at_once(std::uint64_t memory_limit);
 
 /// Takes the result of an item.
 using BatchResult = std::function<void(const RenderArgs& args, const Summary& summary)>;

@@ -84,9 +84,9 @@ class BatchItems::Jobs {
 
 BatchItems::BatchItems(RenderArgs common)
     : inputs_(std::exchange(common.inputs, {})), common_(std::move(common)), jobs_(std::make_unique<Jobs>(common_)) {
-  constexpr std::uint64_t most_bytes = std::uint64_t{1} << 30;
+  constexpr std::uint64_t max_bytes = std::uint64_t{1} << 30;
   if (!common_.manifest.empty())
-    manifest_.emplace(common_.manifest, std::min(most_bytes, common_.load.limits.memory / 2));
+    manifest_.emplace(common_.manifest, std::min(max_bytes, common_.load.limits.memory / 2));
 }
 
 BatchItems::~BatchItems() = default;

@@ -8,13 +8,13 @@
 namespace zoneplate::cli {
 namespace {
 
-constexpr int most_side = 32768;
+constexpr int max_side = 32768;
 
 }  // namespace
 
 std::vector<Option> shape_scene_options(ShapeSceneOptions& args) {
   return {{"--size", "WxH", "Size of the image; the scene is scaled to fit and centred", "Options", true,
-           [&](auto& text) { args.size = parse_size(text, most_side); }},
+           [&](auto& text) { args.size = parse_size(text, max_side); }},
           {"--scale", "S", "Pixels per unit of the scene; default 1", "Options", true,
            [&](auto& text) { args.scale = parse_number(text, 1e-3, 1e3); }},
           {"--font", "FILE", "TrueType or OpenType font of `text`; default DejaVu Sans", "Options", false,

@@ -9,7 +9,7 @@
 namespace zoneplate::cli {
 namespace {
 
-constexpr int greatest_width = 999;
+constexpr int max_width = 999;
 
 Syntax make_syntax(BoxOptions& args) {
   Syntax syntax{
@@ -25,7 +25,7 @@ Syntax make_syntax(BoxOptions& args) {
           "and first zero is always 1. Between the zeros are side lobes; where the response is negative, light\n"
           "and dark are exchanged.\n"};
   syntax.options = {{"--widths", "W,...", "Widths in pixels; default 3,7,15", "Options", true,
-                     [&](auto& text) { args.widths = parse_whole_list(text, 1, greatest_width); }}};
+                     [&](auto& text) { args.widths = parse_whole_list(text, 1, max_width); }}};
   for (Option& option : output_options(args, "The plots to write: a .svg or .png file, or - for PNG on stdout"))
     syntax.options.push_back(std::move(option));
   return syntax;

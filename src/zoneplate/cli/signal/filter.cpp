@@ -14,14 +14,14 @@ namespace {
 using Pass = FrequencyFilter::Pass;
 
 // The lowest cut-off frequency, and a highest one slightly above the corner of the spectrum.
-constexpr double least_cut = 1e-6, greatest_cut = 1;
+constexpr double min_cut = 1e-6, max_cut = 1;
 
 struct FilterArgs : FrequencyFilterOptions {
   int passes_given = 0;
 };
 
 void set_single(FilterArgs& args, Pass pass, const std::string& text) {
-  const double f = parse_number(text, least_cut, greatest_cut);
+  const double f = parse_number(text, min_cut, max_cut);
   args.filter.pass = pass;
   args.filter.low = args.filter.high = f;
   ++args.passes_given;
@@ -30,8 +30,8 @@ void set_single(FilterArgs& args, Pass pass, const std::string& text) {
 void set_band(FilterArgs& args, Pass pass, const std::string& text) {
   const std::size_t colon = text.find(':');
   if (colon == std::string::npos) throw Error(ErrorKind::Usage, fmt::format("'{}' is not a band LOW:HIGH", text));
-  args.filter.low = parse_number(text.substr(0, colon), least_cut, greatest_cut);
-  args.filter.high = parse_number(text.substr(colon + 1), least_cut, greatest_cut);
+  args.filter.low = parse_number(text.substr(0, colon), min_cut, max_cut);
+  args.filter.high = parse_number(text.substr(colon + 1), min_cut, max_cut);
   if (!(args.filter.low < args.filter.high))
     throw Error(ErrorKind::Usage, fmt::format("'{}': the lower frequency comes first", text));
   args.filter.pass = pass;

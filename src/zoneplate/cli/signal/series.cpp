@@ -8,7 +8,7 @@
 namespace zoneplate::cli {
 namespace {
 
-constexpr int greatest_term = 9999;
+constexpr int max_term = 9999;
 
 Syntax make_syntax(SeriesOptions& args) {
   Syntax syntax{
@@ -25,7 +25,7 @@ Syntax make_syntax(SeriesOptions& args) {
           "8.949 % of the jump in the limit (Gibbs phenomenon). The triangle is continuous: its amplitudes fall\n"
           "as 1/n², without overshoot. An edge in an image is such a discontinuity: it is not band-limited.\n"};
   syntax.options = {{"--terms", "N,...", "Highest harmonic of each sum; default 1,3,5,15", "Options", true,
-                     [&](auto& text) { args.terms = parse_whole_list(text, 1, greatest_term); }}};
+                     [&](auto& text) { args.terms = parse_whole_list(text, 1, max_term); }}};
   for (Option& option : output_options(args, "The plot to write: a .svg or .png file, or - for PNG on stdout"))
     syntax.options.push_back(std::move(option));
   return syntax;

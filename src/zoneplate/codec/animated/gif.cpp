@@ -47,14 +47,14 @@ class BlockWalk {
  public:
   explicit BlockWalk(View bytes) : bytes_(bytes) {}
 
-  Blocks walk(std::size_t most_frames) {
+  Blocks walk(std::size_t max_frames) {
     if (bytes_.size() < header_bytes) return cut_off();
     out_.screen = {number(6), number(8)};
     at_ = header_bytes;
     const View colors = color_table(bytes_[10]);
     if (is_cut_off_) return cut_off();
     Frame next;
-    while (at_ < bytes_.size() && out_.frames.size() < most_frames) {
+    while (at_ < bytes_.size() && out_.frames.size() < max_frames) {
       check_deadline();
       constexpr std::uint8_t extension = 0x21, image = 0x2c, trailer = 0x3b;
       const std::uint8_t kind = bytes_[at_];
@@ -314,9 +314,9 @@ class GifReader final : public AnimationReader {
 constexpr std::size_t all = ~std::size_t{0};
 
 std::unique_ptr<AnimationReader> open_frames(View bytes, const std::string& name, std::uint64_t max_pixels,
-                                             std::size_t most_frames) {
+                                             std::size_t max_frames) {
   if (!is_gif(bytes)) throw Error(ErrorKind::Input, name + ": not a GIF file");
-  Blocks blocks = BlockWalk(bytes).walk(most_frames);
+  Blocks blocks = BlockWalk(bytes).walk(max_frames);
   if (!blocks.flaw.empty()) throw Error(ErrorKind::Input, name + ": GIF: " + blocks.flaw);
   return std::make_unique<GifReader>(bytes, name, max_pixels, std::move(blocks));
 }

@@ -66,7 +66,7 @@ class Decoder {
     if (header_.has_masks()) read_masks();
     if (header_.pixels_at > bytes_.size()) fail("truncated");
     pixels_ = bytes_.subspan(header_.pixels_at);
-    if (!header_.is_run_length() && pixels_.size() < least_bytes()) fail("truncated");
+    if (!header_.is_run_length() && pixels_.size() < min_bytes()) fail("truncated");
     Rgba8Image image(header_.width, header_.height, header_.has_palette() ? color(0) : Rgba8{0, 0, 0, 255});
     if (header_.is_run_length())
       read_runs(image);
@@ -92,7 +92,7 @@ class Decoder {
   }
 
   /// Bytes of all rows; the last one may lack its padding.
-  std::uint64_t least_bytes() const {
+  std::uint64_t min_bytes() const {
     return header_.stride() * static_cast<std::uint64_t>(header_.height - 1) +
            (static_cast<std::uint64_t>(header_.width) * header_.bits + 7) / 8;
   }

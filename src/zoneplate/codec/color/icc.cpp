@@ -172,8 +172,8 @@ std::string code_at(ByteSpan profile, std::size_t at) {
 
 void check_header(ByteSpan profile, bool is_grey) {
   if (icc_pixels(profile).empty()) fail("has no header");
-  if (profile.size() > most_icc_bytes)
-    fail(fmt::format("has {} bytes, at most {} are read", profile.size(), most_icc_bytes));
+  if (profile.size() > max_icc_bytes)
+    fail(fmt::format("has {} bytes, at most {} are read", profile.size(), max_icc_bytes));
   const std::size_t stated =
       std::size_t{profile[0]} << 24 | std::size_t{profile[1]} << 16 | std::size_t{profile[2]} << 8 | profile[3];
   if (stated > profile.size()) fail(fmt::format("is cut off: it states {} bytes and has {}", stated, profile.size()));

@@ -10,7 +10,7 @@
 namespace zoneplate {
 
 /// The size that an ICC profile may have; those of printers have some hundred KiB.
-inline constexpr std::size_t most_icc_bytes = std::size_t{4} << 20;
+inline constexpr std::size_t max_icc_bytes = std::size_t{4} << 20;
 
 /// The colour space of pixels that an ICC profile states by its header: "RGB ", "GRAY", "CMYK"; empty if the bytes are
 /// no header.

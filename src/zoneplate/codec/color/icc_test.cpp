@@ -84,7 +84,7 @@ TEST_F(Icc, RefusalsNameTheCause) {
   EXPECT_EQ(refusal(icc_of({}, {{"desc", icc_text("")}})), "has no sound curve of red");
   EXPECT_EQ(refusal(icc_of_primaries({}, icc_srgb_curve(), "")), "has primaries that span no triangle");
   IccBytes huge = p3;
-  huge.resize(most_icc_bytes + 1);
+  huge.resize(max_icc_bytes + 1);
   EXPECT_EQ(refusal(huge), "has 4194305 bytes, at most 4194304 are read");
 }
 

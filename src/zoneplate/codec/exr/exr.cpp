@@ -71,8 +71,8 @@ ExrPlan plan_of(std::span<const std::uint8_t> bytes, const std::string& name, st
       throw failure(name, std::to_string(window.width()) + " x " + std::to_string(window.height()) +
                               " pixels, at most " + std::to_string(max_pixels) + " are allowed");
   // The format counts the bytes of a chunk in 32 bits.
-  constexpr std::uint64_t most_chunk = std::uint64_t{1} << 31;
-  if (const std::uint64_t chunk = exr_chunk_bytes(plan.part); chunk >= most_chunk)
+  constexpr std::uint64_t max_chunk = std::uint64_t{1} << 31;
+  if (const std::uint64_t chunk = exr_chunk_bytes(plan.part); chunk >= max_chunk)
     throw failure(name, "packs " + std::to_string(chunk >> 20) + " MB together, at most 2047 are read");
   return plan;
 }
@@ -185,9 +185,9 @@ std::vector<Plane<float>> decode_exr_channels(std::span<const std::uint8_t> byte
 std::vector<Plane<std::uint32_t>> decode_exr_bits(std::span<const std::uint8_t> bytes, const std::string& name,
                                                   int part, std::span<const std::string> channels,
                                                   const std::optional<ExrWindow>& window) {
-  constexpr std::uint64_t most_pixels = std::uint64_t{1} << 28;
+  constexpr std::uint64_t max_pixels = std::uint64_t{1} << 28;
   return decode_planes<std::uint32_t>(
-      bytes, name, most_pixels,
+      bytes, name, max_pixels,
       {.part = part, .names = {channels.begin(), channels.end()}, .values = ExrValues::Bits, .window = window});
 }
 
@@ -200,11 +200,11 @@ std::vector<Plane<std::uint32_t>> decode_exr_stored(std::span<const std::uint8_t
 }
 
 std::int64_t exr_band_rows(const ExrPart& part, std::size_t channels) {
-  constexpr std::uint64_t most_bytes = std::uint64_t{64} << 20;
+  constexpr std::uint64_t max_bytes = std::uint64_t{64} << 20;
   constexpr std::int64_t zip_rows = 16;
   const std::int64_t step = (exr_chunk_rows(part) + zip_rows - 1) / zip_rows * zip_rows;
   const std::uint64_t row_bytes = sizeof(std::uint32_t) * static_cast<std::uint64_t>(part.data.width()) * channels;
-  const auto rows = static_cast<std::int64_t>(most_bytes / row_bytes);
+  const auto rows = static_cast<std::int64_t>(max_bytes / row_bytes);
   return std::max(step, rows - rows % step);
 }
 

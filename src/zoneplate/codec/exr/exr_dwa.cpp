@@ -111,10 +111,10 @@ class HuffmanCode {
  public:
   /// `lengths` of the symbols from `first` on; 0: a symbol does not occur.
   HuffmanCode(std::uint32_t first, std::span<const std::uint8_t> lengths) {
-    std::array<std::uint64_t, most_length + 1> counts{};
+    std::array<std::uint64_t, max_length + 1> counts{};
     for (const std::uint8_t length : lengths) ++counts[length];
     std::uint64_t code = 0;
-    for (std::size_t l = most_length; l > 0; --l) {
+    for (std::size_t l = max_length; l > 0; --l) {
       first_[l] = code;
       if (code + counts[l] > std::uint64_t{1} << l) throw Damaged();
       code = (code + counts[l]) >> 1;
@@ -125,7 +125,7 @@ class HuffmanCode {
 
   std::uint32_t read(BitReader& bits) const {
     std::uint64_t code = 0;
-    for (std::size_t l = 1; l <= most_length; ++l) {
+    for (std::size_t l = 1; l <= max_length; ++l) {
       code = code << 1 | bits.read(1);
       if (code >= first_[l] && code - first_[l] < symbols_[l].size())
         return symbols_[l][static_cast<std::size_t>(code - first_[l])];
@@ -133,11 +133,11 @@ class HuffmanCode {
     throw Damaged();
   }
 
-  static constexpr std::size_t most_length = 58;
+  static constexpr std::size_t max_length = 58;
 
  private:
-  std::array<std::uint64_t, most_length + 1> first_{};
-  std::array<std::vector<std::uint32_t>, most_length + 1> symbols_;
+  std::array<std::uint64_t, max_length + 1> first_{};
+  std::array<std::vector<std::uint32_t>, max_length + 1> symbols_;
 };
 
 /// Lengths of 6 bits; 59 to 62 are 2 to 5 zeros, 63 is 6 zeros and as many as 8 bits state.
@@ -145,9 +145,9 @@ std::vector<std::uint8_t> code_lengths(BitReader& bits, std::size_t count) {
   std::vector<std::uint8_t> out;
   while (out.size() < count) {
     const auto length = static_cast<std::size_t>(bits.read(6));
-    const std::size_t zeros = length == 63                        ? 6 + static_cast<std::size_t>(bits.read(8))
-                              : length > HuffmanCode::most_length ? length - 57
-                                                                  : 0;
+    const std::size_t zeros = length == 63                       ? 6 + static_cast<std::size_t>(bits.read(8))
+                              : length > HuffmanCode::max_length ? length - 57
+                                                                 : 0;
     if (zeros > count - out.size()) throw Damaged();
     if (zeros > 0)
       out.insert(out.end(), zeros, std::uint8_t{0});
@@ -339,16 +339,16 @@ class DwaChunk {
     const ExrBytes deflated_bytes = take(packed, deflated_packed), others_bytes = take(packed, others_packed),
                    first_bytes = take(packed, first_packed), runs_bytes = take(packed, runs_packed);
     // No more than all samples as a scheme stores them.
-    std::uint64_t most_blocks = 0;
+    std::uint64_t max_blocks = 0;
     for (const DwaChannel& c : channels_)
-      most_blocks +=
+      max_blocks +=
           static_cast<std::uint64_t>(blocks_along(c.width)) * static_cast<std::uint64_t>(blocks_along(c.height));
-    if (others > 63 * most_blocks || first > most_blocks || runs_size > out_.size()) throw Damaged();
+    if (others > 63 * max_blocks || first > max_blocks || runs_size > out_.size()) throw Damaged();
     Streams streams;
     streams.deflated = inflated(deflated_bytes, deflated_packed == 0 ? 0 : deflated_size, out_.size());
     streams.others = others_packing == 0 ? decode_huffman(others_bytes, others_packed == 0 ? 0 : others)
-                                         : halves_of(inflated(others_bytes, 2 * others, 126 * most_blocks));
-    streams.first = halves_of(without_predictor(inflated(first_bytes, 2 * first, 2 * most_blocks)));
+                                         : halves_of(inflated(others_bytes, 2 * others, 126 * max_blocks));
+    streams.first = halves_of(without_predictor(inflated(first_bytes, 2 * first, 2 * max_blocks)));
     if (runs_size > 0)
       streams.runs = without_runs(inflated(runs_bytes, runs_deflated, 2 * std::uint64_t{out_.size()}), runs_size);
     for (const std::array<std::size_t, 3>& colors : colors_) unpack_lossy(colors, streams);

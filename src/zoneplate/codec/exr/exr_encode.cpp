@@ -155,11 +155,11 @@ Bytes prepared(const Bytes& raw) {
 
 /// A compressed block: the deflated bytes, or the raw bytes if deflating does not shorten them.
 Bytes packed(Bytes raw) {
-  constexpr std::size_t most_part = std::size_t{1} << 24;
+  constexpr std::size_t max_part = std::size_t{1} << 24;
   const Bytes data = prepared(raw);
   Bytes out = {0x78, 0x01};
-  for (std::size_t at = 0; at < data.size(); at += most_part) {
-    const std::size_t n = std::min(most_part, data.size() - at);
+  for (std::size_t at = 0; at < data.size(); at += max_part) {
+    const std::size_t n = std::min(max_part, data.size() - at);
     deflate_part(std::span(data).subspan(at, n), at + n == data.size(), out);
   }
   const std::uint32_t sum = PngRowKernels::of().adler(data.data(), data.size());
@@ -195,10 +195,10 @@ ExrPartHeader exr_part_header(const ExrPartImage& part, const std::string& name)
   out.chunks = (lines + block_lines - 1) / block_lines;
   out.bytes = header_of(part, name, out.chunks);
   out.has_long_names =
-      std::ranges::any_of(part.channels, [](const ExrChannel& c) { return c.name.size() > most_short_exr_name; }) ||
+      std::ranges::any_of(part.channels, [](const ExrChannel& c) { return c.name.size() > max_short_exr_name; }) ||
       std::ranges::any_of(part.attributes, [](const auto& a) {
         const auto* const stored = std::get_if<ExrStoredValue>(&a.second);
-        return a.first.size() > most_short_exr_name || (stored && stored->type.size() > most_short_exr_name);
+        return a.first.size() > max_short_exr_name || (stored && stored->type.size() > max_short_exr_name);
       });
   return out;
 }

@@ -23,8 +23,8 @@ struct ExrWindow {
   std::int64_t width() const { return std::int64_t{right} - left + 1; }
   std::int64_t height() const { return std::int64_t{bottom} - top + 1; }
   bool is_sound() const {
-    constexpr std::int64_t most_side = 1 << 24;
-    return width() > 0 && height() > 0 && width() <= most_side && height() <= most_side;
+    constexpr std::int64_t max_side = 1 << 24;
+    return width() > 0 && height() > 0 && width() <= max_side && height() <= max_side;
   }
   std::uint64_t pixels() const { return static_cast<std::uint64_t>(width()) * static_cast<std::uint64_t>(height()); }
 };
@@ -89,7 +89,7 @@ struct ExrPartImage {
 };
 
 /// Longer names need a bit of the version.
-inline constexpr std::size_t most_short_exr_name = 31;
+inline constexpr std::size_t max_short_exr_name = 31;
 
 /// The header of a part, and what a file states about it.
 struct ExrPartHeader {

@@ -102,8 +102,8 @@ class LayerChannels {
       const auto channel = std::ranges::find(part_.channels, name, &ExrPartChannel::name);
       are_halves = are_halves && channel != part_.channels.end() && channel->type == ExrType::Half;
     }
-    constexpr float greatest_half = 65504;
-    const auto fits = [&](const Linear& c) { return !(std::abs(c.*slots[slot]) > greatest_half); };
+    constexpr float max_half = 65504;
+    const auto fits = [&](const Linear& c) { return !(std::abs(c.*slots[slot]) > max_half); };
     return are_halves && std::ranges::all_of(image_.values(), fits) ? ExrType::Half : ExrType::Float;
   }
 
@@ -148,7 +148,7 @@ class PackedPart {
     ExrPartHeader out{.bytes = {part_.header.begin(), part_.header.end()},
                       .chunks = chunk_count().value_or(0),
                       .is_deep = part_.is_deep};
-    const auto is_long = [](std::string_view name) { return name.size() > most_short_exr_name; };
+    const auto is_long = [](std::string_view name) { return name.size() > max_short_exr_name; };
     out.has_long_names =
         std::ranges::any_of(part_.attributes, [&](const auto& a) { return is_long(a.name) || is_long(a.type); }) ||
         std::ranges::any_of(part_.channels, [&](const ExrPartChannel& c) { return is_long(c.name); });

@@ -199,14 +199,14 @@ TEST(Exr, AClaimOfManyPixelsTakesNoMemory) {
     std::memcpy(&*(at + static_cast<std::ptrdiff_t>(name.size()) + 1 + 6 + 4), window, sizeof window);
   }
   bytes.resize(bytes.size() + (1 << 17));  // space for the table of chunk offsets
-  const auto most_of_children = [] {
+  const auto max_of_children = [] {
     rusage usage{};
     ::getrusage(RUSAGE_CHILDREN, &usage);
     return usage.ru_maxrss;  // KiB
   };
-  const long before = most_of_children();
+  const long before = max_of_children();
   EXPECT_TRUE(error_of(bytes, 1 << 28).starts_with("a.exr: EXR: is corrupt"));
-  EXPECT_LT(most_of_children() - before, 200 << 10);
+  EXPECT_LT(max_of_children() - before, 200 << 10);
 }
 
 TEST(Exr, DamageEndsInOneLine) {

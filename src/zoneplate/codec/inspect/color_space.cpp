@@ -75,14 +75,14 @@ void inflate_profile(ByteSpan chunk, FileColor& out) {
     return;
   }
   const ByteSpan packed = chunk.subspan(static_cast<std::size_t>(name_end - chunk.begin()) + 2);
-  uLongf size = most_icc_bytes;
+  uLongf size = max_icc_bytes;
   out.profile.icc.resize(size);
   const int result = uncompress(out.profile.icc.data(), &size, packed.data(), static_cast<uLong>(packed.size()));
   if (result == Z_OK) return out.profile.icc.resize(size);
   // Of a profile that is damaged or too large, the packed bytes are compared.
   out.profile.icc.assign(packed.begin(), packed.end());
-  out.profile_flaw = result == Z_BUF_ERROR && size == most_icc_bytes
-                         ? fmt::format("has more than {} bytes, which are not read", most_icc_bytes)
+  out.profile_flaw = result == Z_BUF_ERROR && size == max_icc_bytes
+                         ? fmt::format("has more than {} bytes, which are not read", max_icc_bytes)
                          : "is damaged: its packed bytes are no whole zlib stream";
 }
 

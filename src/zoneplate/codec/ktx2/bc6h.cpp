@@ -12,11 +12,11 @@ namespace zoneplate::ktx2 {
 namespace {
 
 constexpr unsigned channels = 3, endpoints = 4, value_bits = 16;
-constexpr std::size_t most_layout_bits = 75;  // of the endpoints of a block
+constexpr std::size_t max_layout_bits = 75;  // of the endpoints of a block
 
 /// Which bit of which endpoint the bits after the mode are, in their order: 16 × (3 × endpoint + channel) + bit.
 struct Layout {
-  std::array<std::uint8_t, most_layout_bits> place{};
+  std::array<std::uint8_t, max_layout_bits> place{};
   std::size_t count = 0;
 };
 

@@ -9,7 +9,7 @@
 namespace zoneplate::ktx2 {
 namespace {
 
-constexpr std::size_t most_length_codes = 21;
+constexpr std::size_t max_length_codes = 21;
 
 }  // namespace
 
@@ -30,12 +30,12 @@ HuffmanCode::HuffmanCode(std::span<const std::uint8_t> lengths, const Place& pla
 /// The lengths are symbols of a Huffman code of their own: 0 to 16, runs of zeros (17, 18) and of the length before
 /// (19, 20).
 HuffmanCode::HuffmanCode(BitReader& bits) {
-  static constexpr std::uint8_t order[most_length_codes] = {17, 18, 19, 20, 0,  8, 7,  9, 6,  10, 5,
-                                                            11, 4,  12, 3,  13, 2, 14, 1, 15, 16};
+  static constexpr std::uint8_t order[max_length_codes] = {17, 18, 19, 20, 0,  8, 7,  9, 6,  10, 5,
+                                                           11, 4,  12, 3,  13, 2, 14, 1, 15, 16};
   const std::size_t count = bits.take(14), codes = bits.take(5);
   if (count == 0) return;  // a code that is not used
-  if (codes < 1 || codes > most_length_codes) bits.place().fail("a Huffman code has no lengths");
-  std::array<std::uint8_t, most_length_codes> sizes{};
+  if (codes < 1 || codes > max_length_codes) bits.place().fail("a Huffman code has no lengths");
+  std::array<std::uint8_t, max_length_codes> sizes{};
   for (std::size_t i = 0; i < codes; ++i) sizes[order[i]] = static_cast<std::uint8_t>(bits.take(3));
   const HuffmanCode of_lengths(sizes, bits.place());
 
@@ -173,7 +173,7 @@ class SliceReader {
   }
 
  private:
-  static constexpr std::uint32_t repeat_prediction = 256, least_prediction_run = 3, least_selector_run = 3;
+  static constexpr std::uint32_t repeat_prediction = 256, min_prediction_run = 3, min_selector_run = 3;
   static constexpr std::uint32_t long_selector_run = 63;
 
   /// How the endpoints of 2 × 2 blocks are predicted: two bits for each block, those of the lower row are kept.
@@ -185,7 +185,7 @@ class SliceReader {
     const std::uint32_t symbol = globals_.endpoint_prediction.decode(bits_);
     if (symbol > repeat_prediction) bits_.place().fail("a prediction is unknown");
     if (symbol == repeat_prediction)
-      prediction_run_ = take_groups(bits_, 4) + least_prediction_run - 1;
+      prediction_run_ = take_groups(bits_, 4) + min_prediction_run - 1;
     else
       last_predictions_ = symbol;
     return last_predictions_;
@@ -221,7 +221,7 @@ class SliceReader {
       symbol = globals_.selector.decode(bits_);
       if (symbol == count + globals_.history_size) {
         const std::uint32_t run = globals_.selector_run.decode(bits_);
-        selector_run_ = (run == long_selector_run ? take_groups(bits_, 7) : run) + least_selector_run - 1;
+        selector_run_ = (run == long_selector_run ? take_groups(bits_, 7) : run) + min_selector_run - 1;
         symbol = count;
       }
     }

@@ -89,7 +89,7 @@ StoredImage decode_in_child(const std::string& place, Library library, std::uint
   Header header;
   child.read(&header, sizeof header);
   const bool is_sound =
-      header.width > 0 && header.height > 0 && header.kind < 3 && header.profile_bytes <= most_icc_bytes &&
+      header.width > 0 && header.height > 0 && header.kind < 3 && header.profile_bytes <= max_icc_bytes &&
       static_cast<std::uint64_t>(header.width) * static_cast<std::uint64_t>(header.height) <= max_pixels;
   if (!is_sound) throw Error(ErrorKind::Input, place + ": its reader gave a wrong answer");
   StoredImage image{.pixels = {}, .orientation = header.orientation};

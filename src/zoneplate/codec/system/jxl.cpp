@@ -138,8 +138,8 @@ class JxlReader {
     std::size_t size = 0;
     constexpr auto codes = JXL_COLOR_PROFILE_TARGET_DATA;
     if (library_.icc_size(decoder_.get(), nullptr, codes, &size) != JXL_DEC_SUCCESS) return;
-    if (size > most_icc_bytes)
-      fail(fmt::format("its ICC profile has {} bytes, at most {} are read", size, most_icc_bytes));
+    if (size > max_icc_bytes)
+      fail(fmt::format("its ICC profile has {} bytes, at most {} are read", size, max_icc_bytes));
     profile_.resize(size);
     check(library_.icc(decoder_.get(), nullptr, codes, profile_.data(), size));
   }

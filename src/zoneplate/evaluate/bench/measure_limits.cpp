@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t frame_bytes = std::size_t{1920} * 1080 * 8;
 
-double least_ms(int turns, const std::function<void()>& work) {
+double min_ms(int turns, const std::function<void()>& work) {
   double least = std::numeric_limits<double>::max();
   for (int i = 0; i < turns; ++i) {
     const Stopwatch watch;
@@ -36,7 +36,7 @@ double gather_ns(std::size_t table_bytes, const std::uint32_t* table) {
     index[i] = static_cast<std::int32_t>(hash(i) % static_cast<std::uint32_t>(table_bytes / 4));
   const LimitKernels& kernels = LimitKernels::of();
   volatile std::uint32_t result = 0;
-  return least_ms(15, [&] { result = kernels.gather(table, index.data(), indices); }) * 1e6 / (indices / 8);
+  return min_ms(15, [&] { result = kernels.gather(table, index.data(), indices); }) * 1e6 / (indices / 8);
 }
 
 }  // namespace
@@ -53,16 +53,15 @@ MachineLimits measure_limits() {
     return [&, each, work] { parallel_for(threads, [&](std::size_t t) { work(bytes + t * each); }); };
   };
   const double gigabytes = static_cast<double>(share * threads) * 1e-9;
-  out.write_gb_s = gigabytes / least_ms(5, on_all(share, [&](std::byte* p) { std::memset(p, 1, share); })) * 1e3;
+  out.write_gb_s = gigabytes / min_ms(5, on_all(share, [&](std::byte* p) { std::memset(p, 1, share); })) * 1e3;
   std::atomic<std::uint32_t> result = 0;  // sum over all threads, so that no load is optimized away
   const LimitKernels& kernels = LimitKernels::of();
-  out.read_gb_s = gigabytes * 1e3 / least_ms(5, on_all(share, [&](std::byte* p) {
-                                               result =
-                                                   kernels.sum(reinterpret_cast<const std::uint32_t*>(p), share / 4);
-                                             }));
+  out.read_gb_s = gigabytes * 1e3 / min_ms(5, on_all(share, [&](std::byte* p) {
+                                             result = kernels.sum(reinterpret_cast<const std::uint32_t*>(p), share / 4);
+                                           }));
   const std::size_t part = frame_bytes / threads / 128 * 128;
-  out.clear_ms = least_ms(31, on_all(part, [&](std::byte* p) { std::memset(p, 0, part); }));
-  out.first_touch_ms = least_ms(3, [&] {
+  out.clear_ms = min_ms(31, on_all(part, [&](std::byte* p) { std::memset(p, 0, part); }));
+  out.first_touch_ms = min_ms(3, [&] {
     // Newly allocated memory each time, with pages of default size.
     const std::vector<char> fresh(frame_bytes, 1);
     result = static_cast<std::uint32_t>(fresh.back());

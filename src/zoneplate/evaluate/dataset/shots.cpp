@@ -16,7 +16,7 @@ class NearestOfSixteen : public Resolver {
 };
 
 /// The distance that a quarter of a view's surfaces do not reach; 1 without surfaces.
-float usual_distance(const SceneView& view, float aspect) {
+float typical_distance(const SceneView& view, float aspect) {
   RenderSettings settings{.form = ImageForm::Linear};
   settings.options.width = 64, settings.options.height = 36, settings.options.aspect = aspect;
   settings.planes.depth = true;
@@ -43,7 +43,7 @@ Shots::Shots(const DatasetSequence& sequence, SceneSource& source)
   View view{.up = first.up};
   if (!first.cameras.empty()) view.index = 0;
   frames_.set_view(view, sequence.aspect());
-  distance_ = usual_distance(frames_.view(0), sequence.aspect());
+  distance_ = typical_distance(frames_.view(0), sequence.aspect());
 }
 
 SceneView Shots::view(int frame) {

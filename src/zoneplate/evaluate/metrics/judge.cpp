@@ -244,7 +244,7 @@ class Judge {
   /// The error map is that of FLIP, or else of the first metric that has one.
   void keep_evidence(const std::optional<Picture>& reference, const std::optional<Picture>& test,
                      const std::vector<Result>& results, Evidence& out) {
-    if (evidence_bytes_ >= most_evidence_bytes) {
+    if (evidence_bytes_ >= max_evidence_bytes) {
       out.is_left_out = true;
       return;
     }
@@ -315,7 +315,7 @@ class Judge {
     }
   }
 
-  static constexpr std::size_t most_evidence_bytes = std::size_t{256} << 20;  // browsers open no page of 512 MiB
+  static constexpr std::size_t max_evidence_bytes = std::size_t{256} << 20;  // browsers open no page of 512 MiB
 
   const metrics::PictureSet &reference_, &test_;
   std::vector<Choice> singles_, sequences_;

@@ -379,9 +379,9 @@ void ModelParser3mf::add_composite(const XmlElement& element) {
 void ModelParser3mf::begin_multi(const XmlElement& element) {
   begin_group(element, GroupKind::Multi);
   layers_.clear(), multiplies_.clear();
-  constexpr std::size_t most_layers = 64;
+  constexpr std::size_t max_layers = 64;
   for (const std::string_view word : words_of(element.find("pids").value_or("")))
-    if (layers_.size() < most_layers) layers_.push_back(index_of(word));
+    if (layers_.size() < max_layers) layers_.push_back(index_of(word));
   for (const std::string_view word : words_of(element.find("blendmethods").value_or("")))
     multiplies_.push_back(word == "multiply");
   multiplies_.resize(layers_.size());

@@ -18,7 +18,7 @@ namespace {
 using namespace model_3mf;
 
 constexpr std::uint32_t colors_group = 0, materials_group = 1;
-constexpr std::size_t most_text = 256;  // of a number or a name
+constexpr std::size_t max_text = 256;  // of a number or a name
 
 /// Multiples of 90 degrees are exact.
 SineCosine of_degrees(double degrees) {
@@ -90,7 +90,7 @@ void AmfParser::begin(const XmlElement& element) {
 }
 
 void AmfParser::text(std::string_view text) {
-  text_.append(text.substr(0, most_text - std::min(text_.size(), most_text)));
+  text_.append(text.substr(0, max_text - std::min(text_.size(), max_text)));
 }
 
 void AmfParser::end(const XmlName& element) {
@@ -225,9 +225,9 @@ void AmfParser::add_triangle() {
 void AmfParser::add_instance() {
   if (object_ == nullptr) return;
   const Affine moved{.move = {shift_.x * model_.unit, shift_.y * model_.unit, shift_.z * model_.unit}};
-  constexpr double most_degrees = 1e6;
-  const bool is_valid = std::abs(turn_.x) <= most_degrees && std::abs(turn_.y) <= most_degrees &&
-                        std::abs(turn_.z) <= most_degrees && is_finite(narrowed(moved.move));
+  constexpr double max_degrees = 1e6;
+  const bool is_valid = std::abs(turn_.x) <= max_degrees && std::abs(turn_.y) <= max_degrees &&
+                        std::abs(turn_.z) <= max_degrees && is_finite(narrowed(moved.move));
   if (is_valid)
     instance_.to_from_object = moved * rotation(turn_);
   else

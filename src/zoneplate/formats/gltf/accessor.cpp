@@ -69,7 +69,7 @@ void place_in_view(GltfFile& file, const JsonView& json, const std::string& what
 }
 
 /// The maximum number of elements of an accessor without a buffer view, so that a small file cannot exhaust memory.
-constexpr std::uint64_t most_zeros = std::uint64_t{1} << 22;
+constexpr std::uint64_t max_zeros = std::uint64_t{1} << 22;
 
 /// An accessor, whose name in messages is of the form "mesh 3 primitive 0 POSITION".
 struct Accessor {
@@ -92,9 +92,9 @@ Accessor find_accessor(GltfFile& file, const JsonView& owner, const char* key) {
     if (a.layout.bytes.size() < a.layout.count * a.layout.stride) a.json.fail("differs in shape from the decoded data");
   } else if (a.json.has("bufferView")) {
     place_in_view(file, a.json, "it", a.layout);
-  } else if (a.layout.count > most_zeros) {
+  } else if (a.layout.count > max_zeros) {
     a.json.fail("has no bufferView for " + std::to_string(a.layout.count) + " elements, at most " +
-                std::to_string(most_zeros) + " may be zero");
+                std::to_string(max_zeros) + " may be zero");
   }
   return a;
 }

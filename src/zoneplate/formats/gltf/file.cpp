@@ -31,7 +31,7 @@ std::pair<std::string_view, std::string_view> split_data_uri(std::string_view ur
 }
 
 /// The maximum number of elements of all accessors without a buffer view together.
-constexpr std::uint64_t most_zeros_in_all = std::uint64_t{1} << 23;
+constexpr std::uint64_t max_zeros_in_all = std::uint64_t{1} << 23;
 
 }  // namespace
 
@@ -86,7 +86,7 @@ void GltfFile::read_chunks(std::span<const std::uint8_t> bytes) {
 }
 
 void GltfFile::leave_out(const Error& error) {
-  if (error.kind() != ErrorKind::Input || budget_.limits().is_strict || zeros_ > most_zeros_in_all) throw error;
+  if (error.kind() != ErrorKind::Input || budget_.limits().is_strict || zeros_ > max_zeros_in_all) throw error;
   budget_.take(0);  // exceeding the memory budget or the deadline is an error nevertheless
   budget_.check_time();
   if (!first_loss_) first_loss_ = error;
@@ -192,16 +192,16 @@ GltfBytes GltfFile::load_uri(const JsonView& owner, const std::string& uri) {
 
 void GltfFile::take_zeros(const JsonView& accessor, std::uint64_t count) {
   zeros_ += count;
-  if (zeros_ > most_zeros_in_all)
+  if (zeros_ > max_zeros_in_all)
     accessor.fail("has no bufferView, as other accessors of " + std::to_string(zeros_) + " elements in all, at most " +
-                  std::to_string(most_zeros_in_all) + " may be zero");
+                  std::to_string(max_zeros_in_all) + " may be zero");
 }
 
 void GltfFile::warn(const std::string& text) {
-  constexpr std::size_t most_warnings = 1000;
-  if (warnings_.size() > most_warnings || !warned_.insert(text).second) return;
+  constexpr std::size_t max_warnings = 1000;
+  if (warnings_.size() > max_warnings || !warned_.insert(text).second) return;
   budget_.take(2 * text.size());
-  warnings_.push_back(warnings_.size() < most_warnings ? text : path_ + ": more of this kind is not listed");
+  warnings_.push_back(warnings_.size() < max_warnings ? text : path_ + ": more of this kind is not listed");
 }
 
 }  // namespace zoneplate

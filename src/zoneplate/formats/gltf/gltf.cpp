@@ -146,13 +146,13 @@ std::vector<std::string> list_variants(GltfFile& file) {
 
 std::optional<std::size_t> find_variant(GltfFile& file, const std::string& name) {
   if (name.empty()) return std::nullopt;
-  constexpr std::size_t most_shown = 20;
+  constexpr std::size_t max_shown = 20;
   std::string known;
   const std::vector<std::string> names = list_variants(file);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (names[i] == name) return i;
-    if (i < most_shown) known += (known.empty() ? "" : ", ") + names[i].substr(0, 120);
-    if (i == most_shown) known += ", ...";
+    if (i < max_shown) known += (known.empty() ? "" : ", ") + names[i].substr(0, 120);
+    if (i == max_shown) known += ", ...";
   }
   throw Error(ErrorKind::Usage, "--variant: the file has no variant " + quoted(name) +
                                     (known.empty() ? ", nor any other" : ", but " + known));

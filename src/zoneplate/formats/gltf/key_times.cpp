@@ -16,7 +16,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr std::size_t most_times = 1024;
+constexpr std::size_t max_times = 1024;
 /// Rotations and cubic splines leave the straight way between two keys: times at these parts of it count too.
 constexpr std::array inner_parts = {0.25, 0.5, 0.75};
 
@@ -65,7 +65,7 @@ class KeyTimes {
     std::vector<double> out;
     std::set<double> known;
     const auto add = [&](double time) {
-      if (out.size() < most_times && known.insert(time).second) out.push_back(time);
+      if (out.size() < max_times && known.insert(time).second) out.push_back(time);
     };
     std::size_t longest = 0;
     for (std::vector<Extreme>& of_path : extremes_) {
@@ -74,12 +74,12 @@ class KeyTimes {
       longest = std::max(longest, of_path.size());
     }
     // Ranges of translations, rotations, scales and weights have no common unit: their extremes take turns.
-    for (std::size_t i = 0; i < std::min(longest, most_times / 4); ++i)
+    for (std::size_t i = 0; i < std::min(longest, max_times / 4); ++i)
       for (const std::vector<Extreme>& of_path : extremes_)
         if (i < of_path.size()) add(of_path[i].time);
     std::sort(all_.begin(), all_.end());
     const auto end = std::unique(all_.begin(), all_.end());
-    for (const std::size_t i : spread_order(static_cast<std::size_t>(end - all_.begin()), most_times)) add(all_[i]);
+    for (const std::size_t i : spread_order(static_cast<std::size_t>(end - all_.begin()), max_times)) add(all_[i]);
     return out;
   }
 

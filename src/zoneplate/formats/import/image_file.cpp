@@ -138,11 +138,11 @@ DecodedImage decode_image(std::span<const std::uint8_t> bytes, const std::string
 std::optional<std::string> size_warning(const TextureImage& image) {
   const int width = image.pixels.width(), height = image.pixels.height();
   int drawn_width = width, drawn_height = height;
-  while (drawn_width > TextureImage::most_side) drawn_width /= 2;
-  while (drawn_height > TextureImage::most_side) drawn_height /= 2;
+  while (drawn_width > TextureImage::max_side) drawn_width /= 2;
+  while (drawn_height > TextureImage::max_side) drawn_height /= 2;
   if (drawn_width == width && drawn_height == height) return std::nullopt;
   return fmt::format("texture {}: {} x {} texels are drawn as {} x {}, at most {} a side", image.name, width, height,
-                     drawn_width, drawn_height, TextureImage::most_side);
+                     drawn_width, drawn_height, TextureImage::max_side);
 }
 
 }  // namespace zoneplate

@@ -62,7 +62,7 @@ inline DecodedImage decode_image(std::span<const std::uint8_t> bytes, const std:
   return image;
 }
 
-/// A warning, without the name of the model, if an image has more than TextureImage::most_side texels along a side.
+/// A warning, without the name of the model, if an image has more than TextureImage::max_side texels along a side.
 std::optional<std::string> size_warning(const TextureImage& image);
 
 }  // namespace zoneplate

@@ -67,26 +67,26 @@ FileBytes ModelFolder::open(const std::string& path) const {
 }
 
 int ModelFolder::image(const std::string& within, const std::string& name) {
-  constexpr std::size_t most_missing = 1000;
+  constexpr std::size_t max_missing = 1000;
   const auto [known, is_first] = known_.try_emplace({within, name}, -1);
   if (!is_first) return known->second;
   constexpr std::uint64_t of_the_tables = 256;
   budget_.check_time();  // because the file search below takes time
   budget_.take(of_the_tables + 2 * name.size());
-  const std::optional<std::string> path = missing_ < most_missing ? find_file(within, name) : std::nullopt;
+  const std::optional<std::string> path = missing_ < max_missing ? find_file(within, name) : std::nullopt;
   const auto [entry, is_new] = images_.try_emplace(path.value_or("missing " + name), -1);
   const bool is_missing = is_new && !path;
-  if (is_new && missing_ < most_missing) entry->second = load(within, name, path);
-  if (is_missing && ++missing_ == most_missing) warn(budget_.file() + ": no more textures are looked for");
+  if (is_new && missing_ < max_missing) entry->second = load(within, name, path);
+  if (is_missing && ++missing_ == max_missing) warn(budget_.file() + ": no more textures are looked for");
   return known->second = entry->second;
 }
 
 void ModelFolder::warn(std::string text) {
-  constexpr std::size_t most_notes = 2000;
-  if (++notes_ > most_notes) return;
+  constexpr std::size_t max_notes = 2000;
+  if (++notes_ > max_notes) return;
   budget_.take(text.size());
-  scene_.warnings.push_back(notes_ < most_notes ? std::move(text)
-                                                : budget_.file() + ": more of this kind is not listed");
+  scene_.warnings.push_back(notes_ < max_notes ? std::move(text)
+                                               : budget_.file() + ": more of this kind is not listed");
 }
 
 /// Adds the image that `make` returns to the scene. Returns its index, or -1 with a warning if `make` fails.

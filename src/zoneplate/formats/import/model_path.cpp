@@ -127,8 +127,8 @@ std::optional<std::string> find_path(const std::string& folder, std::string_view
                                      std::span<const std::string> allowed) {
   namespace fs = std::filesystem;
   const std::string name = decode_percent(uri);
-  constexpr std::size_t most_bytes = 4096;  // the maximum length of a path in Linux (PATH_MAX)
-  if (name.empty() || name.size() > most_bytes || name.find('\0') != std::string::npos) return std::nullopt;
+  constexpr std::size_t max_bytes = 4096;  // the maximum length of a path in Linux (PATH_MAX)
+  if (name.empty() || name.size() > max_bytes || name.find('\0') != std::string::npos) return std::nullopt;
   const fs::path file = fs::path(folder) / name;
 
   // Symbolic links and ".." are resolved first, so that the check applies to the file that would be opened.
@@ -173,8 +173,8 @@ const PathFinder::Names& PathFinder::names_in(const std::string& folder) {
   if (!is_new) return names;
   // Not an iterator of the standard library, which calls fcntl: the sandbox does not allow it.
   const std::unique_ptr<DIR, int (*)(DIR*)> open(::opendir(folder.c_str()), ::closedir);
-  constexpr std::size_t most_entries = 1 << 16;  // the memory of the names is not counted
-  while (open != nullptr && entries_ < most_entries) {
+  constexpr std::size_t max_entries = 1 << 16;  // the memory of the names is not counted
+  while (open != nullptr && entries_ < max_entries) {
     const dirent* const entry = ::readdir(open.get());
     if (entry == nullptr) break;
     ++entries_;
@@ -182,7 +182,7 @@ const PathFinder::Names& PathFinder::names_in(const std::string& folder) {
     const auto [kept, is_first] = names.try_emplace(lower_case(name), name);
     if (!is_first) kept->second = std::min(kept->second, name);
   }
-  if (entries_ == most_entries) names.clear();  // the order of the entries must not matter
+  if (entries_ == max_entries) names.clear();  // the order of the entries must not matter
   return names;
 }
 

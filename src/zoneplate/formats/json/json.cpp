@@ -11,7 +11,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr std::size_t greatest_depth = 64;  // maximum nesting: glTF has 8 levels, extensions and extras a few more
+constexpr std::size_t max_depth = 64;  // maximum nesting: glTF has 8 levels, extensions and extras a few more
 
 /// Builds the tree from the JSON library's events, and throws if a limit is exceeded.
 class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
@@ -64,14 +64,14 @@ class TreeBuilder : public nlohmann::json_sax<nlohmann::json> {
     return true;
   }
   bool open(JsonValue::Kind kind) {
-    if (open_.size() == greatest_depth)
-      throw Error(ErrorKind::Input, budget_.file() + ": JSON nested deeper than " + std::to_string(greatest_depth));
+    if (open_.size() == max_depth)
+      throw Error(ErrorKind::Input, budget_.file() + ": JSON nested deeper than " + std::to_string(max_depth));
     add({.kind = kind});
     open_.push_back(last_);  // the address is stable, because only the innermost open list grows
     return true;
   }
   bool close() {
-    if (open_.back()->keys.size() > JsonValue::most_unsorted_keys) sort_keys(*open_.back());
+    if (open_.back()->keys.size() > JsonValue::max_unsorted_keys) sort_keys(*open_.back());
     open_.pop_back();
     return true;
   }
@@ -154,7 +154,7 @@ void JsonView::fail(const std::string& cause) const {
 
 const JsonValue* JsonView::find(const char* key) const {
   // Of equal keys the last one is used.
-  if (value_->keys.size() > JsonValue::most_unsorted_keys) {
+  if (value_->keys.size() > JsonValue::max_unsorted_keys) {
     const auto after = std::upper_bound(value_->keys.begin(), value_->keys.end(), key);
     const bool is_found = after != value_->keys.begin() && after[-1] == key;
     return is_found ? &value_->items[static_cast<std::size_t>(after - value_->keys.begin()) - 1] : nullptr;

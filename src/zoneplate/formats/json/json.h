@@ -25,7 +25,7 @@ struct JsonValue {
   std::vector<std::string> keys{};  ///< one key per item of an object; in the file's order, or sorted if there are many
 
   /// The keys of an object with more than this number are sorted for binary search; equal ones keep the file's order.
-  static constexpr std::size_t most_unsorted_keys = 64;
+  static constexpr std::size_t max_unsorted_keys = 64;
 };
 
 /// Parses a JSON text; trailing white space and zero bytes are ignored.

@@ -75,7 +75,7 @@ bool JsonEdits::set(std::string_view pointer, JsonValue value) {
     return true;
   }
   // Objects of many keys are sorted; glTF objects that lack a property have few keys.
-  if (parent->kind != JsonValue::Kind::Object || parent->keys.size() >= JsonValue::most_unsorted_keys) return false;
+  if (parent->kind != JsonValue::Kind::Object || parent->keys.size() >= JsonValue::max_unsorted_keys) return false;
   edits_.push_back({std::string(pointer), std::nullopt});
   parent->keys.push_back(unescaped(last));
   parent->items.push_back(std::move(value));

@@ -53,8 +53,8 @@ std::vector<std::uint8_t> decode_meshopt(const JsonView& json, std::span<const s
 
   // No codec of the library expands a byte to more: data that claim more are corrupt, and no memory is allocated for
   // them.
-  constexpr std::uint64_t most_per_byte = 1024;
-  if (count * stride / most_per_byte > packed.size()) json.fail("its data are corrupt");
+  constexpr std::uint64_t max_per_byte = 1024;
+  if (count * stride / max_per_byte > packed.size()) json.fail("its data are corrupt");
   budget.check_time();
   budget.take(count * stride);
   std::vector<std::uint8_t> out(static_cast<std::size_t>(count * stride));

@@ -11,7 +11,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr std::size_t group_size = 16, most_block_bytes = 8192, most_block_elements = 256, least_tail = 24;
+constexpr std::size_t group_size = 16, max_block_bytes = 8192, max_block_elements = 256, min_tail = 24;
 
 /// The bytes that are left of a stream.
 class ByteQueue {
@@ -112,7 +112,7 @@ void store(std::uint32_t value, std::uint8_t* bytes) {
 
 bool decode_vertex_stream1(std::span<const std::uint8_t> packed, std::size_t stride, std::span<std::uint8_t> out) {
   // The tail: padding, the element before the first one, the modes of the channels.
-  const std::size_t channels = stride / 4, tail = std::max(stride + channels, least_tail);
+  const std::size_t channels = stride / 4, tail = std::max(stride + channels, min_tail);
   if (!is_vertex_stream1(packed) || packed.size() < 1 + tail) return false;
   std::vector<std::uint8_t> before(packed.end() - static_cast<std::ptrdiff_t>(stride + channels),
                                    packed.end() - static_cast<std::ptrdiff_t>(channels));
@@ -121,7 +121,7 @@ bool decode_vertex_stream1(std::span<const std::uint8_t> packed, std::size_t str
     if ((mode & 15) > 2 || ((mode & 15) != 2 && mode > 15)) return false;
 
   ByteQueue bytes(packed.subspan(1, packed.size() - 1 - tail));
-  const std::size_t block = std::min(most_block_bytes / stride & ~(group_size - 1), most_block_elements);
+  const std::size_t block = std::min(max_block_bytes / stride & ~(group_size - 1), max_block_elements);
   std::vector<std::uint8_t> deltas[4];
   for (std::size_t first = 0, count = out.size() / stride; first < count; first += block) {
     const std::size_t elements = std::min(block, count - first);

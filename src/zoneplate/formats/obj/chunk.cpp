@@ -109,7 +109,7 @@ class PartReader {
     std::uint64_t value = 0;
     const char* const first = at;
     for (; *at >= '0' && *at <= '9'; ++at) value = value * 10 + static_cast<std::uint64_t>(*at - '0');
-    const std::uint64_t most = known_ ? known_->all.*kind : most_obj_items;
+    const std::uint64_t most = known_ ? known_->all.*kind : max_obj_items;
     if (at - first > 10 || value == 0 || value > most) return -1;
     part_.named.*kind = std::max(part_.named.*kind, value);
     return static_cast<std::int32_t>(value - 1);
@@ -160,7 +160,7 @@ class PartReader {
       chunk_.corners.push_back(corner);
     }
     const std::size_t n = chunk_.corners.size() - first;
-    if (n < 3 || chunk_.corners.size() >= most_obj_items || !ends_line(at)) return give_up();
+    if (n < 3 || chunk_.corners.size() >= max_obj_items || !ends_line(at)) return give_up();
     chunk_.elements.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(n), ObjKind::Face});
     return true;
   }
@@ -257,9 +257,9 @@ class PartReader {
     if (trouble == std::errc::invalid_argument) return std::nullopt;
     at = stop;
     if (trouble != std::errc{}) value = std::numeric_limits<std::int64_t>::max();
-    if (!known_ && (value <= 0 || value > static_cast<std::int64_t>(most_obj_items))) throw NeedsMore{};
+    if (!known_ && (value <= 0 || value > static_cast<std::int64_t>(max_obj_items))) throw NeedsMore{};
     const std::uint64_t so_far = known_ ? known_->before.*kind + counts().*kind : 0;
-    const std::uint64_t all = known_ ? known_->all.*kind : most_obj_items;
+    const std::uint64_t all = known_ ? known_->all.*kind : max_obj_items;
     const std::int64_t index = value < 0 ? static_cast<std::int64_t>(so_far) + value : value - 1;
     if (index < 0 || index >= static_cast<std::int64_t>(all)) return -1;
     part_.named.*kind = std::max(part_.named.*kind, static_cast<std::uint64_t>(index) + 1);
@@ -314,7 +314,7 @@ class PartReader {
       chunk_.corners.shorten(first);
       return note(ObjNote::FewCorners, what);
     }
-    if (chunk_.corners.size() >= most_obj_items) fail("too many corners in one statement");
+    if (chunk_.corners.size() >= max_obj_items) fail("too many corners in one statement");
     chunk_.elements.push_back({static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(n), kind});
   }
 

@@ -78,7 +78,7 @@ struct ObjLineError {
 };
 
 /// Maximum number of vertex data of one kind, and of corners of one chunk.
-inline constexpr std::uint64_t most_obj_items = 1u << 30;
+inline constexpr std::uint64_t max_obj_items = 1u << 30;
 
 /// Reads a part without data of the others: lines are numbered from 1, and absolute indices are not checked against the
 /// size of the file.

@@ -207,9 +207,9 @@ class MtlReader {
     const bool is_map = key.substr(0, 4) == "map_" || key == "decal" || key == "refl";
     has_ambient_map_ = has_ambient_map_ || key == "map_ka";
     if (is_map && key != "map_ka" && key != "map_aat") {
-      constexpr std::size_t most_keys = 16;  // more than the format has
+      constexpr std::size_t max_keys = 16;  // more than the format has
       const bool is_new = std::find(m.unsupported.begin(), m.unsupported.end(), key) == m.unsupported.end();
-      if (is_new && m.unsupported.size() < most_keys) m.unsupported.push_back(key);
+      if (is_new && m.unsupported.size() < max_keys) m.unsupported.push_back(key);
       return;
     }
     constexpr std::array known = {"tf", "sharpness", "km", "map_ka", "map_aat", "xalpha", "spectral"};

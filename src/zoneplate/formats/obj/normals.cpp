@@ -19,7 +19,7 @@ namespace zoneplate {
 namespace {
 
 constexpr float cos_50 = 0.64278761f;
-constexpr std::size_t most_compared = 256;
+constexpr std::size_t max_compared = 256;
 constexpr std::uint32_t none = 0xffffffffu;
 
 /// The contribution of a face corner to the normals of all corners at its position.
@@ -166,7 +166,7 @@ Crowds sum_crowds(const Neighbours& n) {
   Crowds sums;
   serial_ranges(n.first.size() - 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
-      if (n.first[p + 1] - n.first[p] > most_compared)
+      if (n.first[p + 1] - n.first[p] > max_compared)
         for (std::uint32_t i = n.first[p]; i < n.first[p + 1]; ++i)
           sums[{p, n.shares[i].smoothing}] += n.shares[i].normal * n.shares[i].angle;
   });
@@ -178,7 +178,7 @@ float3 smoothed(const Neighbours& n, const Crowds& crowds, std::size_t place, st
   if (self.smoothing == 0) return self.normal;
   const std::uint32_t begin = n.first[place], end = n.first[place + 1];
   float3 sum;
-  if (end - begin > most_compared) {
+  if (end - begin > max_compared) {
     sum = crowds.at({place, self.smoothing});
   } else {
     for (std::uint32_t i = begin; i < end; ++i) {

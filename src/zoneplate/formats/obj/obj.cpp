@@ -37,39 +37,39 @@ class Libraries {
 
   /// Adds the operand of an mtllib statement: one name that may contain spaces, or several.
   void add(const std::string& statement) {
-    if (names_ >= most_names) return void(++names_);
+    if (names_ >= max_names) return void(++names_);
     if (!statements_.insert(statement).second) return;
     ++names_;
     if (folder_.find_file("", statement)) return open(statement);
     LineWords words(statement);
     for (std::string_view word = words.next(); !word.empty(); word = words.next())
-      if (++names_ <= most_names) open(std::string(word));
+      if (++names_ <= max_names) open(std::string(word));
   }
 
   Material material(const std::string& name) {
     const auto found = materials_.find(name);
     if (found != materials_.end()) return make_material(found->second.material, found->second.within, folder_);
-    if (!name.empty() && ++undefined_ <= most_named)
+    if (!name.empty() && ++undefined_ <= max_named)
       folder_.scene().warnings.push_back(fmt::format("{}: material {} is not defined", folder_.budget().file(), name));
     return plain_material(name.empty() ? "default" : name);
   }
 
   void report_rest() {
     const auto report = [&](std::size_t count, const char* text) {
-      if (count > most_named)
+      if (count > max_named)
         folder_.scene().warnings.push_back(
-            fmt::format("{}: {} more {}", folder_.budget().file(), count - most_named, text));
+            fmt::format("{}: {} more {}", folder_.budget().file(), count - max_named, text));
     };
-    if (names_ > most_names)
+    if (names_ > max_names)
       folder_.scene().warnings.push_back(fmt::format("{}: names more than {} material libraries, the rest is ignored",
-                                                     folder_.budget().file(), most_names));
+                                                     folder_.budget().file(), max_names));
     report(missing_, "material libraries are not found");
     report(undefined_, "materials are not defined");
   }
 
  private:
-  static constexpr std::size_t most_named = 20;
-  static constexpr std::size_t most_names = 1000;  ///< maximum number of libraries, because each takes a file search
+  static constexpr std::size_t max_named = 20;
+  static constexpr std::size_t max_names = 1000;  ///< maximum number of libraries, because each takes a file search
 
   struct Found {
     MtlMaterial material;
@@ -90,7 +90,7 @@ class Libraries {
     folder_.budget().check_time();
     const std::optional<std::string> path = folder_.find_file("", name);
     if (!path) {
-      if (++missing_ <= most_named)
+      if (++missing_ <= max_named)
         scene.warnings.push_back(
             fmt::format("{}: material library {}", folder_.budget().file(), folder_.missing_text("", name)));
       return;

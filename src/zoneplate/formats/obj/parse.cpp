@@ -89,7 +89,7 @@ std::vector<ObjCounts> read_parts(const std::vector<std::string_view>& texts, ch
   budget.check_time();
   const std::vector<ObjCounts> before = accumulate(parts);
   const ObjCounts& all = before.back();
-  if (std::max({all.positions, all.uvs, all.normals}) >= most_obj_items)
+  if (std::max({all.positions, all.uvs, all.normals}) >= max_obj_items)
     throw Error(ErrorKind::Input, budget.file() + ": more than 2^30 vertices");
 
   // The first error in the order of the file is reported, independently of the threads.

@@ -38,7 +38,7 @@ std::size_t need_indices(const PlyElement& element, const ImportBudget& budget) 
 std::size_t blocks(std::size_t count) { return (count + PlyRows::block - 1) / PlyRows::block; }
 
 /// A face of more corners than this is dropped: it is not a real polygon, and triangulating it would take too long.
-constexpr std::uint32_t most_corners = 1 << 20;
+constexpr std::uint32_t max_corners = 1 << 20;
 /// Triangulating a face of more corners than this may take long: the time limit is checked before it.
 constexpr std::uint32_t many_corners = 64;
 
@@ -96,7 +96,7 @@ class BlockReader {
       ++out.too_short;
       return;
     }
-    if (list.count > most_corners) {
+    if (list.count > max_corners) {
       ++out.too_concave;
       return;
     }

@@ -14,7 +14,7 @@ namespace zoneplate {
 namespace {
 
 /// More than real files have; the limits bound the work for a malicious file.
-constexpr std::size_t most_properties = 1024, most_line = 4096;
+constexpr std::size_t max_properties = 1024, max_line = 4096;
 
 std::optional<PlyType> find_type(std::string_view word) {
   static constexpr std::string_view names[][2] = {{"char", "int8"},     {"uchar", "uint8"},   {"short", "int16"},
@@ -64,7 +64,7 @@ class HeaderReader {
     ++line_number_;
     const std::size_t end = std::min(text_.find_first_of("\r\n", at_), text_.size());
     line_ = text_.substr(at_, end - at_);
-    if (line_.size() > most_line || line_.find('\0') != line_.npos) fail("the header is not text");
+    if (line_.size() > max_line || line_.find('\0') != line_.npos) fail("the header is not text");
     at_ = end + (text_.substr(end, 2) == "\r\n" ? 2 : 1);
     if (at_ > text_.size()) at_ = text_.size();
     words_.clear();
@@ -78,15 +78,15 @@ class HeaderReader {
   }
 
   void ignore_line() {
-    constexpr std::size_t most_named = 20;
-    if (header_.warnings.size() < most_named)
+    constexpr std::size_t max_named = 20;
+    if (header_.warnings.size() < max_named)
       header_.warnings.push_back(fmt::format("{}: line {}: '{}' is not a word of a PLY header, the line is ignored",
                                              file_, line_number_, words_[0].substr(0, 40)));
   }
 
   void read_comment() {
     if (words_.size() < 3 || words_[1] != "TextureFile") return;
-    if (header_.textures.size() == most_properties) fail("too many textures");
+    if (header_.textures.size() == max_properties) fail("too many textures");
     const std::size_t begin = static_cast<std::size_t>(words_[2].data() - line_.data());
     header_.textures.emplace_back(line_.substr(begin, line_.find_last_not_of(" \t") + 1 - begin));
   }
@@ -110,7 +110,7 @@ class HeaderReader {
     const auto [stop, trouble] = std::from_chars(words_[2].data(), end, element.count);
     if (trouble != std::errc{} || stop != end || element.count >= std::uint64_t{1} << 48)
       fail(fmt::format("element {}: '{}' is not a number of elements", element.name, words_[2].substr(0, 40)));
-    if (header_.elements.size() == most_properties) fail("too many elements");
+    if (header_.elements.size() == max_properties) fail("too many elements");
     header_.elements.push_back(std::move(element));
   }
 
@@ -122,7 +122,7 @@ class HeaderReader {
 
   void read_property() {
     if (header_.elements.empty()) fail("a property before the first element");
-    if (header_.elements.back().properties.size() == most_properties) fail("too many properties");
+    if (header_.elements.back().properties.size() == max_properties) fail("too many properties");
     PlyProperty p;
     p.is_list = words_.size() > 1 && words_[1] == "list";
     if (words_.size() != (p.is_list ? 5u : 3u))
@@ -151,8 +151,8 @@ std::size_t size_of(PlyType type) {
 double one_of(PlyType type, double greatest) {
   constexpr double ones[] = {127, 255, 32767, 65535, 2147483647, 4294967295, 1, 1}, of_bytes = 255;
   const double one = ones[static_cast<std::size_t>(type)];
-  constexpr double most_light = 2;  // floats above it are no colours of [0, 1]
-  const bool are_bytes = one < of_bytes ? greatest > std::max(one, most_light) : greatest <= of_bytes;
+  constexpr double max_light = 2;  // floats above it are no colours of [0, 1]
+  const bool are_bytes = one < of_bytes ? greatest > std::max(one, max_light) : greatest <= of_bytes;
   return are_bytes ? of_bytes : one;
 }
 

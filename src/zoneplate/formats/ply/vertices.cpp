@@ -94,7 +94,7 @@ void read_places(const PlyRows& rows, const Columns& position, double3 origin, s
 }
 
 /// The greatest value of each component.
-float4 greatest_of(const std::vector<float4>& colors) {
+float4 max_of(const std::vector<float4>& colors) {
   std::vector<float4> parts((colors.size() + PlyRows::block - 1) / PlyRows::block);
   const auto larger = [](float4 a, float4 b) {
     return float4{std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z), std::max(a.w, b.w)};
@@ -110,7 +110,7 @@ float4 greatest_of(const std::vector<float4>& colors) {
 /// Converts the colour properties of the file to linear colours.
 void decode_colors(const PlyElement& element, const std::array<std::size_t, 4>& properties, bool has_alpha,
                    std::vector<float4>& colors) {
-  const float4 most = greatest_of(colors);
+  const float4 most = max_of(colors);
   const float of_colors = std::max({most.x, most.y, most.z}), greatest[] = {of_colors, of_colors, of_colors, most.w};
   std::array<float, 4> one{};
   for (std::size_t c = 0; c < 4; ++c)

@@ -209,9 +209,9 @@ StlText parse_stl_text(std::string_view text, ImportBudget& budget, double3 orig
   // A vertex takes at least nine characters, and 40 in most files.
   budget.take(text.size() / 9 * sizeof(float3));
   // Each solid becomes a mesh, and its name also that of an object.
-  constexpr std::size_t most_name = 200;
+  constexpr std::size_t max_name = 200;
   constexpr std::size_t solid_bytes =
-      2 * (sizeof(StlText::Solid) + sizeof(std::string) + sizeof(Mesh) + sizeof(Instance) + most_name);
+      2 * (sizeof(StlText::Solid) + sizeof(std::string) + sizeof(Mesh) + sizeof(Instance) + max_name);
   std::atomic<std::uint64_t> solids = 0;
   parallel_for(cuts.size(), [&](std::size_t i) {
     if (!budget.has_time() || solids * solid_bytes > budget.memory_left()) return;

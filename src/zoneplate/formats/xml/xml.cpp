@@ -172,11 +172,11 @@ XmlParser::~XmlParser() {
 
 void XmlParser::parse(std::span<const std::uint8_t> bytes, bool is_last) {
   // expat parses an unfinished tag again with each piece.
-  constexpr std::uint64_t most_of_a_tag = std::uint64_t{4} << 20;
-  constexpr std::size_t most_at_once = std::size_t{1} << 16;
+  constexpr std::uint64_t max_of_a_tag = std::uint64_t{4} << 20;
+  constexpr std::size_t max_at_once = std::size_t{1} << 16;
   State& s = *state_;
   do {
-    const std::span<const std::uint8_t> piece = bytes.first(std::min(bytes.size(), most_at_once));
+    const std::span<const std::uint8_t> piece = bytes.first(std::min(bytes.size(), max_at_once));
     bytes = bytes.subspan(piece.size());
     s.budget.check_time();
     s.memory.limit = s.charged + s.budget.memory_left();
@@ -192,8 +192,7 @@ void XmlParser::parse(std::span<const std::uint8_t> bytes, bool is_last) {
     s.charge();
     s.fed += piece.size();
     const XML_Index at = XML_GetCurrentByteIndex(s.parser);
-    if (at >= 0 && s.fed > static_cast<std::uint64_t>(at) + most_of_a_tag)
-      throw s.wrong("has a tag of more than 4 MiB");
+    if (at >= 0 && s.fed > static_cast<std::uint64_t>(at) + max_of_a_tag) throw s.wrong("has a tag of more than 4 MiB");
   } while (!bytes.empty());
 }
 

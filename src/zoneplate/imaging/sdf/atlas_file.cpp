@@ -97,10 +97,10 @@ Json atlas_metrics(const sdf::Atlas& atlas, const Font::Metrics& font) {
                       {"kerning", std::move(kerning)}};
 }
 
-sdf::Atlas load_atlas(const std::string& image_file, const std::string& metrics_file, std::uint64_t most_pixels) {
+sdf::Atlas load_atlas(const std::string& image_file, const std::string& metrics_file, std::uint64_t max_pixels) {
   const MappedFileWatch watch;
   const FileBytes image_bytes(image_file), metrics_bytes(metrics_file);
-  const PngImage png = decode_png(image_bytes.bytes(), image_file, most_pixels);
+  const PngImage png = decode_png(image_bytes.bytes(), image_file, max_pixels);
   if (png.pixels.empty()) throw Error(ErrorKind::Input, image_file + ": an atlas has 8 bits per channel");
   ImportBudget budget(metrics_file, {.memory = std::uint64_t{1} << 28, .seconds = 60});
   const JsonValue root = parse_json(metrics_bytes.bytes(), budget);

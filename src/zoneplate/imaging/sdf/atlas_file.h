@@ -29,7 +29,7 @@ Json atlas_metrics(const sdf::Atlas& atlas, const Font::Metrics& font);
 ///
 /// Errors    ErrorKind::Input naming the file and the member.
 sdf::Atlas load_atlas(const std::string& image_file, const std::string& metrics_file,
-                      std::uint64_t most_pixels = std::uint64_t{1} << 26);
+                      std::uint64_t max_pixels = std::uint64_t{1} << 26);
 
 /// "sdf", "msdf", "mtsdf".
 const char* name_of(sdf::FieldKind kind);

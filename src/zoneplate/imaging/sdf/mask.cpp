@@ -38,10 +38,10 @@ LinearImage grey(const Plane<float>& plane) {
 }  // namespace
 
 void make_field_of_mask(const std::string& input, const MaskOptions& args, Delivery& out) {
-  constexpr int most_side = 32767;
+  constexpr int max_side = 32767;
   const LinearImage image = load_signal(input, {true, {args.layer}}, out);
-  if (image.width() > most_side || image.height() > most_side)
-    throw Error(ErrorKind::Input, fmt::format("{}: a side of more than {} pixels", input, most_side));
+  if (image.width() > max_side || image.height() > max_side)
+    throw Error(ErrorKind::Input, fmt::format("{}: a side of more than {} pixels", input, max_side));
   const Plane<float> luma = luminance(image);
   Plane<std::uint8_t> mask(image.width(), image.height());
   std::int64_t inside = 0;
@@ -75,13 +75,13 @@ void make_field_of_mask(const std::string& input, const MaskOptions& args, Deliv
 }
 
 void draw_mask_of_field(const std::string& input, const MaskOptions& args, Delivery& out) {
-  constexpr double most_pixels = 1 << 28;
+  constexpr double max_pixels = 1 << 28;
   const LinearImage image = load_as_stored(input, signal_choice(args), out).image;
   Plane<float> distances(image.width(), image.height());
   std::ranges::transform(image.values(), distances.values().begin(), &Linear::r);
   const double width = std::max(1.0, std::floor(image.width() * args.scale + 0.5)),
                height = std::max(1.0, std::floor(image.height() * args.scale + 0.5));
-  if (width * height > most_pixels)
+  if (width * height > max_pixels)
     throw Error(ErrorKind::Usage, fmt::format("--scale: {:.0f} × {:.0f} pixels are too many", width, height));
   const Plane<float> mask = sdf::drawn_field(distances, static_cast<int>(width), static_cast<int>(height), args.scale);
   if (!args.output.empty())

@@ -15,7 +15,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr int most_side = 32768;
+constexpr int max_side = 32768;
 
 }  // namespace
 
@@ -29,12 +29,12 @@ std::function<sdf::Outline(std::string_view, double)> text_outlines(const ShapeS
 namespace {
 
 sdf::SceneFile read_shape_scene(const std::string& operand, const sdf::SceneFileOptions& options) {
-  constexpr std::size_t most_bytes = std::size_t{1} << 28;
+  constexpr std::size_t max_bytes = std::size_t{1} << 28;
   const MappedFileWatch watch;
   const FileBytes file(operand);
-  if (file.bytes().size() > most_bytes)
-    throw Error(ErrorKind::Input, fmt::format("{}: {} bytes; a scene of shapes has at most {}", operand,
-                                              file.bytes().size(), most_bytes));
+  if (file.bytes().size() > max_bytes)
+    throw Error(ErrorKind::Input,
+                fmt::format("{}: {} bytes; a scene of shapes has at most {}", operand, file.bytes().size(), max_bytes));
   sdf::SceneFile scene =
       sdf::read_scene_file({reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()}, operand, options);
   watch.check(operand);
@@ -73,7 +73,7 @@ sdf::Raster raster_of(const sdf::SceneFile& scene, const ShapeSceneOptions& args
                                                 operand, width, height, limit));
   };
   const std::uint64_t pixels = args.limits.load.pixels;
-  check(width <= most_side && height <= most_side, fmt::format("{} per side", most_side));
+  check(width <= max_side && height <= max_side, fmt::format("{} per side", max_side));
   check(width * height <= static_cast<double>(pixels), fmt::format("{} (--max-pixels)", pixels));
   raster.width = std::max(1, static_cast<int>(width)), raster.height = std::max(1, static_cast<int>(height));
   return raster;

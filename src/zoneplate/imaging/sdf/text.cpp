@@ -24,7 +24,7 @@ Font font_of(const TextOptions& args, Delivery& out) {
 }
 
 /// The limit of an atlas that is read or made.
-std::uint64_t most_texels(const Delivery& out) { return std::min(out.limits().pixels, std::uint64_t{1} << 26); }
+std::uint64_t max_texels(const Delivery& out) { return std::min(out.limits().pixels, std::uint64_t{1} << 26); }
 
 /// Black text on white, in linear light.
 void save_image(const std::string& path, const Rgba8Image& image, Delivery& out) {
@@ -38,10 +38,10 @@ void draw_text(const std::string& words, const TextOptions& args, Delivery& out)
   const bool is_loaded = !args.atlas.empty();
   const auto atlas_for = [&](sdf::FieldKind kind) {
     sdf::AtlasOptions options = args.options;
-    options.kind = kind, options.most_texels = most_texels(out);
+    options.kind = kind, options.max_texels = max_texels(out);
     if (!is_loaded) return atlas_of(font, code_points(words), options);
     std::optional<sdf::Atlas> atlas;
-    out.read(args.atlas, [&] { atlas = load_atlas(args.atlas, args.metrics, most_texels(out)); });
+    out.read(args.atlas, [&] { atlas = load_atlas(args.atlas, args.metrics, max_texels(out)); });
     return std::move(*atlas);
   };
   if (!args.sizes.empty()) {
@@ -100,7 +100,7 @@ void draw_text(const std::string& words, const TextOptions& args, Delivery& out)
 void make_atlas(const TextOptions& args, Delivery& out) {
   const Font font = font_of(args, out);
   sdf::AtlasOptions options = args.options;
-  options.most_texels = most_texels(out);
+  options.max_texels = max_texels(out);
   const sdf::Atlas atlas = atlas_of(font, code_points(args.characters), options);
   if (atlas.glyphs.empty()) throw Error(ErrorKind::Input, "the font has none of the characters");
   if (!args.output.empty())

@@ -16,8 +16,8 @@ namespace zoneplate {
 namespace {
 
 // Kernels are small compared with images; a larger one is most likely an error, and would take hours in space.
-constexpr int greatest_side = 4097;
-constexpr std::uint64_t greatest_file = 1 << 24;
+constexpr int max_side = 4097;
+constexpr std::uint64_t max_file = 1 << 24;
 
 double parse_fraction(const std::string& text) {
   const std::size_t slash = text.find('/');
@@ -92,7 +92,7 @@ bool is_kernel_file(const std::string& text) {
 KernelChoice parse_kernel_choice(const std::string& text) {
   KernelChoice choice;
   if (is_kernel_file(text)) {
-    const FileBytes file(text, greatest_file);
+    const FileBytes file(text, max_file);
     try {
       choice = of_numbers(text, without_comments({file.bytes().begin(), file.bytes().end()}));
     } catch (const Error& error) {
@@ -104,9 +104,9 @@ KernelChoice parse_kernel_choice(const std::string& text) {
     const std::vector<double> taps = sampled(make_kernel(text));
     choice = {text, taps, outer_product(taps, taps)};
   }
-  if (choice.weights.width() > greatest_side || choice.weights.height() > greatest_side)
+  if (choice.weights.width() > max_side || choice.weights.height() > max_side)
     throw Error(ErrorKind::Usage, fmt::format("{}: a kernel of {} × {} weights is too large, expected {} at most", text,
-                                              choice.weights.width(), choice.weights.height(), greatest_side));
+                                              choice.weights.width(), choice.weights.height(), max_side));
   return choice;
 }
 

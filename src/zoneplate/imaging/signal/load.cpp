@@ -110,10 +110,10 @@ Signal signal_of(LinearImage light, const ImageColor& color, bool uses_codes) {
 bool is_light(std::span<const std::uint8_t> bytes) { return is_hdr(bytes) || is_exr(bytes) || is_pfm(bytes); }
 
 /// Scene-linear light as it is stored.
-LinearImage decode_light(const metrics::ImageFile& file, std::uint64_t most_pixels) {
-  return is_hdr(file.bytes)   ? decode_hdr(file.bytes, file.name, most_pixels)
-         : is_exr(file.bytes) ? decode_exr_as_stored(file.bytes, file.name, most_pixels, file.exr)
-                              : decode_pfm(file.bytes, file.name, most_pixels);
+LinearImage decode_light(const metrics::ImageFile& file, std::uint64_t max_pixels) {
+  return is_hdr(file.bytes)   ? decode_hdr(file.bytes, file.name, max_pixels)
+         : is_exr(file.bytes) ? decode_exr_as_stored(file.bytes, file.name, max_pixels, file.exr)
+                              : decode_pfm(file.bytes, file.name, max_pixels);
 }
 
 /// What the values of an image are. Only colours have a space and an orientation.
@@ -128,7 +128,7 @@ struct Loaded {
 };
 
 Loaded load_file(const std::string& operand, const SignalChoice& choice, ImageContent content,
-                 std::uint64_t most_pixels) {
+                 std::uint64_t max_pixels) {
   metrics::ImageFile file = metrics::open_image(operand);
   file.exr = choice.exr;
   ImageColor color =
@@ -136,11 +136,11 @@ Loaded load_file(const std::string& operand, const SignalChoice& choice, ImageCo
   const bool is_png = !file.bytes.empty() && file.bytes[0] == 0x89;
   Loaded out{.signal = {}, .several = several_images(file.bytes)};
   if (is_light(file.bytes)) {
-    LinearImage light = decode_light(file, most_pixels);
+    LinearImage light = decode_light(file, max_pixels);
     out.filled = fill_not_finite(light, operand);
     out.signal = signal_of(std::move(light), color, choice.uses_codes);
   } else if (const SystemFormat* const format = find_system_format(file.bytes)) {
-    StoredImage stored = format->decode(file.bytes, operand, most_pixels);
+    StoredImage stored = format->decode(file.bytes, operand, max_pixels);
     if (content == ImageContent::Colors) color = color_of(stored, std::move(color), operand);
     const auto take = [&]<class Pixel>(Plane<Pixel>& pixels) {
       if constexpr (std::is_same_v<Pixel, Linear>) {
@@ -151,11 +151,11 @@ Loaded load_file(const std::string& operand, const SignalChoice& choice, ImageCo
     };
     std::visit(take, stored.pixels);
   } else if (is_png) {
-    PngImage png = decode_png_as_stored(file.bytes, operand, most_pixels);
+    PngImage png = decode_png_as_stored(file.bytes, operand, max_pixels);
     out.signal = png.pixels16.empty() ? signal_of(std::move(png.pixels), color, choice.uses_codes)
                                       : signal_of(std::move(png.pixels16), color, choice.uses_codes);
   } else {
-    DecodedImage decoded = decode_image(file.bytes, operand, most_pixels);
+    DecodedImage decoded = decode_image(file.bytes, operand, max_pixels);
     out.signal = signal_of(decoded.texels.as<Rgba8>(), color, choice.uses_codes);
     out.flaw = std::move(decoded.flaw);
   }
@@ -164,14 +164,14 @@ Loaded load_file(const std::string& operand, const SignalChoice& choice, ImageCo
   return out;
 }
 
-Loaded load(const std::string& operand, const SignalChoice& choice, ImageContent content, std::uint64_t most_pixels) {
+Loaded load(const std::string& operand, const SignalChoice& choice, ImageContent content, std::uint64_t max_pixels) {
   if (is_pattern(operand)) {
     if (!choice.exr.layer.empty())
       throw Error(ErrorKind::Usage, operand + ": is a pattern, expected an EXR image for --layer");
     return {signal_of(make_pattern(operand), {.space = nullptr}, choice.uses_codes)};
   }
   const MappedFileWatch watch;
-  Loaded loaded = load_file(operand, choice, content, most_pixels);
+  Loaded loaded = load_file(operand, choice, content, max_pixels);
   watch.check(operand);
   return loaded;
 }
@@ -203,8 +203,8 @@ void warn_of_others(const std::string& operand, const std::string& several, Deli
   if (!several.empty()) out.warn(fmt::format("{}: {}, of which the first is taken", operand, several));
 }
 
-LinearImage load_signal(const std::string& operand, bool uses_codes, std::uint64_t most_pixels) {
-  Loaded loaded = load(operand, {uses_codes}, ImageContent::Colors, most_pixels);
+LinearImage load_signal(const std::string& operand, bool uses_codes, std::uint64_t max_pixels) {
+  Loaded loaded = load(operand, {uses_codes}, ImageContent::Colors, max_pixels);
   if (!loaded.flaw.empty()) throw Error(ErrorKind::Input, loaded.flaw);
   return in_rec709(std::move(loaded.signal)).image;
 }

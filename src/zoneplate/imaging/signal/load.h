@@ -36,9 +36,9 @@ struct Signal {
 ///
 /// Shape     turned as its orientation says.
 /// Units     linear light of Rec.709 primaries; with `uses_codes`, the codes in [0, 1] as they are. Premultiplied.
-/// Errors    ErrorKind::Input naming the file and the cause, also for more than `most_pixels`; ErrorKind::Usage for a
+/// Errors    ErrorKind::Input naming the file and the cause, also for more than `max_pixels`; ErrorKind::Usage for a
 ///           pattern's parameters.
-LinearImage load_signal(const std::string& operand, bool uses_codes, std::uint64_t most_pixels = LoadLimits().pixels);
+LinearImage load_signal(const std::string& operand, bool uses_codes, std::uint64_t max_pixels = LoadLimits().pixels);
 
 /// Warns that the first of several images is taken, which several_images (codec/inspect) names.
 void warn_of_others(const std::string& operand, const std::string& several, Delivery& out);

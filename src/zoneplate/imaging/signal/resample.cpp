@@ -15,18 +15,18 @@
 namespace zoneplate {
 namespace {
 
-constexpr int greatest_side = 32768;
+constexpr int max_side = 32768;
 
 // Parses "640x480", "640,480", "0.5" or "50%".
 int2 size_from(const std::string& text, int width, int height) {
-  if (text.find_first_of("x,") != std::string::npos) return parse_size(text, greatest_side);
+  if (text.find_first_of("x,") != std::string::npos) return parse_size(text, max_side);
   const bool is_percent = text.ends_with('%');
   const double factor = parse_number(text.substr(0, text.size() - is_percent), 0, 1e6) / (is_percent ? 100 : 1);
   const auto scaled = [&](int n) { return static_cast<int>(std::clamp(std::floor(n * factor + 0.5), 1.0, 1e9)); };
   const int2 size{scaled(width), scaled(height)};
-  if (factor <= 0 || size.x > greatest_side || size.y > greatest_side)
+  if (factor <= 0 || size.x > max_side || size.y > max_side)
     throw Error(ErrorKind::Usage, fmt::format("--size: {} gives {} × {}, expected 1 to {} pixels a side", text, size.x,
-                                              size.y, greatest_side));
+                                              size.y, max_side));
   return size;
 }
 

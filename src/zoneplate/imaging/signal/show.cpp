@@ -23,7 +23,7 @@ namespace {
 std::uint8_t code8(double v) { return static_cast<std::uint8_t>(std::clamp(v, 0.0, 1.0) * 255 + 0.5); }
 
 /// The maximum of the values that fall on each pixel of a smaller plane.
-Plane<float> greatest_in(const Plane<float>& plane, int2 size) {
+Plane<float> max_in(const Plane<float>& plane, int2 size) {
   Plane<float> out(size.x, size.y);
   for (int y = 0; y < plane.height(); ++y)
     for (int x = 0; x < plane.width(); ++x) {
@@ -38,7 +38,7 @@ constexpr double whole_range_db = 400;
 
 double power_of(Complex z) { return z.real() * z.real() + z.imag() * z.imag(); }
 
-double greatest_power(const Spectrum& spectrum, bool with_mean) {
+double max_power(const Spectrum& spectrum, bool with_mean) {
   double greatest = 0;
   for (std::size_t i = with_mean ? 0 : 1; i < spectrum.half.values().size(); ++i)
     greatest = std::max(greatest, power_of(spectrum.half.values()[i]));
@@ -49,7 +49,7 @@ double greatest_power(const Spectrum& spectrum, bool with_mean) {
 Plane<float> levels_of(const Spectrum& spectrum, const MagnitudeScale& scale) {
   Plane<float> levels = centred_log_magnitude(spectrum, whole_range_db);
   const double peak = scale.peak > 0 ? scale.peak : strongest_magnitude(spectrum);
-  const double own = greatest_power(spectrum, true);
+  const double own = max_power(spectrum, true);
   if (own == 0 || peak == 0) return Plane<float>(levels.width(), levels.height());
   const double above = 10 / std::numbers::ln10 * natural_log(own / (peak * peak));
   metrics::for_rows(levels.height(), [&](int y) {
@@ -92,7 +92,7 @@ Plane<float> luminance(const LinearImage& image) {
 }
 
 double strongest_magnitude(const Spectrum& spectrum) {
-  const double power = greatest_power(spectrum, false);
+  const double power = max_power(spectrum, false);
   // Rounding leaves a small magnitude in every bin of a constant.
   const double mean = power_of(spectrum.half.empty() ? Complex{} : spectrum.half(0, 0));
   return std::sqrt(power > 1e-24 * mean ? power : mean);
@@ -123,7 +123,7 @@ Rgba8Image paint_phase(const Spectrum& spectrum) {
 Rgba8Image magnitude_panel(const Spectrum& spectrum, const MagnitudeScale& scale) {
   const Plane<float> levels = levels_of(spectrum, scale);
   const int2 size = panel_size(levels.width(), levels.height());
-  return fitted(metrics::paint_magma(size.x < levels.width() ? greatest_in(levels, size) : levels));
+  return fitted(metrics::paint_magma(size.x < levels.width() ? max_in(levels, size) : levels));
 }
 
 Rgba8Image phase_panel(const Spectrum& spectrum) {

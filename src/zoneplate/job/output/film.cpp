@@ -51,7 +51,7 @@ const std::vector<Codec>& codecs() {
         {".mkv", together({h264, bt709_tags, {"-f", "matroska"}}), true},
         {".webm", together({vp9, bt709_tags, {"-f", "webm"}})},
         {".gif",
-         {"-vf", fmt::format("fps=min(source_fps\\,{}),{}", most_gif_rate, to_palette), "-loop", "0", "-f", "gif"}}};
+         {"-vf", fmt::format("fps=min(source_fps\\,{}),{}", max_gif_rate, to_palette), "-loop", "0", "-f", "gif"}}};
   }();
   return all;
 }

@@ -29,7 +29,7 @@ bool is_video(const std::string& output);
 bool has_even_sides(const std::string& output);
 
 /// The frames per second that a .gif has at most: browsers show delays below 2 hundredths of a second as 10.
-constexpr int most_gif_rate = 50;
+constexpr int max_gif_rate = 50;
 
 /// The encoder of a film that is not encoded by ffmpeg: WebP by its name, lossless without a quality, else APNG.
 std::unique_ptr<AnimationEncoder> make_film_encoder(const std::string& output, const AnimationFormat& format,
@@ -45,7 +45,7 @@ std::vector<std::uint8_t> encode_film(const std::string& output, std::span<const
 /// A film that ffmpeg encodes while further frames are drawn.
 ///
 /// Edges     odd sides of an opaque video, whose codec requires even ones, repeat the last column and row; a .gif of
-///           more than `most_gif_rate` frames per second lacks frames, evenly.
+///           more than `max_gif_rate` frames per second lacks frames, evenly.
 class FfmpegFilm {
  public:
   /// `check_time` is called while ffmpeg keeps this process waiting; ffmpeg is killed if it throws.

@@ -10,7 +10,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr int most_digits = 20;
+constexpr int max_digits = 20;
 
 std::optional<int> digits_of(const std::string& text) {
   if (text.size() > 2 || text.find_first_not_of("0123456789") != text.npos) return std::nullopt;
@@ -23,7 +23,7 @@ std::optional<FramePlace> place_at(const std::string& name, std::size_t at) {
   const std::string_view rest = std::string_view(name).substr(at);
   if (mark == '#' || mark == '@') {
     const std::size_t size = std::min(rest.find_first_not_of(mark), rest.size());
-    return FramePlace{at, size, static_cast<int>(std::min<std::size_t>(size, most_digits))};
+    return FramePlace{at, size, static_cast<int>(std::min<std::size_t>(size, max_digits))};
   }
   if (rest.starts_with("$F")) {
     const bool has_width = rest.size() > 2 && rest[2] >= '1' && rest[2] <= '9';
@@ -40,7 +40,7 @@ std::optional<FramePlace> place_at(const std::string& name, std::size_t at) {
     return std::nullopt;
   const std::optional<int> digits = digits_of(inside);
   if (!digits) return std::nullopt;
-  return FramePlace{at, end + 1, std::clamp(*digits, 1, most_digits)};
+  return FramePlace{at, end + 1, std::clamp(*digits, 1, max_digits)};
 }
 
 bool is_short(const std::string& name, const FramePlace& place) {
@@ -73,7 +73,7 @@ std::optional<std::int64_t> frame_of(std::string_view text, int digits) {
   const bool is_negative = text.starts_with('-');
   if (is_negative) text.remove_prefix(1);
   const auto size = static_cast<int>(text.size());
-  if (size < digits || size > most_digits || (size > digits && text[0] == '0')) return std::nullopt;
+  if (size < digits || size > max_digits || (size > digits && text[0] == '0')) return std::nullopt;
   std::int64_t number = 0;
   for (const char c : text) {
     if (c < '0' || c > '9') return std::nullopt;

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/scene/default_options.h"
 #include "zoneplate/scene/material_layers.h"
-#include "zoneplate/scene/usual_options.h"
 
 namespace zoneplate {
 namespace {

@@ -38,13 +38,13 @@ constexpr double mask_weight[4][4] = {
     {2.5655593872070312, 0.34406712651252747, -2.719646453857422, -0.4970424771308899},
     {3.8118371963500977, -1.0051705837249756, -0.5193376541137695, -0.5653647780418396},
     {-7.054771423339844, -5.527150630950928, -3.5106418132781982, -2.08804988861084}};
-constexpr double greatest_difference_decades = 2.5642454624176025;
+constexpr double max_difference_decades = 2.5642454624176025;
 constexpr std::array<double, 4> channel_weight = {1, 1, 1, 0.8081134557723999};
 constexpr std::array<double, 4> baseband_weight = {0.0036334486212581396, 1.6627724170684814, 4.11874532699585,
                                                    25.25969886779785};
 constexpr double quality_factor = 0.0439569391310215, quality_exponent = 0.9302042722702026;
 constexpr double linear_below = 0.1;  // below this difference, quality is linear
-constexpr double greatest_contrast = 1000, least_luminance = 0.01;
+constexpr double max_contrast = 1000, min_luminance = 0.01;
 
 double ten_to(double x) { return natural_exp(x * std::numbers::ln10); }
 
@@ -101,12 +101,12 @@ Band make_band(const OpponentPlanes& level, const OpponentPlanes& below, double 
     Plane<double> predicted = expand(below[c], width, height);
     if (c == 0) {
       band.luminance = predicted;
-      for (double& v : band.luminance.values()) v = std::max(least_luminance, v);
+      for (double& v : band.luminance.values()) v = std::max(min_luminance, v);
     }
     for_rows(height, [&](int y) {
       for (int x = 0; x < width; ++x) {
         const double contrast = (level[c](x, y) - predicted(x, y)) / band.luminance(x, y);
-        predicted(x, y) = std::min(contrast, greatest_contrast) * factor;
+        predicted(x, y) = std::min(contrast, max_contrast) * factor;
       }
     });
     band.contrast.push_back(std::move(predicted));
@@ -185,7 +185,7 @@ OpponentPlanes make_masks(const Band& reference, const Band& test) {
 std::vector<double> difference_in_band(const Band& reference, const Band& test, const Mask& is_ignored) {
   const OpponentPlanes masks = make_masks(reference, test);
   const SoftPower raise(difference_exponent);
-  const double greatest = ten_to(greatest_difference_decades);
+  const double greatest = ten_to(max_difference_decades);
   const std::size_t count = masks.size();
   std::vector<double> out;
   for (std::size_t c = 0; c < count; ++c) {
@@ -213,8 +213,8 @@ double mean_of_plane(const Plane<double>& plane) {
 /// The difference of the pyramid's base band: contrast relative to the mean luminance, without masking.
 std::vector<double> difference_in_baseband(const OpponentPlanes& reference, const OpponentPlanes& test,
                                            double frequency, const Mask& is_ignored) {
-  const double expected = std::max(least_luminance, mean_of_plane(reference[0]));
-  const double found = std::max(least_luminance, mean_of_plane(test[0]));
+  const double expected = std::max(min_luminance, mean_of_plane(reference[0]));
+  const double found = std::max(min_luminance, mean_of_plane(test[0]));
   std::vector<double> out;
   for (std::size_t c = 0; c < reference.size(); ++c) {
     const double weight = Sensitivity(static_cast<int>(c), frequency).at(expected) * ten_to(sensitivity_decibels / 20);
@@ -296,7 +296,7 @@ Metric cvvdp() {
           .better = Better::Higher,
           .perfect = 10.0,
           .is_default = false,
-          .smallest = least_visible_size,
+          .smallest = min_visible_size,
           .params = viewing_params,
           .measure = [](Frames reference, Frames test, const Settings& settings) -> std::optional<Score> {
             // Fitted by the authors: a still has a smaller weight than a sequence.

@@ -23,7 +23,7 @@ inline constexpr Param viewing_params[] = {real_param("ppd", "pixels per degree 
 Viewing viewing_of(const Settings& settings);
 
 /// Minimum width and height.
-constexpr int least_visible_size = 16;
+constexpr int min_visible_size = 16;
 
 /// An image as luminance, red-green and violet-yellow planes (and, in a sequence, transient luminance), in cd/m².
 using OpponentPlanes = std::vector<Plane<double>>;

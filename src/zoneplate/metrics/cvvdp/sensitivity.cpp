@@ -325,13 +325,13 @@ Place place_of(double log, double first, double last) {
 }
 
 // log10 of the first and last luminance and frequency of the table.
-constexpr double least_luminance = -2.301029995663981, greatest_luminance = 4;
-constexpr double least_frequency = -1, greatest_frequency = 1.806179973983887;
+constexpr double min_luminance = -2.301029995663981, max_luminance = 4;
+constexpr double min_frequency = -1, max_frequency = 1.806179973983887;
 
 }  // namespace
 
 Sensitivity::Sensitivity(int channel, double cycles_per_degree) {
-  const Place rho = place_of(decimal_log(cycles_per_degree), least_frequency, greatest_frequency);
+  const Place rho = place_of(decimal_log(cycles_per_degree), min_frequency, max_frequency);
   for (int i = 0; i < steps; ++i) {
     const std::int32_t* row = table + (channel * steps + i) * steps + rho.index;
     logs_[static_cast<std::size_t>(i)] = (row[0] + rho.share * (row[1] - row[0])) * 1e-5 * std::numbers::ln10;
@@ -339,7 +339,7 @@ Sensitivity::Sensitivity(int channel, double cycles_per_degree) {
 }
 
 double Sensitivity::at_log(double log_luminance) const {
-  const Place place = place_of(log_luminance, least_luminance, greatest_luminance);
+  const Place place = place_of(log_luminance, min_luminance, max_luminance);
   const double* entry = logs_.data() + place.index;
   return natural_exp(entry[0] + place.share * (entry[1] - entry[0]));
 }

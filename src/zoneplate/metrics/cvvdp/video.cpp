@@ -16,8 +16,8 @@
 namespace zoneplate::metrics {
 namespace {
 
-constexpr double greatest_rate = 120;  // frames per second
-constexpr int most_taps = 31;          // taps of the filters at that rate
+constexpr double max_rate = 120;  // frames per second
+constexpr int max_taps = 31;      // taps of the filters at that rate
 
 OpponentPlanes seen_in_time(Frames frames, const Viewing& viewing, double rate) {
   const auto filters = temporal_filters(rate);
@@ -86,7 +86,7 @@ OpponentPlanes filtered_in_time(std::span<const OpponentPlanes> frames,
 
 Metric cvvdp_video() {
   static constexpr Param params[] = {viewing_params[0], viewing_params[1],
-                                     real_param("fps", "frames shown in a second", 60, 4, greatest_rate)};
+                                     real_param("fps", "frames shown in a second", 60, 4, max_rate)};
   return {.name = "cvvdp_video",
           .summary = "ColorVideoVDP of a sequence: quality in JOD, flicker included (10 is the same)",
           .source = "Mantiuk et al. 2024, version 0.5.6",
@@ -94,9 +94,9 @@ Metric cvvdp_video() {
           .better = Better::Higher,
           .perfect = 10.0,
           .is_default = false,
-          .frames = most_taps,
+          .frames = max_taps,
           .starts_short = true,
-          .smallest = least_visible_size,
+          .smallest = min_visible_size,
           .params = params,
           .measure = [](Frames reference, Frames test, const Settings& settings) -> std::optional<Score> {
             const Viewing viewing = viewing_of(settings);

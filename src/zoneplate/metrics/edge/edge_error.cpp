@@ -14,7 +14,7 @@
 namespace zoneplate::metrics {
 namespace {
 
-constexpr double least_slope = 0.04, least_ratio = 9;
+constexpr double min_slope = 0.04, min_ratio = 9;
 constexpr int reach = 2;
 constexpr double binomial[2 * reach + 1] = {1 / 16.0, 4 / 16.0, 6 / 16.0, 4 / 16.0, 1 / 16.0};
 
@@ -83,11 +83,11 @@ EdgeError measure_edge_error(const Picture& reference, const Picture& test) {
     for (int x = reach; x + reach < truth.width(); ++x) {
       if (!is_measured(reference, x, y)) continue;
       const double gx = (truth(x + 1, y) - truth(x - 1, y)) / 2, gy = (truth(x, y + 1) - truth(x, y - 1)) / 2;
-      if (gx * gx + gy * gy < least_slope * least_slope) continue;
+      if (gx * gx + gy * gy < min_slope * min_slope) continue;
       const Tensor& t = around(x, y);
       const double sum = t.xx + t.yy, difference = t.xx - t.yy, cross = 2 * t.xy;
       const double spread = std::sqrt(difference * difference + cross * cross);
-      if (sum + spread < least_ratio * (sum - spread)) continue;
+      if (sum + spread < min_ratio * (sum - spread)) continue;
       EdgeError::Bin& bin = out.by_angle[static_cast<std::size_t>(bin_of(std::abs(difference), std::abs(cross)))];
       const double off = seen(x, y) - truth(x, y);
       ++bin.pixels;

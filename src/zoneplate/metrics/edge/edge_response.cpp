@@ -18,8 +18,8 @@ namespace zoneplate::metrics {
 namespace {
 
 constexpr int bins_a_pixel = 4;
-constexpr int greatest_reach = 32;  // pixels on each side of the edge; a greater reach only adds noise
-constexpr int least_reach = 4;
+constexpr int max_reach = 32;  // pixels on each side of the edge; a greater reach only adds noise
+constexpr int min_reach = 4;
 
 Plane<double> transposed(const Plane<double>& in) {
   Plane<double> out(in.height(), in.width());
@@ -72,8 +72,8 @@ std::optional<Line> fit_line(const Plane<double>& in, const std::optional<Line>&
   for (int row = 0; row < in.height(); ++row) {
     const double y = row + 0.5;
     const double near = guess ? guess->x(y) : in.width() / 2.0;
-    if (near < least_reach || near > in.width() - least_reach) continue;
-    const auto x = edge_in_row(in.row(row), near, guess ? least_reach * 2.0 : in.width(), least);
+    if (near < min_reach || near > in.width() - min_reach) continue;
+    const auto x = edge_in_row(in.row(row), near, guess ? min_reach * 2.0 : in.width(), least);
     if (!x) continue;
     n += 1, sy += y, sx += *x, syy += y * y, sxy += y * *x;
   }
@@ -192,7 +192,7 @@ void measure_spread(EdgeResponse& edge) {
 
 std::optional<EdgeResponse> measure_edge(const LinearImage& image) {
   Plane<double> in = luminance_plane(image);
-  if (in.width() <= 2 * least_reach || in.height() <= 2 * least_reach) return std::nullopt;
+  if (in.width() <= 2 * min_reach || in.height() <= 2 * min_reach) return std::nullopt;
   if (is_nearly_horizontal(in)) in = transposed(in);
   const auto [low, high] = std::ranges::minmax(in.values());
   const double least = (high - low) / 2;
@@ -205,7 +205,7 @@ std::optional<EdgeResponse> measure_edge(const LinearImage& image) {
 
   const double ends[] = {line->x(0), line->x(in.height())};
   const double room = std::min(std::ranges::min(ends), in.width() - std::ranges::max(ends));
-  const int reach = std::max(least_reach, whole_within(room, greatest_reach));
+  const int reach = std::max(min_reach, whole_within(room, max_reach));
   auto spread = gather(in, *line, reach);
   if (!spread) return std::nullopt;
 

@@ -50,15 +50,15 @@ DisplayImage display_of(const Plane<Code>& codes) {
   return image;
 }
 
-DisplayImage decode_display(std::span<const std::uint8_t> bytes, const std::string& path, std::uint64_t most_pixels) {
-  if (is_animated_webp(bytes)) return display_of(decode_first_webp_frame(bytes, path, most_pixels));
-  if (is_webp(bytes)) return display_of(decode_webp(bytes, path, most_pixels));
-  if (is_gif(bytes)) return display_of(decode_gif(bytes, path, most_pixels));
-  if (is_bmp(bytes)) return display_of(decode_bmp(bytes, path, most_pixels));
-  if (!is_png(bytes) && is_tga(bytes)) return display_of(decode_tga(bytes, path, most_pixels));
+DisplayImage decode_display(std::span<const std::uint8_t> bytes, const std::string& path, std::uint64_t max_pixels) {
+  if (is_animated_webp(bytes)) return display_of(decode_first_webp_frame(bytes, path, max_pixels));
+  if (is_webp(bytes)) return display_of(decode_webp(bytes, path, max_pixels));
+  if (is_gif(bytes)) return display_of(decode_gif(bytes, path, max_pixels));
+  if (is_bmp(bytes)) return display_of(decode_bmp(bytes, path, max_pixels));
+  if (!is_png(bytes) && is_tga(bytes)) return display_of(decode_tga(bytes, path, max_pixels));
   if (!is_png(bytes))
     throw unread_format(bytes, path, "PNG, JPEG, WebP, GIF, TIFF, AVIF, JPEG XL, HDR, EXR, PFM, BMP or TGA");
-  const PngImage png = decode_png_as_stored(bytes, path, most_pixels);
+  const PngImage png = decode_png_as_stored(bytes, path, max_pixels);
   return png.pixels16.empty() ? display_of(png.pixels) : display_of(png.pixels16);
 }
 
@@ -218,23 +218,23 @@ Picture picture_of(const TexelImage& codes) {
                                                          : display_of(codes.as<Rgba8>()));
 }
 
-Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t most_pixels,
+Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name, std::uint64_t max_pixels,
                        const ExrChoice& exr) {
   ImageColor color = read_image_color(bytes, name, exr);
   Picture picture;
   if (const SystemFormat* const format = find_system_format(bytes)) {
-    StoredImage image = format->decode(bytes, name, most_pixels);
+    StoredImage image = format->decode(bytes, name, max_pixels);
     color = color_of(image, std::move(color), name);
     picture = picture_of(std::move(image), color);
   } else if (is_jpeg(bytes)) {
-    JpegImage image = decode_jpeg(bytes, name, most_pixels);
+    JpegImage image = decode_jpeg(bytes, name, max_pixels);
     picture = picture_of(display_of(image.pixels), color);
     picture.flaw = std::move(image.flaw);
   } else {
-    picture = is_hdr(bytes)   ? make_picture(decode_hdr(bytes, name, most_pixels))
-              : is_exr(bytes) ? make_picture(decode_exr_as_stored(bytes, name, most_pixels, exr))
-              : is_pfm(bytes) ? make_picture(decode_pfm(bytes, name, most_pixels))
-                              : picture_of(decode_display(bytes, name, most_pixels), color);
+    picture = is_hdr(bytes)   ? make_picture(decode_hdr(bytes, name, max_pixels))
+              : is_exr(bytes) ? make_picture(decode_exr_as_stored(bytes, name, max_pixels, exr))
+              : is_pfm(bytes) ? make_picture(decode_pfm(bytes, name, max_pixels))
+                              : picture_of(decode_display(bytes, name, max_pixels), color);
   }
   picture.space = color.space, picture.color_flaw = color.flaw;
   return picture;
@@ -257,16 +257,16 @@ ImageFile open_image(const std::string& path) {
   return {.name = path, .bytes = bytes, .owner = std::move(file)};
 }
 
-Picture decode_file(const ImageFile& file, std::uint64_t most_pixels) {
+Picture decode_file(const ImageFile& file, std::uint64_t max_pixels) {
   const MappedFileWatch watch;
-  Picture picture = file.decode_frame ? in_srgb(picture_of_frame(file))
-                                      : decode_picture(file.bytes, file.name, most_pixels, file.exr);
+  Picture picture =
+      file.decode_frame ? in_srgb(picture_of_frame(file)) : decode_picture(file.bytes, file.name, max_pixels, file.exr);
   watch.check(file.name);
   return picture;
 }
 
-Picture load_picture(const std::string& path, std::uint64_t most_pixels) {
-  return in_srgb(decode_file(open_image(path), most_pixels));
+Picture load_picture(const std::string& path, std::uint64_t max_pixels) {
+  return in_srgb(decode_file(open_image(path), max_pixels));
 }
 
 std::vector<std::string> list_pictures_below(const std::string& directory) {

@@ -27,18 +27,18 @@ ImageFile open_image(const std::string& path);
 /// HDR, EXR, PFM, and TIFF and JPEG XL of floats contain unbounded linear light, which is kept as it is stored, with
 /// NaN and infinities; their display-referred values are clamped. Values stay as they are stored, in the colour space
 /// of the file, and the image is turned as its orientation (of Exif, TIFF, AVIF or JPEG XL) says.
-/// Errors    ErrorKind::Input naming the file and the cause, also for more than `most_pixels`.
-Picture decode_file(const ImageFile& file, std::uint64_t most_pixels = std::uint64_t{1} << 28);
+/// Errors    ErrorKind::Input naming the file and the cause, also for more than `max_pixels`.
+Picture decode_file(const ImageFile& file, std::uint64_t max_pixels = std::uint64_t{1} << 28);
 
 /// The same from the bytes of a file; `name` is for messages, `exr` chooses the image of an EXR.
 Picture decode_picture(std::span<const std::uint8_t> bytes, const std::string& name,
-                       std::uint64_t most_pixels = std::uint64_t{1} << 28, const ExrChoice& exr = {});
+                       std::uint64_t max_pixels = std::uint64_t{1} << 28, const ExrChoice& exr = {});
 
 /// The same image in sRGB codes, or light of Rec.709 primaries. Display-referred colours outside sRGB are clamped.
 Picture in_srgb(Picture picture);
 
 /// Loads an image in sRGB, or light of Rec.709 primaries.
-Picture load_picture(const std::string& path, std::uint64_t most_pixels = std::uint64_t{1} << 28);
+Picture load_picture(const std::string& path, std::uint64_t max_pixels = std::uint64_t{1} << 28);
 
 /// A display-referred picture of codes, which has their values exactly.
 Picture picture_of(const TexelImage& codes);

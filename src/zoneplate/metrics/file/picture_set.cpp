@@ -78,8 +78,8 @@ std::optional<std::int64_t> microseconds_in(std::string_view line) {
 /// The frames of an animation, of which the last decoded one is kept.
 class FrameCursor {
  public:
-  FrameCursor(ImageFile file, std::uint64_t most_pixels)
-      : file_(std::move(file)), most_pixels_(most_pixels), reader_(opened()) {}
+  FrameCursor(ImageFile file, std::uint64_t max_pixels)
+      : file_(std::move(file)), max_pixels_(max_pixels), reader_(opened()) {}
 
   const AnimationReader* reader() const { return reader_.get(); }
   const ImageFile& file() const { return file_; }
@@ -97,10 +97,10 @@ class FrameCursor {
   }
 
  private:
-  std::unique_ptr<AnimationReader> opened() const { return open_animation(file_.bytes, file_.name, most_pixels_); }
+  std::unique_ptr<AnimationReader> opened() const { return open_animation(file_.bytes, file_.name, max_pixels_); }
 
   const ImageFile file_;
-  const std::uint64_t most_pixels_;
+  const std::uint64_t max_pixels_;
   std::unique_ptr<AnimationReader> reader_;
   std::optional<ImageColor> color_;
   std::size_t done_ = 0;
@@ -182,10 +182,10 @@ std::vector<FrameTime> video_times(const std::string& path, std::size_t frames, 
   return times;
 }
 
-PictureSet with_frames(PictureSet set, std::uint64_t most_pixels) {
+PictureSet with_frames(PictureSet set, std::uint64_t max_pixels) {
   if (set.is_directory || set.names.size() != 1 || set.files.size() != 1) return set;
   const MappedFileWatch watch;
-  const auto cursor = std::make_shared<FrameCursor>(set.open(0), most_pixels);
+  const auto cursor = std::make_shared<FrameCursor>(set.open(0), max_pixels);
   watch.check(set.files[0]);
   if (!cursor->reader()) {
     set.open = [cursor](std::size_t) { return cursor->file(); };  // standard input cannot be opened again

@@ -54,8 +54,8 @@ std::vector<FrameTime> video_times(const std::string& path, std::size_t frames, 
 /// The frames of the set's only file, if that is an animated PNG, GIF or WebP of at least two frames; else the set.
 /// They are composed as their format says, and best decoded in order: an earlier frame needs all before it again.
 ///
-/// Errors    ErrorKind::Input naming the file and the cause, also for frames of more than `most_pixels`.
-PictureSet with_frames(PictureSet set, std::uint64_t most_pixels);
+/// Errors    ErrorKind::Input naming the file and the cause, also for frames of more than `max_pixels`.
+PictureSet with_frames(PictureSet set, std::uint64_t max_pixels);
 
 /// Two images to compare, as indices into their sets; one of them may be missing.
 struct PicturePair {

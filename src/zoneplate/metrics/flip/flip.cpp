@@ -128,7 +128,7 @@ bool agree_around(const LinearImage& a, const LinearImage& b, const Tile& tile, 
 }
 
 /// The greatest colour difference of the gamut, that between green and blue.
-double greatest_difference() { return power(hyab(hunt_lab_from_rgb({0, 1, 0}), hunt_lab_from_rgb({0, 0, 1})), 0.7); }
+double max_difference() { return power(hyab(hunt_lab_from_rgb({0, 1, 0}), hunt_lab_from_rgb({0, 0, 1})), 0.7); }
 
 double error_between(const Seen& a, const Seen& b, double greatest) {
   const double color = color_error(a.color, b.color, greatest);
@@ -141,7 +141,7 @@ double error_between(const Seen& a, const Seen& b, double greatest) {
 Plane<float> flip_map(const LinearImage& reference, const LinearImage& test, double pixels_per_degree) {
   const int width = reference.width(), height = reference.height();
   const FlipFilters filters = make_flip_filters(pixels_per_degree);
-  const double greatest = greatest_difference();
+  const double greatest = max_difference();
   Plane<float> map(width, height);
 
   // Tiles are for locality in the cache; a pixel's value does not depend on its tile.
@@ -193,7 +193,8 @@ Score score_of_flip(Plane<float> map, const Picture& reference) {
 }
 
 Metric flip() {
-  static constexpr Param params[] = {real_param("ppd", "pixels per degree of view", usual_pixels_per_degree, 1, 1000)};
+  static constexpr Param params[] = {
+      real_param("ppd", "pixels per degree of view", default_pixels_per_degree, 1, 1000)};
   return {.name = "flip",
           .summary = "difference seen when the images alternate, from a stated distance: mean of the map",
           .source = "Andersson et al. 2020",

@@ -9,7 +9,7 @@
 namespace zoneplate::metrics {
 
 /// Pixels per degree of visual angle at a distance of 0.7 m from a display 0.7 m wide with 3840 pixels.
-constexpr double usual_pixels_per_degree = 67.02064327658226;
+constexpr double default_pixels_per_degree = 67.02064327658226;
 
 /// FLIP: at each pixel, the difference that a viewer notices when two images alternate in place.
 ///

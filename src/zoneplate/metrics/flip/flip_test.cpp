@@ -23,7 +23,7 @@ double figure(const Score& score, std::string_view name) {
 
 Score flip_of_chart(int which) {
   const ChartPair pair = chart_pair(which);
-  return score_of_flip(flip_map(pair.reference, pair.test, usual_pixels_per_degree));
+  return score_of_flip(flip_map(pair.reference, pair.test, default_pixels_per_degree));
 }
 
 TEST(Flip, PublishedValues) {
@@ -56,7 +56,7 @@ TEST(Flip, PublishedValuesOfUnboundedLight) {
   const double published[] = {0.005382, 0.561196, 0.256468, 0.200432};
   for (int which = 0; which < 4; ++which) {
     const ChartPair pair = chart_pair(which);
-    const Plane<float> map = hdr_flip_map(brightened(pair.reference), brightened(pair.test), usual_pixels_per_degree);
+    const Plane<float> map = hdr_flip_map(brightened(pair.reference), brightened(pair.test), default_pixels_per_degree);
     EXPECT_NEAR(score_of_flip(map).value, published[which], 1e-4) << which;
   }
 }
@@ -130,7 +130,7 @@ TEST(Flip, KernelsSumAsTheirTwins) {
 }
 
 TEST(Flip, FiltersSumAsPromised) {
-  const FlipFilters f = make_flip_filters(usual_pixels_per_degree);
+  const FlipFilters f = make_flip_filters(default_pixels_per_degree);
   EXPECT_EQ(f.color_radius, 10);
   EXPECT_EQ(f.feature_radius, 9);
   const auto sum = [](const Taps& taps) {

@@ -78,7 +78,8 @@ Plane<float> hdr_flip_map(const LinearImage& reference, const LinearImage& test,
 }
 
 Metric flip_hdr() {
-  static constexpr Param params[] = {real_param("ppd", "pixels per degree of view", usual_pixels_per_degree, 1, 1000)};
+  static constexpr Param params[] = {
+      real_param("ppd", "pixels per degree of view", default_pixels_per_degree, 1, 1000)};
   return {.name = "flip_hdr",
           .summary = "FLIP of unbounded light: the worst over the reference's exposures",
           .source = "Andersson et al. 2021",

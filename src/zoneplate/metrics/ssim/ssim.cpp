@@ -18,7 +18,7 @@
 namespace zoneplate::metrics {
 namespace {
 
-constexpr int most_side = 11;  // 3.5 sigma of 1.5 on both sides, rounded
+constexpr int max_side = 11;  // 3.5 sigma of 1.5 on both sides, rounded
 constexpr double c1 = 0.01 * 0.01, c2 = 0.03 * 0.03;
 constexpr int block_rows = 32;
 
@@ -41,8 +41,8 @@ struct Window {
 };
 
 Window make_window(const SimilarityWindow& choice) {
-  const int side = choice.side == 0 ? most_side : choice.side;
-  assert(side >= 2 && side <= most_side);
+  const int side = choice.side == 0 ? max_side : choice.side;
+  assert(side >= 2 && side <= max_side);
   Window window{.weights = std::vector<double>(static_cast<std::size_t>(side), 1.0),
                 .before = (side - 1) / 2,
                 .behind = side / 2};
@@ -117,7 +117,7 @@ void measure_rows(const Plane<double>& a, const Plane<double>& b, int begin, int
 Similarity structural_similarity(const Plane<double>& reference, const Plane<double>& test, SimilarityWindow choice,
                                  const Plane<std::uint8_t>& is_ignored) {
   const int width = reference.width(), height = reference.height();
-  assert(width >= most_side && height >= most_side && test.width() == width && test.height() == height);
+  assert(width >= max_side && height >= max_side && test.width() == width && test.height() == height);
   const Window window = make_window(choice);
   Similarity out;
   out.map = Plane<float>(width, height);
@@ -177,7 +177,7 @@ Metric ssim() {
           .unit = "",
           .better = Better::Higher,
           .perfect = 1.0,
-          .smallest = most_side,
+          .smallest = max_side,
           .params = params,
           .measure = [](Frames reference, Frames test, const Settings& settings) -> std::optional<Score> {
             return similarity_score(reference[0], test[0], settings);

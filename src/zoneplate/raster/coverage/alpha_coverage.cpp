@@ -8,7 +8,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr float least_slope = 1e-4f;
+constexpr float min_slope = 1e-4f;
 
 /// The batch's fragments, moved by a pixel (or sample) along one direction.
 FragmentBatch moved(const FragmentBatch& batch, const float (&change)[2][FragmentBatch::padded_capacity]) {
@@ -32,7 +32,7 @@ float AlphaDigits::alpha(const FragmentBatch& batch, float* out) const {
   for (int i = 0; i < batch.padded(); ++i) {
     float a = out[i];
     if (is_sharp_)
-      a = (a - cutoff) / std::max(std::abs(right[i] - out[i]) + std::abs(below[i] - out[i]), least_slope) + 0.5f;
+      a = (a - cutoff) / std::max(std::abs(right[i] - out[i]) + std::abs(below[i] - out[i]), min_slope) + 0.5f;
     const int count = static_cast<int>(std::clamp(a, 0.0f, 1.0f) * static_cast<float>(samples_) + 0.5f);
     out[i] = static_cast<float>(count >> digit_ & 1);
   }

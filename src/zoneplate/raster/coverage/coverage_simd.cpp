@@ -73,11 +73,11 @@ float depth_from(const TileTriangle& t, float base, int x, int y) {
 }
 
 /// The greatest depth that `depth_at` gives in the block: rounding is monotone, so it is the value at one corner.
-float greatest_depth(const TileTriangle& t, const Spread& spread, int x, int y) {
+float max_depth(const TileTriangle& t, const Spread& spread, int x, int y) {
   return depth_from(t, spread.z_greatest, t.dzdx > 0 ? x + 7 : x, t.dzdy > 0 ? y + 7 : y);
 }
 
-float least_depth(const TileTriangle& t, const Spread& spread, int x, int y) {
+float min_depth(const TileTriangle& t, const Spread& spread, int x, int y) {
   return depth_from(t, spread.z_least, t.dzdx > 0 ? x : x + 7, t.dzdy > 0 ? y : y + 7);
 }
 
@@ -231,7 +231,7 @@ bool draw(const TileTriangle& t, TileVisibility& tile) {
       const int block = by + bx / 8;
       if (place == Block::Outside) continue;
       const std::uint64_t bit = std::uint64_t{1} << block;
-      const float nearest = greatest_depth(t, spread, bx, by);
+      const float nearest = max_depth(t, spread, bx, by);
       if (nearest < tile.block_min_depth[block]) continue;
       if (tile.dirty & bit) {
         tile.dirty &= ~bit;
@@ -241,7 +241,7 @@ bool draw(const TileTriangle& t, TileVisibility& tile) {
       }
       if (place == Block::Inside && tile.block_primitive[block] == no_primitive) {
         fill_block(t, tile, bx, by);
-        tile.block_min_depth[block] = least_depth(t, spread, bx, by);
+        tile.block_min_depth[block] = min_depth(t, spread, bx, by);
         tile.block_primitive[block] = t.id;
         has_risen = true;
         continue;
@@ -336,10 +336,10 @@ int collect_blocks(const TileTriangle& t, const TileVisibility& tile, const floa
     for (int bx = t.first_x & ~7; bx <= t.last_x; bx += 8) {
       const Block place = classify(t, reach, bx, by);
       const int block = by + bx / 8;
-      if (place == Block::Outside || greatest_depth(t, spread, bx, by) < tile.block_min_depth[block]) continue;
-      const float low = least_depth(t, spread, bx, by);
+      if (place == Block::Outside || max_depth(t, spread, bx, by) < tile.block_min_depth[block]) continue;
+      const float low = min_depth(t, spread, bx, by);
       if (place == Block::Inside && low > nearest[block])
-        out[count++] = {t.id, static_cast<std::uint32_t>(block), low, greatest_depth(t, spread, bx, by)};
+        out[count++] = {t.id, static_cast<std::uint32_t>(block), low, max_depth(t, spread, bx, by)};
       else
         others |= std::uint64_t{1} << block;
     }

@@ -28,7 +28,7 @@ struct Filled {
   Arena arena;
   TileSampleBins fragments;
   Owners owners;
-  std::size_t greatest_parts = 0;
+  std::size_t max_parts = 0;
   std::size_t parts() const {
     std::size_t count = 0;
     for (const SampleBin* p = fragments[1]; p; p = p->previous) ++count;
@@ -50,7 +50,7 @@ void fill(Filled& to, bool keeps_hidden) {
     part->depth[part->count] = depth;
     part->packed[part->count++] = (static_cast<std::uint32_t>(id - part->first_id) << 16) + at;
     take(to.owners, at, {depth, id});
-    if (i % 1000 == 0) to.greatest_parts = std::max(to.greatest_parts, to.parts());
+    if (i % 1000 == 0) to.max_parts = std::max(to.max_parts, to.parts());
   }
 }
 
@@ -59,7 +59,7 @@ TEST(TileSampleBins, TheNearestStayAndListsStayShort) {
   fill(short_lists, false);
   fill(all, true);
   EXPECT_GT(all.parts(), 20000u);
-  EXPECT_LE(short_lists.greatest_parts, 700u);  // 300 fragments, all in different parts at worst, twice
+  EXPECT_LE(short_lists.max_parts, 700u);  // 300 fragments, all in different parts at worst, twice
   for (const Filled* f : {&short_lists, &all}) {
     Owners found;
     for (const SampleBin* p = f->fragments[1]; p; p = p->previous)

@@ -72,7 +72,7 @@ inline float depth_at(const TileTriangle& t, int s, int x, int y) {
 }
 
 /// The greatest depth of a triangle's samples in the tile: rounding is monotone, so it is found at a corner.
-inline float greatest_depth(const TileTriangle& t, int samples) {
+inline float max_depth(const TileTriangle& t, int samples) {
   const int x = t.dzdx > 0 ? t.last_x : t.first_x, y = t.dzdy > 0 ? t.last_y : t.first_y;
   float greatest = depth_at(t, 0, x, y);
   for (int s = 1; s < samples; ++s) {

@@ -9,7 +9,7 @@ namespace zoneplate {
 namespace {
 
 constexpr int edge = 8, pixels_of_block = edge * edge;
-constexpr std::size_t most_bytes = sizeof(PackedBlock) + sizeof(BlockSamples);
+constexpr std::size_t max_bytes = sizeof(PackedBlock) + sizeof(BlockSamples);
 
 /// The place of a block's first pixel in the planes.
 std::size_t corner_of(int sample, int block) {
@@ -138,7 +138,7 @@ void pack_samples(const TileVisibility& tile, const SampleSet* only, ByteBuffer&
                        .id_bytes = 0,
                        .count = count,
                        .pixels = pixels};
-      std::byte* const begin = out.reserve(most_bytes);
+      std::byte* const begin = out.reserve(max_bytes);
       std::byte* end = begin + sizeof head;
       head.depth_bytes = write_values(samples.depth, count, end) & 15;
       head.id_bytes = write_values(samples.id, count, end) & 15;

@@ -46,9 +46,9 @@ struct ResolvedTile {
 class ResolvedTiles {
  public:
   /// Prepares them for these tiles, in ascending order.
-  void begin(std::vector<std::size_t> numbers, int most_samples) {
+  void begin(std::vector<std::size_t> numbers, int max_samples) {
     numbers_ = std::move(numbers);
-    const auto values = static_cast<std::size_t>(most_samples) * sample_stride;
+    const auto values = static_cast<std::size_t>(max_samples) * sample_stride;
     if (values_ < numbers_.size() * values) {
       values_ = numbers_.size() * values;
       depth_ = LargeArray<float>::unset(values_ + line);

@@ -9,16 +9,16 @@
 
 namespace zoneplate {
 
-void composite_sample(std::vector<SampleLayer>& layers, bool has_pieces, float least_transmittance, Linear& behind) {
+void composite_sample(std::vector<SampleLayer>& layers, bool has_pieces, float transmittance_cutoff, Linear& behind) {
   if (layers.empty()) return;
   std::ranges::sort(layers, [](const SampleLayer& p, const SampleLayer& q) {
     return p.depth != q.depth ? p.depth > q.depth : p.id < q.id;
   });
   TransparentStack stack;
-  for (std::size_t i = 0; i < layers.size() && stack.transmittance > least_transmittance; ++i) {
+  for (std::size_t i = 0; i < layers.size() && stack.transmittance > transmittance_cutoff; ++i) {
     const auto is_same = [&](const SampleLayer& o) { return o.id == layers[i].id; };
     const bool again = has_pieces && std::ranges::any_of(std::span(layers).first(i), is_same);
-    if (!again) stack.composite_under(layers[i].color, least_transmittance);
+    if (!again) stack.composite_under(layers[i].color, transmittance_cutoff);
   }
   behind = stack.over(behind);
 }

@@ -26,7 +26,7 @@ struct SampleLayer {
 
 /// Composites the layers of one sample over `behind`, in the order of (depth, id); `layers` are sorted. Of several
 /// pieces of one triangle (`has_pieces`) the nearest counts.
-void composite_sample(std::vector<SampleLayer>& layers, bool has_pieces, float least_transmittance, Linear& behind);
+void composite_sample(std::vector<SampleLayer>& layers, bool has_pieces, float transmittance_cutoff, Linear& behind);
 
 /// Composites the transparent fragments of pixels, sample by sample, in exact depth order.
 ///

@@ -37,7 +37,7 @@ TileSetup::TileSetup(const ProjectedDraws& draws, const Bins& binned, const Frag
       resolve(ResolveKernels::of()),
       fragment_lists(FragmentListKernels::of()),
       rules(raster_rules),
-      min_transmittance(least_transmittance(brightest ? *brightest : fragment_shader.brightest())),
+      min_transmittance(transmittance_cutoff(brightest ? *brightest : fragment_shader.brightest())),
       centroids(planes.samples, planes.is_per_sample ? Centroid::First : planes.centroid),
       weights(planes.weights) {
   if (weights.empty()) weights.assign(target.samples.size(), 1.0f);

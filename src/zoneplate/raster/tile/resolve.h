@@ -12,7 +12,7 @@ namespace zoneplate {
 
 /// Transparent layers of a pixel, composited front to back: their colour, and the transmittance to what is behind them.
 ///
-/// Exact     in float, as written. Layers behind a transmittance of `least_transmittance` or less are left out, and
+/// Exact     in float, as written. Layers behind a transmittance of `transmittance_cutoff` or less are left out, and
 ///           are not shaded.
 /// Source    Porter and Duff, Compositing Digital Images, 1984: over, from the front.
 struct TransparentStack {
@@ -28,7 +28,7 @@ struct TransparentStack {
 /// The transmittance at or below which layers are left out, if no channel of a surface exceeds `brightest`: everything
 /// behind it, the opaque surface included, changes a channel by at most 2^-25, half of the smallest half float. 0 for
 /// +infinity: no layer is left out.
-inline float least_transmittance(float brightest) { return 0x1p-25f / (brightest > 1 ? brightest : 1.0f); }
+inline float transmittance_cutoff(float brightest) { return 0x1p-25f / (brightest > 1 ? brightest : 1.0f); }
 
 /// The same for eight pixels of a row.
 struct alignas(64) TransparentStack8 {

@@ -54,9 +54,9 @@ HWY_INLINE V laid_over(V front, hn::Mask<D> is_open, V behind, V transmittance) 
   return hn::IfThenElse(is_open, hn::Add(front, hn::Mul(behind, transmittance)), front);
 }
 
-HWY_INLINE void put_row_under(const FragmentOutputs& color, int first, float least_transmittance,
+HWY_INLINE void put_row_under(const FragmentOutputs& color, int first, float transmittance_cutoff,
                               TransparentStack8& layers) {
-  const V least = hn::Set(d, least_transmittance), one = hn::Set(d, 1.0f);
+  const V least = hn::Set(d, transmittance_cutoff), one = hn::Set(d, 1.0f);
   layers.is_open = false;
   for (std::size_t i = 0; i < Linear8::size; i += hn::Lanes(d)) {
     const std::size_t p = static_cast<std::size_t>(first) + i;

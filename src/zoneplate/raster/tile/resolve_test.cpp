@@ -24,7 +24,7 @@ TEST(Resolve, KernelsGiveTheScalarTwinsBits) {
   static Linear8 points;
   for (std::uint32_t i = 0; i < 8; ++i)
     points.set(i, {number(i + 2000), number(i + 2100), number(i + 2200), number(i + 2300)});
-  const float weights[] = {0.3f, -0.1f, 0.7f}, least = least_transmittance(3);
+  const float weights[] = {0.3f, -0.1f, 0.7f}, least = transmittance_cutoff(3);
   for (const Isa isa : supported_isas()) {
     const ResolveKernels &one = ResolveKernels::scalar, &other = ResolveKernels::of(isa);
     Linear8 a{}, b{}, c{}, d{};
@@ -127,7 +127,7 @@ TEST(Resolve, LayersEndBehindAnOpaqueOne) {
 // TransparentStack stop to count where nothing that may follow adds more than half of the least half float.
 TEST(Resolve, LayersThatNoHalfFloatShowsAreLeftOut) {
   for (const float bright : {0.5f, 1.0f, 64.0f, 1e9f}) {
-    const float least = least_transmittance(bright);
+    const float least = transmittance_cutoff(bright);
     EXPECT_EQ(least, 0x1p-25f / std::max(bright, 1.0f));
     TransparentStack layers;
     int count = 0;
@@ -138,7 +138,7 @@ TEST(Resolve, LayersThatNoHalfFloatShowsAreLeftOut) {
     EXPECT_EQ(layers.r, 0);
     EXPECT_LE(layers.over({bright, 0, 0, 1}).r, 0x1p-25f);
   }
-  EXPECT_EQ(least_transmittance(std::numeric_limits<float>::infinity()), 0);
+  EXPECT_EQ(transmittance_cutoff(std::numeric_limits<float>::infinity()), 0);
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ void rasterize_opaque(const TileJob& job, TileVisibility& visibility) {
     if (++number % deadline_stride == 0) check_deadline();
     if (t->z_high < tile_min_depth) continue;
     job.make_triangle(*t, triangle);
-    if (greatest_depth(triangle, job.pass.count) < tile_min_depth) continue;
+    if (max_depth(triangle, job.pass.count) < tile_min_depth) continue;
     const bool has_risen = job.setup.coverage.draw(triangle, visibility);
     const bool is_large =
         triangle.last_x - triangle.first_x >= tile_size / 2 && triangle.last_y - triangle.first_y >= tile_size / 2;

@@ -10,7 +10,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr int most_side = 256;
+constexpr int max_side = 256;
 
 bool is_white(const Linear& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b >= c.a; }
 
@@ -35,7 +35,7 @@ LightDimming dimming_by(const LinearImage& lit, const LinearImage& unlit) {
   }
   const double part = clipped_part(lit, &unlit);
   const float metered = auto_exposure(lights);
-  if (part < least_white || !is_well_above_white(1, metered)) return {};
+  if (part < min_white || !is_well_above_white(1, metered)) return {};
   return {metered, part};
 }
 
@@ -46,16 +46,16 @@ LinearImage metered_image(Renderer& renderer, const Camera& camera, RenderOption
   options.background.reset();
   options.edges = {};
   const int longest = std::max(options.width, options.height);
-  if (longest > most_side) {
-    options.width = std::max(1, options.width * most_side / longest);
-    options.height = std::max(1, options.height * most_side / longest);
+  if (longest > max_side) {
+    options.width = std::max(1, options.width * max_side / longest);
+    options.height = std::max(1, options.height * max_side / longest);
   }
   return renderer.render(camera, {.options = options, .form = ImageForm::Linear}).linear;
 }
 
 bool is_well_above_white(float exposure, float metered) {
-  constexpr float metered_white = 0.8f, most_light = 1.25f;  // the brightest surfaces' channel at the metered exposure
-  return exposure * metered_white > most_light * metered;
+  constexpr float metered_white = 0.8f, max_light = 1.25f;  // the brightest surfaces' channel at the metered exposure
+  return exposure * metered_white > max_light * metered;
 }
 
 LightDimming dimming_of(const PreparedScene& prepared, std::unique_ptr<Resolver> none) {
@@ -65,11 +65,11 @@ LightDimming dimming_of(const PreparedScene& prepared, std::unique_ptr<Resolver>
   LightDimming least;
   const auto meter = [&](const View& view) {
     const Camera camera = choose_camera(scene, view, 1);
-    const RenderOptions options{.width = most_side, .height = most_side};
+    const RenderOptions options{.width = max_side, .height = max_side};
     renderer.set_scene(prepared);
     const LinearImage lit = metered_image(renderer, camera, options);
     // The image without lights can only lower the part that they clip.
-    if (clipped_part(lit) < least_white) return;
+    if (clipped_part(lit) < min_white) return;
     renderer.set_scene(dimmed(prepared, 0));
     const LightDimming found = dimming_by(lit, metered_image(renderer, camera, options));
     if (found.factor < least.factor) least = found;

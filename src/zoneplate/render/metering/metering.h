@@ -11,7 +11,7 @@
 namespace zoneplate {
 
 /// The part of an image's surfaces from which on it counts as clipped.
-inline constexpr double least_white = 0.25;
+inline constexpr double min_white = 0.25;
 
 /// The image that light is metered in: linear, of the whole view, at most 256 pixels along the longer side.
 ///
@@ -29,7 +29,7 @@ struct LightDimming {
 };
 
 /// The factor that brings the lights of a scene that needs a fill light (Scene::needs_fill_light) to the brightness of
-/// auto_exposure, where they would clip the luminance of the part least_white of its surfaces or more; 1 for all
+/// auto_exposure, where they would clip the luminance of the part min_white of its surfaces or more; 1 for all
 /// others. What the fill light and emission make of a picture does not count.
 ///
 /// It is a property of the scene, so that views of it are alike: the least of the factors of the whole-scene view and

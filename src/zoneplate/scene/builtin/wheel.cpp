@@ -17,10 +17,10 @@ constexpr double two_pi = 6.283185307179586;
 // A wheel of one metre on the ground, with its axle along z and its front towards the viewer.
 constexpr float3 axle{0, 0.5f, 0};
 constexpr float hub_radius = 0.078f, spoke_from = 0.06f, spoke_to = 0.44f;
-constexpr float greatest_spoke_radius = 0.017f;
+constexpr float max_spoke_radius = 0.017f;
 constexpr float spoke_share = 0.36f;  // maximum ratio of a spoke's radius to the space per spoke at the hub
 constexpr int spoke_sides = 16;
-constexpr std::size_t least_segments = 240;  // of all surfaces of revolution
+constexpr std::size_t min_segments = 240;  // of all surfaces of revolution
 
 struct Direction {
   float cosine = 1, sine = 0;
@@ -80,7 +80,7 @@ constexpr std::array<ProfilePoint, 9> cap = {{{0.036f, 0.09f},
 /// The outward normals at both ends of each side of a profile: smooth over blunt corners, split at sharp ones.
 std::vector<std::array<ProfilePoint, 2>> profile_normals(std::span<const ProfilePoint> profile) {
   // Cosine of the greatest angle between adjacent sides that count as one surface.
-  constexpr float least_cosine = 0.75f;
+  constexpr float min_cosine = 0.75f;
   const std::size_t sides = profile.size() - 1;
   const bool is_closed = profile.front().r == profile.back().r && profile.front().z == profile.back().z;
   std::vector<ProfilePoint> flat(sides);
@@ -91,7 +91,7 @@ std::vector<std::array<ProfilePoint, 2>> profile_normals(std::span<const Profile
   }
   const auto shared = [&](std::size_t i, std::size_t j) {
     const ProfilePoint a = flat[i], b = flat[j];
-    if (a.r * b.r + a.z * b.z < least_cosine) return a;
+    if (a.r * b.r + a.z * b.z < min_cosine) return a;
     const float r = a.r + b.r, z = a.z + b.z, length = std::sqrt(r * r + z * z);
     return ProfilePoint{r / length, z / length};
   };
@@ -146,7 +146,7 @@ struct SpokeRing {
 
 Mesh spokes(std::int64_t count, int material) {
   const float room = static_cast<float>(two_pi) * hub_radius / static_cast<float>(count);
-  const float radius = std::min(greatest_spoke_radius, spoke_share * room);
+  const float radius = std::min(max_spoke_radius, spoke_share * room);
   const std::array<SpokeRing, 5> rings = {{{spoke_from, radius},
                                            {0.16f, radius},
                                            {0.22f, 0.94f * radius},
@@ -184,7 +184,7 @@ constexpr std::int64_t micro = 1'000'000;  // units of the parameter `turn`
 Scene make(std::span<const std::int64_t> values) {
   const std::int64_t count = values[0];
   const auto n = static_cast<std::size_t>(count);
-  const std::size_t segments = n * ((least_segments + n - 1) / n);
+  const std::size_t segments = n * ((min_segments + n - 1) / n);
   Scene scene;
   scene.materials = {paint("cream", {0.80f, 0.62f, 0.34f}, 0, 0.45f), paint("red", {0.42f, 0.045f, 0.03f}, 0, 0.4f),
                      paint("iron", {0.10f, 0.11f, 0.13f}, 0, 0.35f), paint("brass", {0.85f, 0.60f, 0.22f}, 1, 0.35f)};

@@ -56,7 +56,7 @@ class Refiner {
   }
 
   /// Halves edges once. False if nothing was to be done, or if there would be more triangles than allowed.
-  bool pass(std::size_t most_triangles, bool& is_complete);
+  bool pass(std::size_t max_triangles, bool& is_complete);
   Mesh moved() &&;
 
  private:
@@ -195,7 +195,7 @@ std::vector<Edge> Refiner::marked_edges() const {
   return marked;
 }
 
-bool Refiner::pass(std::size_t most_triangles, bool& is_complete) {
+bool Refiner::pass(std::size_t max_triangles, bool& is_complete) {
   check_deadline();
   const std::vector<Edge> marked = marked_edges();
   if (marked.empty()) return false;
@@ -208,7 +208,7 @@ bool Refiner::pass(std::size_t most_triangles, bool& is_complete) {
   for (std::size_t i = 0; i < triangles(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
       if (is_marked(i, k)) edges.push_back(edge_of(mesh_.index[3 * i + k], mesh_.index[3 * i + (k + 1) % 3])), ++count;
-  if (count > most_triangles) return is_complete = false;
+  if (count > max_triangles) return is_complete = false;
   sort_unique(edges);
 
   const auto first = static_cast<std::uint32_t>(mesh_.position.size());
@@ -294,7 +294,7 @@ Mesh Refiner::moved() && {
 Displaced displace(const Mesh& mesh, const HeightMap& map, const Refinement& refinement) {
   Refiner refiner(mesh, map, refinement.tolerance);
   Displaced out;
-  while (refiner.pass(refinement.most_triangles, out.is_complete)) {
+  while (refiner.pass(refinement.max_triangles, out.is_complete)) {
   }
   out.mesh = std::move(refiner).moved();
   return out;

@@ -16,14 +16,14 @@ struct HeightMap {
 
 /// How finely a displaced surface is refined.
 struct Refinement {
-  float tolerance = 0;                     ///< greatest distance between the mesh and the height map, units of length
-  std::size_t most_triangles = 4'000'000;  ///< refinement stops before it has more
+  float tolerance = 0;                    ///< greatest distance between the mesh and the height map, units of length
+  std::size_t max_triangles = 4'000'000;  ///< refinement stops before it has more
 };
 
 /// The result of `displace`.
 struct Displaced {
   Mesh mesh;
-  bool is_complete = true;  ///< false: `most_triangles` ended the refinement before the tolerance was reached
+  bool is_complete = true;  ///< false: `max_triangles` ended the refinement before the tolerance was reached
 };
 
 /// Refines a triangle mesh where its height map has detail, and moves its vertices along their normals by the height.

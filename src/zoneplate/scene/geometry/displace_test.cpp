@@ -100,7 +100,7 @@ TEST(Displace, AFlatMapChangesNothing) {
 }
 
 TEST(Displace, StopsAtTheGreatestNumberOfTriangles) {
-  const Displaced out = displace(cube(), random_heights(256), {.tolerance = 0, .most_triangles = 5000});
+  const Displaced out = displace(cube(), random_heights(256), {.tolerance = 0, .max_triangles = 5000});
   EXPECT_FALSE(out.is_complete);
   EXPECT_LE(out.mesh.index.size() / 3, 5000u);
   EXPECT_TRUE(is_closed(out.mesh));

@@ -77,13 +77,13 @@ void displace_surfaces(Scene& scene, const DisplacementOptions& options) {
         [&](float2 uv) { return material.height_scale * height_at(image, use.sampler, transformed(use, uv)); },
         float2{static_cast<float>(image.width()), static_cast<float>(image.height())} * use.scale};
     Displaced displaced = displace(
-        mesh, map, {.tolerance = options.tolerance * longest_side(mesh), .most_triangles = options.most_triangles});
+        mesh, map, {.tolerance = options.tolerance * longest_side(mesh), .max_triangles = options.max_triangles});
     mesh = std::move(displaced.mesh);
     if (is_second) std::swap(mesh.uv0, mesh.uv1);
     if (has_tangents) make_tangents(mesh, material.normal_texture.uv_set);
     if (!displaced.is_complete)
       scene.warnings.push_back("mesh " + mesh.name + ": displaced more coarsely than the tolerance, at most " +
-                               std::to_string(options.most_triangles) + " triangles");
+                               std::to_string(options.max_triangles) + " triangles");
   }
   for (Material& material : scene.materials) material.height_texture = {}, material.parallax_layers = 0;
 }

@@ -73,7 +73,7 @@ TEST(Displacement, ALimitGivesAWarning) {
   for (int y = 0; y < 64; ++y)
     for (int x = 0; x < 64; ++x) checks(x, y) = {static_cast<std::uint8_t>((x + y) % 2 * 255), 0, 0, 255};
   Scene scene = square(checks);
-  displace_surfaces(scene, {.most_triangles = 200});
+  displace_surfaces(scene, {.max_triangles = 200});
   ASSERT_EQ(scene.warnings.size(), 1u);
   EXPECT_LE(scene.meshes[0].index.size() / 3, 200u);
 }

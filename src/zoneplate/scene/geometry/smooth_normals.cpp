@@ -17,7 +17,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr std::size_t most_compared = 256, block = 4096;
+constexpr std::size_t max_compared = 256, block = 4096;
 
 /// Computes the normalized sum of the triangles at each vertex, in order, and marks vertices with possible creases.
 void sum_all(Mesh& mesh, std::vector<char>& mark) {
@@ -158,7 +158,7 @@ class BentVertex {
       for (std::size_t i = 0; i < some.size(); ++i)
         own_.push_back(faces_[i].normal), shares_.push_back(weighted(faces_[i], some[i] % 3));
     }
-    if (corners.size() > most_compared) {
+    if (corners.size() > max_compared) {
       Sum sum;
       for (const Sum& share : shares_) sum.add(share);
       mesh_.normal[v] = direction(sum, own_[0]);

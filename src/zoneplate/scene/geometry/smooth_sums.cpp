@@ -34,7 +34,7 @@ void add(const float* position, std::size_t, const std::uint32_t* index, std::si
     const float square = dot(area, area), ab = dot(e.ab, e.ab), ac = dot(e.ac, e.ac), bc = dot(e.bc, e.bc);
     const float products[3] = {ab * ac, ab * bc, ac * bc};
     bool is_sound = square > K::thin * products[0];
-    for (const float p : products) is_sound = is_sound && p > K::least_square && p < K::greatest_square;
+    for (const float p : products) is_sound = is_sound && p > K::min_square && p < K::max_square;
     for (std::size_t k = 0; k < 3; ++k) {
       if (v[k] - own.begin >= own.size) continue;
       const float share = (is_sound ? 1 : nan) / products[k];
@@ -48,7 +48,7 @@ void normalize(float* sum, std::size_t count, char* mark) {
   for (std::size_t v = 0; v < count; ++v) {
     float* const n = sum + 3 * v;
     const float square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2], scale = 1 / std::sqrt(square);
-    const bool is_sound = square > K::least_square && square < K::greatest_square;
+    const bool is_sound = square > K::min_square && square < K::max_square;
     if (!is_sound) mark[v] = 1;
     n[0] = is_sound ? n[0] * scale : 0, n[1] = is_sound ? n[1] * scale : 1, n[2] = is_sound ? n[2] * scale : 0;
   }

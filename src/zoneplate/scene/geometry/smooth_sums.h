@@ -33,7 +33,7 @@ struct SmoothSumKernels : PerIsa<SmoothSumKernels> {
   void (*mark_turns)(const float* position, const float* normal, std::size_t vertices, const std::uint32_t* index,
                      std::size_t triangles, char* mark);
 
-  static constexpr float least_square = 1e-36f, greatest_square = 1e36f;  ///< limits of products of two squared edges
+  static constexpr float min_square = 1e-36f, max_square = 1e36f;  ///< limits of products of two squared edges
   /// Square of the ratio of a height to an edge.
   static constexpr float thin = 1e-6f;
   static constexpr float cos_25_squared = 0.82139381f;

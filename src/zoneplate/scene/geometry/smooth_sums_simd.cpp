@@ -130,8 +130,8 @@ HWY_INLINE void measure(const Group& group, const float* position, Shares* share
   const V products[3] = {hn::Mul(ab_square, ac_square), hn::Mul(ab_square, bc_square), hn::Mul(ac_square, bc_square)};
   auto is_sound = hn::Gt(square, hn::Mul(hn::Set(d, K::thin), products[0]));
   for (const V p : products) {
-    is_sound = hn::And(is_sound, hn::Gt(p, hn::Set(d, K::least_square)));
-    is_sound = hn::And(is_sound, hn::Lt(p, hn::Set(d, K::greatest_square)));
+    is_sound = hn::And(is_sound, hn::Gt(p, hn::Set(d, K::min_square)));
+    is_sound = hn::And(is_sound, hn::Lt(p, hn::Set(d, K::max_square)));
   }
   const V one = hn::IfThenElse(is_sound, hn::Set(d, 1), hn::Set(d, __builtin_nanf("")));
   for (std::size_t k = 0; k < 3; ++k) shares[k].set(area, hn::Div(one, products[k]));
@@ -166,8 +166,7 @@ void normalize(float* sum, std::size_t count, char* mark) {
     Vectors v;
     hn::LoadInterleaved3(d, n, v.x, v.y, v.z);
     const V square = dot(v, v), scale = hn::Div(hn::Set(d, 1), hn::Sqrt(square));
-    const auto is_sound =
-        hn::And(hn::Gt(square, hn::Set(d, K::least_square)), hn::Lt(square, hn::Set(d, K::greatest_square)));
+    const auto is_sound = hn::And(hn::Gt(square, hn::Set(d, K::min_square)), hn::Lt(square, hn::Set(d, K::max_square)));
     const V zero = hn::Zero(d);
     hn::StoreInterleaved3(hn::IfThenElse(is_sound, hn::Mul(v.x, scale), zero),
                           hn::IfThenElse(is_sound, hn::Mul(v.y, scale), hn::Set(d, 1)),

@@ -128,14 +128,14 @@ std::array<double, 3> area_vector(std::span<const float3> polygon) {
 }
 
 bool triangulate(std::span<const float3> polygon, std::vector<std::array<std::uint32_t, 3>>& triangles) {
-  constexpr std::size_t most_corners = 4096;
+  constexpr std::size_t max_corners = 4096;
   if (polygon.size() <= 3) {
     add_fan(polygon.size(), triangles);
     return true;
   }
   const std::vector<Point> points = flattened(polygon);
   const bool convex = is_convex(points);
-  if (!convex && polygon.size() <= most_corners) return cut_ears(points, triangles);
+  if (!convex && polygon.size() <= max_corners) return cut_ears(points, triangles);
   add_fan(polygon.size(), triangles);
   return convex;
 }

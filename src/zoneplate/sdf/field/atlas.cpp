@@ -59,9 +59,9 @@ Atlas make_atlas(std::span<const GlyphOutline> glyphs, const AtlasOptions& optio
   int width = 4, height = 0;
   for (const Cell& cell : cells) width = std::max(width, (cell.width + 3) / 4 * 4);
   while ((height = pack(cells, order, width)) > width) width += 4;
-  if (static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(std::max(height, 1)) > options.most_texels)
+  if (static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(std::max(height, 1)) > options.max_texels)
     throw Error(ErrorKind::Usage, fmt::format("an atlas of {} × {} texels is too large, the limit is {} (--max-pixels)",
-                                              width, height, options.most_texels));
+                                              width, height, options.max_texels));
 
   Atlas atlas{.field = {options.kind, Plane<float4>(width, std::max(height, 1), float4{-1e6f, -1e6f, -1e6f, -1e6f})},
               .size = options.size,

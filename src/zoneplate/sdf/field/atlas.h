@@ -38,7 +38,7 @@ struct Atlas {
 struct AtlasOptions {
   FieldKind kind = FieldKind::Multi;
   double size = 32, range = 4;
-  std::uint64_t most_texels = std::uint64_t{1} << 28;  ///< of the image (--max-pixels)
+  std::uint64_t max_texels = std::uint64_t{1} << 28;  ///< of the image (--max-pixels)
 };
 
 /// Lays the glyphs out in rows, tallest first, in an image about as wide as high.

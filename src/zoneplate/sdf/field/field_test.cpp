@@ -85,7 +85,7 @@ TEST(SdfField, NeighboursAtACornerShareOneChannel) {
   EXPECT_EQ(std::popcount(thirds.front() & thirds.back()), 1);
 }
 
-double greatest_error(const Plane<float>& a, const Plane<float>& b) {
+double max_error(const Plane<float>& a, const Plane<float>& b) {
   double worst = 0;
   for (std::size_t i = 0; i < a.values().size(); ++i)
     worst = std::max(worst, std::abs(static_cast<double>(a.values()[i]) - static_cast<double>(b.values()[i])));
@@ -167,7 +167,7 @@ TEST(SdfAtlas, DrawsGlyphsWhereTheirOutlinesAre) {
       both.contours.push_back(c);
     const Plane<float> exact = exact_coverage(both, {160, 70, {}, 1});
     EXPECT_LT(rms_error(drawn, exact), 0.025);
-    EXPECT_LT(greatest_error(drawn, exact), kind == FieldKind::Single ? 0.8 : 0.45);
+    EXPECT_LT(max_error(drawn, exact), kind == FieldKind::Single ? 0.8 : 0.45);
   }
 }
 

@@ -39,9 +39,9 @@ constexpr PartWeights weights_of(int part, int parts) {
 
 /// Of all parts: part k of 1, 2, 4 ... equal ones is element parts - 1 + k.
 struct AllPartWeights {
-  PartWeights of[2 * LightTree::most_parts - 1];
+  PartWeights of[2 * LightTree::max_parts - 1];
   constexpr AllPartWeights() : of{} {
-    for (int parts = 1; parts <= LightTree::most_parts; parts *= 2)
+    for (int parts = 1; parts <= LightTree::max_parts; parts *= 2)
       for (int k = 0; k < parts; ++k) of[parts - 1 + k] = weights_of(k, parts);
   }
 };

@@ -28,13 +28,13 @@ struct LightTree {
     float prominence;            ///< the root of its radiance relative to the mean over all directions, at least 1
     float fineness;  ///< by which its distance from a direction counts less, rising with that and with `centre`
   };
-  static constexpr int most_parts = 8;  ///< of a texel along each edge, a power of two
+  static constexpr int max_parts = 8;  ///< of a texel along each edge, a power of two
 
-  int side = 0;                  ///< nodes along an edge of the finest level, a power of two
-  std::vector<Node> nodes;       ///< by level, from one node a face to `side` × `side`; then by face and row
-  int texel_parts = most_parts;  ///< into which a walk divides a texel at most: most_parts or 1
-  BorderedCube texels;           ///< of which `part` is made; not set if texels are not divided
-  float mean_power = 1;          ///< sum of the channels of the mean radiance
+  int side = 0;                 ///< nodes along an edge of the finest level, a power of two
+  std::vector<Node> nodes;      ///< by level, from one node a face to `side` × `side`; then by face and row
+  int texel_parts = max_parts;  ///< into which a walk divides a texel at most: max_parts or 1
+  BorderedCube texels;          ///< of which `part` is made; not set if texels are not divided
+  float mean_power = 1;         ///< sum of the channels of the mean radiance
 
   /// The first node of the level with `level_side` nodes along an edge.
   static std::size_t offset(int level_side) {

@@ -311,7 +311,7 @@ std::optional<PreparedEnvironment> PreparedEnvironment::from_bytes(std::span<con
   return out;
 }
 
-std::size_t PreparedEnvironment::most_bytes() {
+std::size_t PreparedEnvironment::max_bytes() {
   EnvironmentView view;
   return sizeof(Header) + (3 * Levels(largest_side, true).lay_out(view) + 1) * sizeof(float);
 }

@@ -36,7 +36,7 @@ class PreparedEnvironment {
   /// The environment of such bytes; nothing where they are damaged or of another version.
   static std::optional<PreparedEnvironment> from_bytes(std::span<const std::uint8_t> bytes);
   /// The greatest number of them.
-  static std::size_t most_bytes();
+  static std::size_t max_bytes();
 
   /// The mean radiance over all directions, and the greatest of each channel, both without the factors of a view.
   float3 mean() const { return mean_; }

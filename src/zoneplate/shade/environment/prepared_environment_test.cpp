@@ -218,7 +218,7 @@ TEST(LookUp, IsTheIntegralOfTheImageForWideLobes) {
   cube.source.clear();
   const PreparedEnvironment as_wide_as_the_spline(cube);
   for (const float roughness : {0.2f, 0.3f, 0.5f}) {
-    double most = 0, most_of_spline = 0;
+    double most = 0, max_of_spline = 0;
     for (std::uint32_t k = 0; k < 6; ++k) {
       const float3 away{unit_float(hash(k, 1)) - 0.5f, unit_float(hash(k, 2)) - 0.5f, unit_float(hash(k, 3)) - 0.5f};
       const float3 n = normalize(lamp + away * (static_cast<float>(k) * roughness * roughness));
@@ -228,11 +228,11 @@ TEST(LookUp, IsTheIntegralOfTheImageForWideLobes) {
         return std::max(std::abs(double{found.x} / expected.r - 1), std::abs(double{found.z} / expected.b - 1));
       };
       most = std::max(most, error(environment));
-      most_of_spline = std::max(most_of_spline, error(as_wide_as_the_spline));
+      max_of_spline = std::max(max_of_spline, error(as_wide_as_the_spline));
     }
     EXPECT_LT(most, 0.004) << roughness;
     if (roughness < 0.4f) {
-      EXPECT_GT(most_of_spline, 2 * most) << roughness;
+      EXPECT_GT(max_of_spline, 2 * most) << roughness;
     }
   }
 }
@@ -418,7 +418,7 @@ TEST(PreparedEnvironment, TheLargestHasTheMostBytes) {
   cube.texels[cube.index(2, 300, 200)] = {8000, 8000, 8000};
   const PreparedEnvironment environment(cube);
   const std::vector<std::uint8_t> bytes = environment.bytes();
-  EXPECT_EQ(bytes.size(), PreparedEnvironment::most_bytes());
+  EXPECT_EQ(bytes.size(), PreparedEnvironment::max_bytes());
   EXPECT_TRUE(PreparedEnvironment::from_bytes(bytes).has_value());
 }
 

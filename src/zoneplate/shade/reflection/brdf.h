@@ -65,7 +65,7 @@ inline constexpr float inverse_pi = 0.318309886f;
 
 /// The lower bound of roughness: below it, the highlight of a punctual light would fall between the pixels. D, at most
 /// 1 / (π α²), so stays below 1e5.
-inline constexpr float least_roughness = 0.045f;
+inline constexpr float min_roughness = 0.045f;
 
 /// Density of microfacet normals: D = α² / (π (α² (n·h)² + |n × h|²)²). The usual form with ((n·h)² (α² - 1) + 1) in
 /// the parenthesis is equal but loses digits by cancellation near n = h.
@@ -179,7 +179,7 @@ template <class F, class Value>
 /// The weights for a roughness, by the tables of shade/reflection/specular_table.h.
 ///
 /// Requires  roughness in [0, 1], nv in [0, 1].
-/// Edges     roughness below least_roughness counts as least_roughness.
+/// Edges     roughness below min_roughness counts as min_roughness.
 /// Exact     scale + bias and bias within 0.01 of their integrals for nv above 0.02, 0.002 in the root mean square.
 template <class F>
 struct SpecularFit {
@@ -187,8 +187,8 @@ struct SpecularFit {
   F part;  ///< of the row below
 
   [[gnu::always_inline]] explicit SpecularFit(F roughness) {
-    const F rows = (max(roughness, F(least_roughness)) - F(least_roughness)) *
-                   F((specular_table_side - 1) / (1 - least_roughness));
+    const F rows =
+        (max(roughness, F(min_roughness)) - F(min_roughness)) * F((specular_table_side - 1) / (1 - min_roughness));
     row = truncate(min(rows, F(specular_table_side - 2.0f)));
     part = rows - F::from(row);
   }
@@ -267,7 +267,7 @@ template <class F>
 [[gnu::always_inline]] inline Metallic<F> make_metallic(Vector<F> base, F metallic, F roughness,
                                                         SpecularWeights<F> weights) {
   const F one(1.0f), f0(0.04f), dielectric = one - metallic;
-  const F r = max(roughness, F(least_roughness));
+  const F r = max(roughness, F(min_roughness));
   const F coat_gain = specular_gain(weights, f0) * dielectric;
   const F below = (one - specular_albedo(weights, f0)) * dielectric * F(inverse_pi);
   Metallic<F> m{base * below, {}, {}, r * r};
@@ -286,7 +286,7 @@ template <class F>
 template <class F>
 [[gnu::always_inline]] inline Metallic<F> make_dielectric(Vector<F> base, F roughness, SpecularWeights<F> weights) {
   const F one(1.0f), f0(0.04f), gain = specular_gain(weights, f0);
-  const F r = max(roughness, F(least_roughness)), mirrored = f0 * gain, grazing = (one - f0) * gain;
+  const F r = max(roughness, F(min_roughness)), mirrored = f0 * gain, grazing = (one - f0) * gain;
   return {base * ((one - specular_albedo(weights, f0)) * F(inverse_pi)),
           {mirrored, mirrored, mirrored},
           {grazing, grazing, grazing},
@@ -329,7 +329,7 @@ struct TurningLobe {
   /// Requires  n and v of unit length, a and b perpendicular to the interpolated normal.
   [[gnu::always_inline]] TurningLobe(Vector<F> n_in, Vector<F> v_in, Vector<F> a_in, Vector<F> b_in, F roughness)
       : n(n_in), v(v_in), a(a_in), b(b_in) {
-    const F r = max(roughness, F(least_roughness)), across = dot(n, cross(a, b));
+    const F r = max(roughness, F(min_roughness)), across = dot(n, cross(a, b));
     alpha2 = r * r * (r * r);
     determinant = alpha2 * (alpha2 + (dot(a, a) + dot(b, b))) + across * across;
     tails = min(sqrt(alpha2 / max(sqrt(determinant), F(1e-30f))), F(1.0f));

@@ -22,7 +22,7 @@ template <class F>
 }
 
 template <class F>
-[[gnu::always_inline]] inline F greatest_channel(Vector<F> v) {
+[[gnu::always_inline]] inline F max_channel(Vector<F> v) {
   return max(max(v.x, v.y), v.z);
 }
 
@@ -124,7 +124,7 @@ struct Sheen {
   F inverse_alpha, a, b, c, d, e, at_half;
 
   [[gnu::always_inline]] explicit Sheen(F roughness) {
-    const F r = max(roughness, F(least_sheen_roughness)), alpha = r * r, rest = F(1.0f) - alpha, t = rest * rest;
+    const F r = max(roughness, F(min_sheen_roughness)), alpha = r * r, rest = F(1.0f) - alpha, t = rest * rest;
     inverse_alpha = F(1.0f) / alpha;
     a = mix(F(21.5473f), F(25.3245f), t);
     b = mix(F(3.82987f), F(3.32435f), t);
@@ -158,10 +158,10 @@ struct Sheen {
 template <class F>
 [[gnu::always_inline]] inline F sheen_albedo(F roughness, F nv) {
   using Int = typename F::Int;
-  constexpr float steps = sheen_table_side - 1, least_root = 0.1f;  // the root of least_sheen_cosine
+  constexpr float steps = sheen_table_side - 1, min_root = 0.1f;  // the root of min_sheen_cosine
   const F zero(0.0f);
   const auto position = [&](F x, float low) { return min(max((x - F(low)) * F(steps / (1 - low)), zero), F(steps)); };
-  const F y = position(roughness, least_sheen_roughness), x = position(sqrt(nv), least_root);
+  const F y = position(roughness, min_sheen_roughness), x = position(sqrt(nv), min_root);
   const Int row = min(truncate(y), Int(sheen_table_side - 2)), column = min(truncate(x), Int(sheen_table_side - 2));
   const F down = y - F::from(row), right = x - F::from(column);
   const Int first = row * Int(sheen_table_side) + column;
@@ -174,7 +174,7 @@ template <class F>
 /// The mean direction from which Sheen reflects light to the viewer: fibres lean towards grazing light on the viewer's
 /// side. The irradiance about it stands for the light of an environment.
 ///
-/// Requires  nv = n·v in [0, 1], roughness >= least_sheen_roughness.
+/// Requires  nv = n·v in [0, 1], roughness >= min_sheen_roughness.
 /// Exact     within 3.5 degrees of the lobe's mean direction for roughness of 0.2 and more. The sheen of four captured
 ///           environments differs from its integral, in the root mean square over directions, by 18 to 73 % of their
 ///           mean radiance at roughness 0.5 and by 12 to 42 % at 1; with the irradiance about the normal by 37 to 100 %

@@ -4,12 +4,12 @@
 namespace zoneplate {
 
 inline constexpr int sheen_table_side = 24;
-inline constexpr float least_sheen_roughness = 0.07f, least_sheen_cosine = 0.01f;
+inline constexpr float min_sheen_roughness = 0.07f, min_sheen_cosine = 0.01f;
 
 /// The directional albedo of the sheen lobe of KHR_materials_sheen before it is limited to 1: the integral of D V (n·l)
 /// over the hemisphere, by midpoint quadrature (shade/surface/layered_test.cpp repeats it).
 ///
-/// Shape     by roughness from least_sheen_roughness to 1, then by the square root of n·v from its least value to 1,
+/// Shape     by roughness from min_sheen_roughness to 1, then by the square root of n·v from its least value to 1,
 ///           both in equal steps.
 inline constexpr float sheen_albedo_table[sheen_table_side][sheen_table_side] = {
     {2.4997f,     2.0246f,   1.5559f,   1.1406f,    0.79686f,   0.52829f,    0.33007f,    0.19261f,

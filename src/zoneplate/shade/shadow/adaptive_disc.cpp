@@ -14,12 +14,12 @@ namespace {
 
 using Point = AdaptiveDisc::Point;
 
-constexpr int least_count = 192;
+constexpr int min_count = 192;
 /// From the outermost corners to the sides of the square, in cells.
 constexpr float rim = 0.1f;
 
 int cells_of(int count) {
-  return count < least_count ? 0 : static_cast<int>(std::sqrt(0.4f * static_cast<float>(count))) - 1;
+  return count < min_count ? 0 : static_cast<int>(std::sqrt(0.4f * static_cast<float>(count))) - 1;
 }
 int corners_of(int count) {
   const int cells = cells_of(count);
@@ -46,7 +46,7 @@ Point turned(const Point& p, const DiscTurn& turn) {
 /// store(i, value) of the function at point_of(i), in order.
 template <class PointOf, class Store>
 void evaluate(int count, const PointOf& point_of, const AdaptiveDisc::Values& values, const Store& store) {
-  constexpr int part = AdaptiveDisc::most_points;
+  constexpr int part = AdaptiveDisc::max_points;
   std::array<Point, part> points;
   std::array<float, part> found;
   for (int first = 0; first < count; first += part) {

@@ -29,8 +29,8 @@ namespace zoneplate {
 class AdaptiveDisc {
  public:
   using Point = ShiftedDisc::Point;
-  static constexpr int most_points = 64;
-  /// Stores the function's values, in [0, 1], at `count` points, most_points at most.
+  static constexpr int max_points = 64;
+  /// Stores the function's values, in [0, 1], at `count` points, max_points at most.
   using Values = std::function<void(const Point* points, int count, float* values)>;
 
   explicit AdaptiveDisc(int count);

@@ -65,7 +65,7 @@ TEST(AdaptiveDisc, EvaluatesAsManyPointsOfTheDiscAsItHas) {
       int evaluated = 0;
       const AdaptiveDisc disc(count);
       disc.mean(5, [&](const Point* points, int n, float* values) {
-        EXPECT_LE(n, AdaptiveDisc::most_points);
+        EXPECT_LE(n, AdaptiveDisc::max_points);
         evaluated += n;
         for (int i = 0; i < n; ++i) {
           EXPECT_GE(points[i].square, 0.0f);

@@ -10,9 +10,9 @@ namespace zoneplate {
 
 /// The visibility of a light at pixels about a cell of a VisibilityGrid, and what they show.
 struct GridNeighbours {
-  static constexpr int width = 4;          ///< cells along one axis, of which the second is the receivers' own
-  static constexpr int most_per_cell = 2;  ///< pixels
-  static constexpr int capacity = width * width * most_per_cell;
+  static constexpr int width = 4;         ///< cells along one axis, of which the second is the receivers' own
+  static constexpr int max_per_cell = 2;  ///< pixels
+  static constexpr int capacity = width * width * max_per_cell;
   static constexpr float nothing = -1;  ///< no surface
   static constexpr float unlit = -2;    ///< a surface that does not face the light
 

@@ -9,22 +9,22 @@
 namespace zoneplate::stages {
 
 /// Of the normals of points of one surface.
-inline constexpr float least_cosine = 0.98f;
+inline constexpr float min_cosine = 0.98f;
 /// The greatest sine of the angle between the line of two points and the plane across the sum of their normals: this at
 /// least, and the sine of the angle between the normals. It is 0 on a circle. By 0.02 in place of 0.1 the RMS of ten
 /// scenes is the same, and the time up to 1.2 times as long.
-inline constexpr float least_slope = 0.1f;
+inline constexpr float min_slope = 0.1f;
 /// The sine of the slope from which on a point is above a surface, whose shadow may begin there. A pane 0.1 above a
 /// floor (RMS to 1,024 rays, 320 × 240): 0.0037 by this value, 0.013 by 0.3, at which Suzanne takes 0.7 of the time.
 inline constexpr float occluding_slope = 0.15f;
 /// The farthest that such a point matters, relative to the farthest of the points on the surface, as the square.
 inline constexpr float close = 4;
 /// The least sum of the weights of the points on the surface; that of all is 1.
-inline constexpr float least_weight = 0.3f;
+inline constexpr float min_weight = 0.3f;
 /// The fewest such points.
-inline constexpr int least_points = 6;
+inline constexpr int min_points = 6;
 /// The greatest standard deviation of values from the fitted plane, besides their error.
-inline constexpr float greatest_deviation = 0.03f;
+inline constexpr float max_deviation = 0.03f;
 /// Weight of a plane without slope, relative to that of the points: where these lie on a line, it decides across.
 inline constexpr float flatness = 0.005f;
 
@@ -90,11 +90,11 @@ void fit(const GridNeighbours& near, const GridReceivers& receivers, float noise
               z = F(near.position[2][k]) - at[2];
       const F cosine = nx * a + ny * b + nz * c;
       const F rise = x * (nx + a) + y * (ny + b) + z * (nz + c);
-      const F steepest = F(4.0f) * (F(least_slope * least_slope) + max(one - cosine * cosine, zero));
+      const F steepest = F(4.0f) * (F(min_slope * min_slope) + max(one - cosine * cosine, zero));
       const F distance = x * x + y * y + z * z, height = x * a + y * b + z * c;
       const auto has_weight = weight > zero;
       const auto is_of_surface =
-          (surface == Int(near.surface[k])) & (cosine >= F(least_cosine)) & (steepest * distance >= rise * rise);
+          (surface == Int(near.surface[k])) & (cosine >= F(min_cosine)) & (steepest * distance >= rise * rise);
       const auto is_on_surface = has_weight & is_of_surface & (value >= zero);
       if (near.visible[k] != GridNeighbours::nothing) {
         const auto is_above =
@@ -112,9 +112,9 @@ void fit(const GridNeighbours& near, const GridReceivers& receivers, float noise
     const F clamped =
         select(plane.at_origin < least, least, select(greatest < plane.at_origin, greatest, plane.at_origin));
     const F error = plane.variance * F::from(count) / F::from(count - Int(3));
-    const F allowed = F(greatest_deviation * greatest_deviation) + F(noise) * clamped * (one - clamped);
+    const F allowed = F(max_deviation * max_deviation) + F(noise) * clamped * (one - clamped);
     const F fitted = select(least == greatest, least, select(allowed >= error, clamped, none));
-    const auto is_known = (count > Int(least_points - 1)) & (moments.one >= F(least_weight));
+    const auto is_known = (count > Int(min_points - 1)) & (moments.one >= F(min_weight));
     select(F(close) * reach >= nearest_above, none, select(is_known, fitted, none)).store(visible + i);
   }
 }

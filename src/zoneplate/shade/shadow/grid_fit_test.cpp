@@ -16,7 +16,7 @@ float random(std::uint32_t a, std::uint32_t b) { return unit_float(hash(a, b, 3)
 /// Pixels of a bent surface, of which some show nothing, another instance, or a pane above it.
 GridNeighbours neighbours(std::uint32_t seed) {
   GridNeighbours near;
-  near.count = seed % 2 == 0 ? GridNeighbours::capacity : GridNeighbours::capacity / GridNeighbours::most_per_cell;
+  near.count = seed % 2 == 0 ? GridNeighbours::capacity : GridNeighbours::capacity / GridNeighbours::max_per_cell;
   for (int k = 0; k < near.count; ++k) {
     const auto n = static_cast<std::uint32_t>(k) + 64 * seed;
     const float x = 4 * random(n, 0) - 1, y = 4 * random(n, 1) - 1, bend = 0.05f * static_cast<float>(seed % 5);

@@ -43,7 +43,7 @@ constexpr float positive_exponent = 40, negative_exponent = 5, bleeding = 0.2f;
 /// Texels in which PCSS looks for blockers.
 constexpr int search_points = 32;
 /// The least standard deviation of a depth, as a part of the depth range: the depth of a map changes within a texel.
-constexpr float least_deviation = 1e-4f;
+constexpr float min_deviation = 1e-4f;
 
 WarpedMoments warped(float part) {
   const float p = exp(positive_exponent * part), n = -exp(-negative_exponent * part);
@@ -51,9 +51,9 @@ WarpedMoments warped(float part) {
 }
 
 /// Chebyshev's upper bound of the part of a distribution of this mean and mean square that is beyond `t`.
-float upper_bound(float mean, float mean_square, float t, float least_variance) {
+float upper_bound(float mean, float mean_square, float t, float min_variance) {
   if (t <= mean) return 1;
-  const float variance = std::max(mean_square - mean * mean, least_variance), d = t - mean;
+  const float variance = std::max(mean_square - mean * mean, min_variance), d = t - mean;
   const float p = variance / (variance + d * d);
   return std::max(0.0f, (p - bleeding) / (1 - bleeding));
 }
@@ -163,7 +163,7 @@ float MappedVisibility::at(const Light& light, const ShadowMap& map, const Plane
       }
       const WarpedMoments t = warped(std::min(r.depth / map.farthest, 1.0f));
       // A deviation of the depth is one of its warp, times the warp's slope.
-      const float dp = least_deviation * positive_exponent * t[0], dn = least_deviation * negative_exponent * t[2];
+      const float dp = min_deviation * positive_exponent * t[0], dn = min_deviation * negative_exponent * t[2];
       return std::min(upper_bound(m[0], m[1], t[0], dp * dp), upper_bound(m[2], m[3], t[2], dn * dn));
     }
     case ShadowFilter::Pcss: {

@@ -136,7 +136,7 @@ void TracedVisibility::of_light(int k, const Receivers& receivers, float* visibl
 float TracedVisibility::of_uniform_light(const Receivers& receivers, int i, float3 origin, const BvhTop& top) const {
   const DirectionsAbout directions(at(receivers.normal, i));
   const auto see = [&](const ShiftedDisc::Point* points, int count, float* visible) {
-    Ray rays[AdaptiveDisc::most_points];
+    Ray rays[AdaptiveDisc::max_points];
     for (int s = 0; s < count; ++s) rays[s] = make_ray(origin, directions.of_cosine(points[s]), occlusion_.distance);
     kernels_.visibility_below(bvh_, top, rays, static_cast<std::size_t>(count), opacity_, visible);
   };

@@ -46,12 +46,12 @@ struct VisibilityGrid::Point {
 };
 
 struct VisibilityGrid::Block {
-  std::array<Point, std::size_t{block_side} * block_side * GridNeighbours::most_per_cell> points;
+  std::array<Point, std::size_t{block_side} * block_side * GridNeighbours::max_per_cell> points;
 };
 
 VisibilityGrid::VisibilityGrid(int step, int w, int h, int rays)
     : step_(step),
-      per_cell_(step > 2 ? GridNeighbours::most_per_cell : 1),
+      per_cell_(step > 2 ? GridNeighbours::max_per_cell : 1),
       noise_(evenness / static_cast<float>(rays)),
       kernels_(GridFitKernels::of()) {
   const int det = step * step + 1;
@@ -100,7 +100,7 @@ VisibilityGrid::Point& VisibilityGrid::point(int i, int j, int n) {
     auto made = growing("sharing of visibility", [] { return std::make_unique<Block>(); });
     if (block.compare_exchange_strong(found, made.get(), std::memory_order_acq_rel)) found = made.release();
   }
-  return found->points[(row % block_side * block_side + column % block_side) * GridNeighbours::most_per_cell +
+  return found->points[(row % block_side * block_side + column % block_side) * GridNeighbours::max_per_cell +
                        static_cast<unsigned>(n)];
 }
 

@@ -19,7 +19,7 @@ float greatest(const float (&color)[3]) { return std::max({color[0], color[1], c
 float arriving(std::span<const PreparedLight> lights) {
   float sum = 0;
   for (const PreparedLight& light : lights)
-    sum += greatest(light.radiance) * (light.is_directional ? 1.0f : 1 / least_distance_squared);
+    sum += greatest(light.radiance) * (light.is_directional ? 1.0f : 1 / min_distance_squared);
   return sum;
 }
 
@@ -28,7 +28,7 @@ float arriving(std::span<const PreparedLight> lights) {
 float highlight(const MaterialPlan& plan) {
   if (plan.model != ShadingModel::MetallicRoughness) return greatest(plan.specular);
   const bool is_textured = plan.slot(TextureSlotIndex::MetallicRoughness).texture != nullptr;
-  const float roughness = is_textured ? least_roughness : std::max(plan.roughness, least_roughness);
+  const float roughness = is_textured ? min_roughness : std::max(plan.roughness, min_roughness);
   const float alpha = roughness * roughness;
   return 4 * inverse_pi / (2 * alpha * alpha * alpha);
 }

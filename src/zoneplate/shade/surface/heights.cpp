@@ -60,7 +60,7 @@ void BatchShading::displace_coordinates() {
     alignas(64) ShadingState::Array start[2], slope[2], above, depth, unused[3];
     bool is_found[FragmentBatch::padded_capacity] = {};
   };
-  constexpr float least_cosine = 0.05f;  // of the angle at which a ray enters: beyond, it runs along the layers
+  constexpr float min_cosine = 0.05f;  // of the angle at which a ray enters: beyond, it runs along the layers
   const auto scratch = std::make_unique<Scratch>();
   Scratch& s = *scratch;
   const TextureSlot& slot = plan.slot(TextureSlotIndex::Height);
@@ -72,7 +72,7 @@ void BatchShading::displace_coordinates() {
       return Vector<scalar::Float>{of[0][i], of[1][i], of[2][i]};
     };
     const auto to_viewer = viewer.direction(batch, p, i);
-    const float into = -1 / std::max(dot(to_viewer, at(s.surface.normal)).v, least_cosine);
+    const float into = -1 / std::max(dot(to_viewer, at(s.surface.normal)).v, min_cosine);
     s.slope[0][i] = into * dot(to_viewer, at(s.surface.u)).v, s.slope[1][i] = into * dot(to_viewer, at(s.surface.v)).v;
     s.start[0][i] = u[i], s.start[1][i] = v[i], s.above[i] = s.depth[i] = 0;
   }

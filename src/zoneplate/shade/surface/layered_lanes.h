@@ -132,7 +132,7 @@ template <class F, class Layers>
   s.nv = min(max(dot(s.n, v), F(1e-4f)), one);
   s.metallic = F::load(p.metallic + i);
   const F roughness = F::load(p.roughness + i);
-  s.roughness = max(roughness, F(least_roughness));
+  s.roughness = max(roughness, F(min_roughness));
   s.through_roughness = roughness * F(u.wall_roughness);
   s.alpha = s.roughness * s.roughness;
 
@@ -151,7 +151,7 @@ template <class F, class Layers>
   s.dielectric_shares = interface_shares(s.dielectric, weights, u.has_iridescence, u.has_grey_interface);
   s.has_metal = !is_dielectric(s.metallic);
   if (s.has_metal) s.metal_shares = interface_shares(s.metal, weights, u.has_iridescence, false);
-  s.below_interface = one - min(greatest_channel(s.dielectric_shares.mirrored + s.dielectric_shares.scattered), one);
+  s.below_interface = one - min(max_channel(s.dielectric_shares.mirrored + s.dielectric_shares.scattered), one);
 
   s.absorbed = white, s.thickness = zero;
   if (u.has_volume) {
@@ -167,19 +167,19 @@ template <class F, class Layers>
   s.below_sheen = one;
   if (u.has_sheen) {
     s.sheen_color = Vector<F>::load(q.sheen_color, i);
-    s.sheen_roughness = max(F::load(q.sheen_roughness + i), F(least_sheen_roughness));
-    s.sheen_cosine = max(s.nv, F(least_sheen_cosine));
+    s.sheen_roughness = max(F::load(q.sheen_roughness + i), F(min_sheen_roughness));
+    s.sheen_cosine = max(s.nv, F(min_sheen_cosine));
     const F albedo = sheen_albedo(s.sheen_roughness, s.sheen_cosine);
     s.sheen_lambda = Sheen<F>(s.sheen_roughness).lambda(s.sheen_cosine);
     // The fit of Λ lets grazing fibres reflect more light than arrives: there the lobe is scaled to reflect it all.
     s.sheen_scale = one / max(albedo, one);
     s.sheen_albedo = albedo * s.sheen_scale;
-    s.below_sheen = one - bounded(greatest_channel(s.sheen_color)) * s.sheen_albedo;
+    s.below_sheen = one - bounded(max_channel(s.sheen_color)) * s.sheen_albedo;
   }
   if (u.has_clearcoat) {
     s.coat_n = Vector<F>::load(q.clearcoat_normal, i);
     s.coat_nv = min(max(abs(dot(s.coat_n, v)), F(1e-4f)), one);
-    s.coat_roughness = max(F::load(q.clearcoat_roughness + i), F(least_roughness));
+    s.coat_roughness = max(F::load(q.clearcoat_roughness + i), F(min_roughness));
     s.coat_alpha = s.coat_roughness * s.coat_roughness;
     const SpecularWeights<F> all =
         rows.has_coat ? rows.coat.at(s.coat_nv) : SpecularFit<F>(s.coat_roughness).at(s.coat_nv);
@@ -230,7 +230,7 @@ template <class F, class Layers>
   const Vector<F> front = grey(nl * F(inverse_pi)), back = grey(behind * F(inverse_pi));
   Vector<F> through = grey(zero);
   if (u.has_transmission) {
-    const F rough = max(s.through_roughness, F(least_roughness));
+    const F rough = max(s.through_roughness, F(min_roughness));
     through = s.absorbed * wall_lobe(behind, s.nv, wide(rough * rough), s.n, h);
   }
   const Vector<F> below = below_interface(u, s, front, back, through);
@@ -395,7 +395,7 @@ void light_layered_in(const ShadingUniforms& s, const Layers& u, const FragmentB
       const Vector<F> part = passing(u, surface);
       const F all_colors = min(max(min(min(part.x, part.y), part.z), zero), one);
       sum = sum - through.beyond * all_colors;
-      clear = min(all_colors * through.open, max(one - greatest_channel(sum), zero));
+      clear = min(all_colors * through.open, max(one - max_channel(sum), zero));
     }
     finish(s, kind, p, sum, surface.base, out, i);
     if (u.has_transmission) (F::load(out.a + i) * (one - clear)).store(out.a + i);

@@ -278,7 +278,7 @@ std::array<double, 3> expected(const Sample& s, Direction l) {
   const double back[3] = {m.diffuse_transmission_color.x, m.diffuse_transmission_color.y,
                           m.diffuse_transmission_color.z};
   const double absorbing[3] = {m.attenuation_color.x, m.attenuation_color.y, m.attenuation_color.z};
-  const double most_sheen = std::max({sheen_color[0], sheen_color[1], sheen_color[2]});
+  const double max_sheen = std::max({sheen_color[0], sheen_color[1], sheen_color[2]});
   for (std::size_t c = 0; c < 3; ++c) {
     const double passed = m.thickness > 0 ? std::pow(absorbing[c], m.thickness / m.attenuation_distance) : 1;
     double inner = base[c] * std::max(0.0, l.z) / pi;
@@ -287,8 +287,8 @@ std::array<double, 3> expected(const Sample& s, Direction l) {
     const double mixture = (gain[c] * dielectric[c] * peak + (1 - most) * inner) * (1 - s.material.metallic) +
                            metal_gain[c] * metal[c] * peak * s.material.metallic;
     out[c] = mixture;
-    if (most_sheen > 0) {
-      out[c] *= 1 - most_sheen * sheen_integral(v.z, m.sheen_roughness);
+    if (max_sheen > 0) {
+      out[c] *= 1 - max_sheen * sheen_integral(v.z, m.sheen_roughness);
       if (l.z > 0) out[c] += sheen_color[c] * sheen_brdf(l, v, m.sheen_roughness) * l.z;
     }
   }
@@ -477,7 +477,7 @@ TEST(Layered, TheSheenTableHoldsTheIntegrals) {
   for (int row = 1; row < sheen_table_side; row += 4)
     for (int column = 0; column < sheen_table_side; column += 3) {
       const double step = 1.0 / (sheen_table_side - 1);
-      const double roughness = least_sheen_roughness + (1.0 - least_sheen_roughness) * row * step;
+      const double roughness = min_sheen_roughness + (1.0 - min_sheen_roughness) * row * step;
       const double root = 0.1 + 0.9 * column * step;
       EXPECT_NEAR(sheen_albedo_table[row][column], sheen_integral(root * root, roughness), 3e-4)
           << row << " " << column;

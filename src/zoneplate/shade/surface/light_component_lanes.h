@@ -75,7 +75,7 @@ template <class F, class Radiance>
   Vector<F> front = irradiance(s, p, surface.n, inverse_pi, i), back = dark, through = dark;
   if (u.has_diffuse_transmission) back = irradiance(s, p, dark - surface.n, inverse_pi, i);
   if (u.has_transmission) {
-    const F rough = max(surface.through_roughness, F(least_roughness));
+    const F rough = max(surface.through_roughness, F(min_roughness));
     for (int k = 0; k < s.lights; ++k) {
       const Arriving<F> light = arriving<F>(s.light[k], false, p, i);
       const Vector<F> l = light.from;

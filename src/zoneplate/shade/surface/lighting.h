@@ -21,16 +21,16 @@ struct PreparedLight {
 PreparedLight prepare(const Light& light);
 
 /// Distances below 1 mm count as 1 mm, which keeps 1 / d² finite.
-inline constexpr float least_distance_squared = 1e-6f;
+inline constexpr float min_distance_squared = 1e-6f;
 
 /// The attenuation of a point light at a squared distance.
 ///
 /// Inverse square: max(min(1 - (d / range)⁴, 1), 0) / d². Quadratic: 1 / (a0 + a1 d + a2 d²).
-/// Edges     d² below `least_distance_squared` counts as that value; a quadratic below 1e-6 counts as 1e-6.
+/// Edges     d² below `min_distance_squared` counts as that value; a quadratic below 1e-6 counts as 1e-6.
 /// Source    KHR_lights_punctual, "Range Property"; the fixed-function attenuation of OpenGL 1.x.
 template <class F>
 [[gnu::always_inline]] inline F fading(const PreparedLight& light, F distance_squared) {
-  const F d2 = max(distance_squared, F(least_distance_squared));
+  const F d2 = max(distance_squared, F(min_distance_squared));
   if (light.is_quadratic) {
     const F quadratic = F(light.attenuation[0]) + F(light.attenuation[1]) * sqrt(d2) + F(light.attenuation[2]) * d2;
     return F(1.0f) / max(quadratic, F(1e-6f));

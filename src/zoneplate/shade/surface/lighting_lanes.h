@@ -80,7 +80,7 @@ template <class F>
   const F square = dot(path, path);
   F strength = fading(light, square);
   if (light.is_spot) strength = strength * cone(light, -dot(l, Vector<F>::all(light.axis)));
-  const F spread = light.spread > 0 ? F(light.spread) / max(square, F(least_distance_squared)) : F(0.0f);
+  const F spread = light.spread > 0 ? F(light.spread) / max(square, F(min_distance_squared)) : F(0.0f);
   return {l, radiance * strength, spread};
 }
 
@@ -370,7 +370,7 @@ void light_metallic(const ShadingUniforms& s, const FragmentBatch& batch, const 
     const Metallic<F> m = is_dielectric(metallic) ? make_dielectric(base, roughness, weights)
                                                   : make_metallic(base, metallic, roughness, weights);
     const auto turning_lobe = [&](const PreparedLight& light, const Arriving<F>& arriving) {
-      const F r = max(own_roughness, F(least_roughness));
+      const F r = max(own_roughness, F(min_roughness));
       return TurningLobe<F>(n, v, Vector<F>::load(p.normal_dx, i), Vector<F>::load(p.normal_dy, i),
                             light.spread > 0 ? sqrt(highlight_alpha(r * r, light, arriving)) : own_roughness);
     };

@@ -70,12 +70,12 @@ void copy_factors(const Material& m, MaterialPlan& plan) {
 /// Diffuse and ambient light are added up before the multiplication with the base colour, which is cheapest. The
 /// ambient term is ambient × light × the base colour that a factor of 1 would give.
 void plan_ambient(const Material& m, const ViewUniforms& s, MaterialPlan& plan) {
-  constexpr float least_divisor = 0x1p-32f;
+  constexpr float min_divisor = 0x1p-32f;
   if (m.model != ShadingModel::BlinnPhong && m.model != ShadingModel::Phong) return;
   const float ambient[3] = {m.ambient.x, m.ambient.y, m.ambient.z};
   const float light[3] = {s.ambient_light.x, s.ambient_light.y, s.ambient_light.z};
   for (int c = 0; c < 3; ++c) {
-    if (plan.factor[c] >= least_divisor)
+    if (plan.factor[c] >= min_divisor)
       plan.ambient_factor[c] = ambient[c] / plan.factor[c] * light[c];
     else
       plan.own_ambient[c] = ambient[c] * light[c];

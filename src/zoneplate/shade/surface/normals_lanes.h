@@ -39,7 +39,7 @@ void find_normal_variance(const FragmentBatch& batch, const TriangleVertices& ve
 /// The roughness of a lobe whose α² is greater by a variance.
 template <class F>
 [[gnu::always_inline]] inline F widened(F roughness, F variance) {
-  const F r = max(roughness, F(least_roughness)), alpha = r * r;
+  const F r = max(roughness, F(min_roughness)), alpha = r * r;
   return sqrt(sqrt(min(alpha * alpha + variance, F(1.0f))));
 }
 

@@ -105,7 +105,7 @@ SurfaceConstants::Lobes SurfaceConstants::make_lobes(const MaterialPlan& plan, c
   if (plan.layers == nullptr) return {s.has_material_texture ? nullptr : mix_of(s.roughness), nullptr};
   // As light_layered bounds it.
   const auto bounded = [&](float roughness) {
-    return roughness >= 0 ? mix_of(std::max(roughness, least_roughness)) : nullptr;
+    return roughness >= 0 ? mix_of(std::max(roughness, min_roughness)) : nullptr;
   };
   return {bounded(s.layered_roughness), bounded(s.coat_roughness)};
 }

@@ -12,7 +12,7 @@ namespace zoneplate {
 /// RowPitch::of, by fragment.
 template <class Int>
 [[gnu::always_inline]] inline Int row_pitches(Int width) {
-  const auto is_padded = (width > Int(RowPitch::least_padded - 1)) & ((width & Int(RowPitch::multiple - 1)) < Int(1));
+  const auto is_padded = (width > Int(RowPitch::min_padded - 1)) & ((width & Int(RowPitch::multiple - 1)) < Int(1));
   return width + Int(RowPitch::border) + where(is_padded, Int(RowPitch::padding));
 }
 

@@ -45,7 +45,7 @@ template <class F, class View>
 
 /// The greatest number of probes of the eight fragments from i on.
 template <class F>
-[[gnu::always_inline]] inline int most_probes(const Probes& probes, int i) {
+[[gnu::always_inline]] inline int max_probes(const Probes& probes, int i) {
   F n = F::load(probes.count + i);
   for (int k = F::lanes; k < 8; k += F::lanes) n = max(n, F::load(probes.count + i + k));
   return static_cast<int>(greatest(n));
@@ -220,7 +220,7 @@ template <class F, class Wide, class Joined, class View, class Mix>
   Probes probes;
   find_all_probes<Wide>(t, f.anisotropy, at, count, probes);
   int most[Taps::groups];
-  for (int i = 0; i < count; i += 8) most[i / 8] = most_probes<F>(probes, i);
+  for (int i = 0; i < count; i += 8) most[i / 8] = max_probes<F>(probes, i);
   if (is_trilinear_repeat(f) && t.unorm8 != nullptr)
     return mix_all_probes<F, Joined>(TexelAddress<true>(t), t, TrilinearRepeat{}, at, probes, most, count, mix);
   const TexelAddress<false> address(t);

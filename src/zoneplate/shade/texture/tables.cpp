@@ -123,7 +123,7 @@ NormalSpread make_normal_spread(const TextureView& view) {
     double x = 0, y = 0, z = 0;                   ///< of unit normals
     double p = 0, q = 0, pp = 0, qq = 0, pq = 0;  ///< of slopes x / z and y / z, and of their products
   };
-  constexpr double least_z = 1.0 / 64;  // steeper slopes count as 64
+  constexpr double min_z = 1.0 / 64;  // steeper slopes count as 64
   const auto value = [&](std::int32_t x, std::int32_t y, int c) {
     const std::ptrdiff_t at = std::ptrdiff_t{4} * view.texel(0, x, y) + c;
     if (view.unorm8 != nullptr) return static_cast<double>(view.unorm8[at]) / 255;
@@ -144,7 +144,7 @@ NormalSpread make_normal_spread(const TextureView& view) {
       double n[3] = {2 * value(x, y, 0) - 1, 2 * value(x, y, 1) - 1, 2 * value(x, y, 2) - 1};
       const double square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2], unit = square > 1e-12 ? 1 / std::sqrt(square) : 0;
       for (double& v : n) v *= unit;
-      const double z = std::max(n[2], least_z), p = n[0] / z, q = n[1] / z;
+      const double z = std::max(n[2], min_z), p = n[0] / z, q = n[1] / z;
       moments[static_cast<std::size_t>(y) * static_cast<std::size_t>(size.width) + static_cast<std::size_t>(x)] = {
           n[0], n[1], unit > 0 ? n[2] : 1, p, q, p * p, q * q, p * q};
     }

@@ -25,7 +25,7 @@
 namespace zoneplate {
 namespace {
 
-static_assert(TextureView::max_size == TextureImage::most_side);
+static_assert(TextureView::max_size == TextureImage::max_side);
 
 /// The image at a smaller size. `row(y, buffer)` returns row y of the image, for which `buffer` has the capacity.
 template <class Code, class Row>

@@ -11,9 +11,9 @@ namespace zoneplate {
 /// whose lengths are large multiples of 256 are padded, by the lines of a cache that a block of 64 texels takes: else
 /// all rows would begin in the same few sets of the first-level cache, which hold some 100 of its 512 lines.
 struct RowPitch {
-  static constexpr std::int32_t border = 2, padding = 46, least_padded = 512, multiple = 256;
+  static constexpr std::int32_t border = 2, padding = 46, min_padded = 512, multiple = 256;
   static constexpr std::int32_t of(std::int32_t width) {
-    return width + border + (width >= least_padded && width % multiple == 0 ? padding : 0);
+    return width + border + (width >= min_padded && width % multiple == 0 ? padding : 0);
   }
 };
 

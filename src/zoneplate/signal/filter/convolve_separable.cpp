@@ -17,12 +17,12 @@ namespace zoneplate {
 namespace {
 
 constexpr std::size_t strip_floats = 64;  // columns whose sums the kernel keeps in registers
-constexpr std::size_t most_strips = 32;   // strips of one task: long runs of a row are read sequentially
-constexpr std::size_t least_strips = 8;
+constexpr std::size_t max_strips = 32;    // strips of one task: long runs of a row are read sequentially
+constexpr std::size_t min_strips = 8;
 // Rows of strips, 256 bytes each, that one task keeps in the second-level cache.
 constexpr std::size_t cached_rows = 2048;
-constexpr std::size_t step_rows = 16;   // rows that are filtered along x before the next sums along y
-constexpr std::size_t least_band = 32;  // rows of one task
+constexpr std::size_t step_rows = 16;  // rows that are filtered along x before the next sums along y
+constexpr std::size_t min_band = 32;   // rows of one task
 
 // One row of a strip. Aligned, because a vector that straddles two cache lines takes two reads.
 struct alignas(64) StripRow {
@@ -206,7 +206,7 @@ Plane<T> separable(const Plane<T>& plane, std::span<const double> along_rows, st
   Plane<T> out = has_room ? std::move(room) : Plane<T>(plane.width(), plane.height());
   const RowFilter<T> filter(plane, along_rows, options);
   if (is_identity(along_columns)) {
-    parallel_ranges(h, least_band, [&](std::size_t begin, std::size_t end) {
+    parallel_ranges(h, min_band, [&](std::size_t begin, std::size_t end) {
       auto edge = filter.make_edge();
       for (std::size_t y = begin; y < end; ++y) {
         const int row = static_cast<int>(y);
@@ -219,12 +219,11 @@ Plane<T> separable(const Plane<T>& plane, std::span<const double> along_rows, st
   // The partition into tasks affects the time but no value, because each value is the same sum in any partition. Each
   // band filters the rows above its first sums again, so that there are no more bands than threads need.
   const std::size_t n = along_columns.size();
-  const std::size_t strips = std::clamp(cached_rows / (n - 1 + step_rows), least_strips, most_strips);
+  const std::size_t strips = std::clamp(cached_rows / (n - 1 + step_rows), min_strips, max_strips);
   const std::size_t across = strips * strip_floats / channels<T>, blocks = (w + across - 1) / across;
   const auto threads = static_cast<std::size_t>(thread_limit());
   const std::size_t preferred = threads == 1 ? 1 : (2 * threads + blocks - 1) / blocks;
-  const std::size_t bands =
-      std::clamp<std::size_t>(preferred, 1, std::max<std::size_t>(1, h / std::max(least_band, n)));
+  const std::size_t bands = std::clamp<std::size_t>(preferred, 1, std::max<std::size_t>(1, h / std::max(min_band, n)));
   const std::size_t band = (h + bands - 1) / bands;
   parallel_for(bands * blocks, [&](std::size_t task) {
     const std::size_t y = std::min(h, task / blocks * band), x = task % blocks * across;

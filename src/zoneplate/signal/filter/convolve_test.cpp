@@ -50,7 +50,7 @@ Plane<float> by_definition(const Plane<float>& plane, const Plane<float>& kernel
   return out;
 }
 
-float greatest_difference(const Plane<float>& a, const Plane<float>& b) {
+float max_difference(const Plane<float>& a, const Plane<float>& b) {
   EXPECT_EQ(a.width(), b.width());
   EXPECT_EQ(a.height(), b.height());
   float worst = 0;
@@ -67,9 +67,9 @@ TEST(Convolve, DirectAndFourierAreTheDefinitionForEveryBorder) {
     for (float& v : kernel.values()) v = static_cast<float>(v / sum);
     for (Border border : all_borders) {
       const Plane<float> expected = by_definition(plane, kernel, border);
-      EXPECT_LE(greatest_difference(convolve(plane, kernel, {.border = border}), expected), 1.3e-7f)
+      EXPECT_LE(max_difference(convolve(plane, kernel, {.border = border}), expected), 1.3e-7f)
           << name_of(border) << kw << kh;
-      EXPECT_LE(greatest_difference(convolve_by_fourier(plane, kernel, border), expected), 1.3e-7f)
+      EXPECT_LE(max_difference(convolve_by_fourier(plane, kernel, border), expected), 1.3e-7f)
           << name_of(border) << kw << kh;
     }
   }
@@ -84,8 +84,8 @@ TEST(Convolve, SeparableIsTheOuterProductForEveryBorder) {
     const Plane<float> kernel = outer_product(rows, columns);
     for (Border border : all_borders) {
       const auto separable = convolve_separable(plane, rows, columns, {.border = border});
-      EXPECT_LE(greatest_difference(separable, convolve(plane, kernel, {.border = border})), 2e-6f) << name;
-      EXPECT_LE(greatest_difference(separable, convolve_by_fourier(plane, kernel, border)), 2e-6f) << name;
+      EXPECT_LE(max_difference(separable, convolve(plane, kernel, {.border = border})), 2e-6f) << name;
+      EXPECT_LE(max_difference(separable, convolve_by_fourier(plane, kernel, border)), 2e-6f) << name;
     }
   }
 }
@@ -179,9 +179,9 @@ TEST(Convolve, TheTheoremWithoutPaddingFailsAtTheBordersOfClampAndReflect) {
   const auto periodic = convolve_by_fourier(plane, kernel, Border::Wrap);
   for (Border border : {Border::Clamp, Border::Reflect, Border::Zero}) {
     const auto space = convolve(plane, kernel, {.border = border});
-    EXPECT_GT(greatest_difference(space, periodic), 0.05f);
+    EXPECT_GT(max_difference(space, periodic), 0.05f);
     const auto inner = [](const Plane<float>& p) { return cropped(p, 8, 8, 48, 32); };
-    EXPECT_LT(greatest_difference(inner(space), inner(periodic)), 1e-6f);
+    EXPECT_LT(max_difference(inner(space), inner(periodic)), 1e-6f);
   }
 }
 

@@ -145,7 +145,7 @@ void radix5(const Views& v, const Roots& w) {
 // A butterfly of any odd radix p by the definition; the p-th roots of unity are every (n / p)-th of the n-th.
 void radix_any(const Views& v, const Roots& w, std::size_t n) {
   const std::size_t p = v.radix, step = n / p;
-  Pack a[FourierPlan::greatest_radix];
+  Pack a[FourierPlan::max_radix];
   for (std::size_t q = 0; q < v.groups; ++q)
     for (std::size_t s = 0; s < v.stride; ++s) {
       for (std::size_t j = 0; j < p; ++j) a[j] = v.in(j, q, s);
@@ -171,7 +171,7 @@ std::vector<std::size_t> radices(std::size_t n) {
 FourierPlan::FourierPlan(std::size_t n) : n_(n), scratch_size_(2 * n * lanes) {
   assert(n >= 1);
   const std::vector<std::size_t> factors = radices(n);
-  if (factors.empty() || *std::max_element(factors.begin(), factors.end()) <= greatest_radix) {
+  if (factors.empty() || *std::max_element(factors.begin(), factors.end()) <= max_radix) {
     std::size_t left = n, done = 1;
     for (const std::size_t p : factors) {
       left /= p;

@@ -9,7 +9,7 @@ namespace zoneplate {
 
 /// The discrete Fourier transform of one size, applied to four signals side by side.
 ///
-/// X[k] = Σ_j x[j] e^(-2πi jk / n), not normalized. A size whose prime factors are at most `greatest_radix` is
+/// X[k] = Σ_j x[j] e^(-2πi jk / n), not normalized. A size whose prime factors are at most `max_radix` is
 /// transformed by mixed radices (Stockham's self-sorting form); any other by a convolution (Bluestein's chirp).
 ///
 /// This implementation exists because the same bits are guaranteed on every machine. KissFFT (as packaged by Debian)
@@ -25,7 +25,7 @@ namespace zoneplate {
 class FourierPlan {
  public:
   static constexpr std::size_t lanes = 4;
-  static constexpr std::size_t greatest_radix = 31;
+  static constexpr std::size_t max_radix = 31;
 
   explicit FourierPlan(std::size_t n);
 

@@ -42,7 +42,7 @@ Dilated dilate(const FsrFrame& frame) {
   return out;
 }
 
-Plane<float> previous_depth(const Dilated& dilated, float least_weight,
+Plane<float> previous_depth(const Dilated& dilated, float min_weight,
                             const std::function<bool(float2 motion, float depth)>& is_motion) {
   const int width = dilated.depth.width(), height = dilated.depth.height();
   Plane<float> out(width, height, FsrFrame::far);
@@ -55,7 +55,7 @@ Plane<float> previous_depth(const Dilated& dilated, float least_weight,
       const float py = static_cast<float>(y) + motion.y * static_cast<float>(height);
       if (!(px > -2 && py > -2 && px < static_cast<float>(width + 1) && py < static_cast<float>(height + 1))) continue;
       BilinearTaps(px, py).for_each([&](int i, int j, float w) {
-        if (w > least_weight && contains(out, i, j)) out(i, j) = std::min(out(i, j), depth);
+        if (w > min_weight && contains(out, i, j)) out(i, j) = std::min(out(i, j), depth);
       });
     }
   return out;

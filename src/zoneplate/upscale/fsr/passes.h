@@ -56,9 +56,9 @@ struct Dilated {
 };
 Dilated dilate(const FsrFrame& frame);
 
-/// Where the frame's surfaces were in the last frame: every pixel that a surface touched with more than `least_weight`
+/// Where the frame's surfaces were in the last frame: every pixel that a surface touched with more than `min_weight`
 /// gets the nearest depth. A motion at a depth moves nothing unless is_motion says so.
-Plane<float> previous_depth(const Dilated& dilated, float least_weight,
+Plane<float> previous_depth(const Dilated& dilated, float min_weight,
                             const std::function<bool(float2 motion, float depth)>& is_motion);
 
 /// Means of 2 × 2 elements; beyond the plane there are zeros.

@@ -12,7 +12,7 @@ namespace fsr2 {
 
 using namespace stages::fsr;
 
-constexpr float epsilon = 1e-3f, greatest_half = 65504;
+constexpr float epsilon = 1e-3f, max_half = 65504;
 
 /// The four pixels of the last frame around a place.
 ///
@@ -171,7 +171,7 @@ template <class F>
     F pixel[4];
     sample_history(frame, last_u, last_v, pixel);
     Color<F> exposed;
-    for (int c = 0; c < 3; ++c) exposed.c[c] = min(max(pixel[c] * F(frame.exposure), zero), F(greatest_half));
+    for (int c = 0; c < 3; ++c) exposed.c[c] = min(max(pixel[c] * F(frame.exposure), zero), F(max_half));
     history = ycocg_of(exposed);
     reactive = where(is_old, saturated(abs(pixel[3])));
     was_moving = where(is_old & (zero > pixel[3]), one);
@@ -244,7 +244,7 @@ template <class F>
     const Color<F> from = tone_mapped(rgb_of(history)), to = tone_mapped(fresh);
     Color<F> blended;
     for (int c = 0; c < 3; ++c) blended.c[c] = mixed(from.c[c], to.c[c], alpha);
-    blended = inverse_tone_mapped(blended, 1 / greatest_half);
+    blended = inverse_tone_mapped(blended, 1 / max_half);
     for (int c = 0; c < 3; ++c) out.c[c] = select(is_old, blended.c[c], fresh.c[c]);
   }
 

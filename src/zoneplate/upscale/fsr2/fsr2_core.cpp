@@ -16,7 +16,7 @@ namespace {
 
 using namespace fsr;
 
-constexpr float least_weight = 0.01f;  // of a bilinear sample of depth
+constexpr float min_weight = 0.01f;  // of a bilinear sample of depth
 
 float length(float x, float y) { return length(float2{x, y}); }
 float positive_power(float v, float exponent) { return v > 0 ? pow(v, exponent) : 0.0f; }
@@ -88,7 +88,7 @@ class DepthClip {
     const float depth = passes_.dilated.depth(x, y);
     float seen = 0, sum = 0;
     BilinearTaps(px, py).for_each([&](int i, int j, float w) {
-      if (!contains(previous_, i, j) || !(w > least_weight)) return;
+      if (!contains(previous_, i, j) || !(w > min_weight)) return;
       const float behind = depth - previous_(i, j);
       if (!(behind > 0)) return;
       const float required = separation_ * std::max(depth, previous_(i, j));
@@ -117,16 +117,16 @@ float motion_divergence(const Plane<float2>& motion, int x, int y) {
   const auto width = static_cast<float>(motion.width()), height = static_cast<float>(motion.height());
   const auto uv = [&](float2 m) { return float2{m.x / width, m.y / height}; };
   const float2 own = uv(motion(x, y));
-  float greatest = length(own), least_agreement = 1;
+  float greatest = length(own), min_agreement = 1;
   if (length(motion(x, y)) > 0.01f)
     for (int dy = -1; dy <= 1; ++dy)
       for (int dx = -1; dx <= 1; ++dx) {
         const float2 other = uv(at_clamped(motion, x + dx, y + dy));
         greatest = std::max(length(other), greatest);
         const float2 a{other.x / greatest, other.y / greatest}, b{own.x / greatest, own.y / greatest};
-        least_agreement = std::min(least_agreement, a.x * b.x + a.y * b.y);
+        min_agreement = std::min(min_agreement, a.x * b.x + a.y * b.y);
       }
-  return saturated(1 - least_agreement) * saturated(greatest / 0.01f);
+  return saturated(1 - min_agreement) * saturated(greatest / 0.01f);
 }
 
 /// 1 - the least over the greatest depth of 3 × 3 pixels; beyond the frame depth is 0. 0 next to empty pixels.
@@ -212,7 +212,7 @@ LinearImage Fsr2::accumulate(const FsrFrame& frame) {
   passes_.luminance = std::move(pyramid.blocks);
 
   passes_.dilated = dilate(frame);
-  passes_.previous_depth = previous_depth(passes_.dilated, least_weight, [&](float2 motion, float) {
+  passes_.previous_depth = previous_depth(passes_.dilated, min_weight, [&](float2 motion, float) {
     return length(motion.x * output.x, motion.y * output.y) > 0.1f;
   });
   passes_.lock_luma = Plane<float>(frame_width, frame_height);

@@ -15,7 +15,7 @@ namespace {
 
 using namespace fsr;
 
-constexpr float greatest_half = fsr3_greatest_half;
+constexpr float max_half = fsr3_greatest_half;
 constexpr int tile = 64;  // pixels along a side of the squares that the mean luminance has as a last full level
 
 /// The mean of the square of the greatest power of two within the longer side, from the top left. Edge pixels continue
@@ -169,8 +169,7 @@ LinearImage Fsr3::accumulate(const FsrFrame& frame) {
   std::swap(history_, next_history_), std::swap(accumulation_, next_accumulation_);
   std::swap(luma_history_, next_luma_history_);
   last_luma_ = passes_.luma, last_jitter_ = frame.jitter;
-  return options_.sharpens ? sharpened(history_, passes_.exposure, options_.sharpness, greatest_half)
-                           : opaque(history_);
+  return options_.sharpens ? sharpened(history_, passes_.exposure, options_.sharpness, max_half) : opaque(history_);
 }
 
 void Fsr3::prepare(const FsrFrame& frame) {
@@ -187,14 +186,13 @@ void Fsr3::prepare(const FsrFrame& frame) {
   log_luminance_ = std::max(0.0f, log_luminance_ + (mean_from_top_left(logarithms) - log_luminance_) * rate);
   passes_.exposure = options_.exposure > 0 ? options_.exposure : automatic_exposure(log_luminance_);
 
-  const float least_weight = 10 * fsr3_epsilon;
+  const float min_weight = 10 * fsr3_epsilon;
   passes_.dilated = dilate(frame);
-  passes_.previous_depth = previous_depth(passes_.dilated, least_weight, [](float2 motion, float depth) {
-    const float far = saturated(std::min(depth, greatest_half) / 100);
+  passes_.previous_depth = previous_depth(passes_.dilated, min_weight, [](float2 motion, float depth) {
+    const float far = saturated(std::min(depth, max_half) / 100);
     return length(float2{motion.x * 3840, motion.y * 2160}) > 0.25f + 0.5f * far;
   });
-  passes_.farthest_depth =
-      means(width, height, [&](int x, int y) { return std::min(frame.depth(x, y), greatest_half); });
+  passes_.farthest_depth = means(width, height, [&](int x, int y) { return std::min(frame.depth(x, y), max_half); });
 
   std::vector<float> u;
   for (int x = 0; x < width; ++x) u.push_back((static_cast<float>(x) + 0.5f) / static_cast<float>(width));

@@ -9,9 +9,9 @@ namespace zoneplate::stages::fsr3 {
 
 using namespace stages::fsr;
 
-constexpr float epsilon = fsr3_epsilon, greatest_half = fsr3_greatest_half;
-constexpr float least_weight = 10 * epsilon;  // of a bilinear sample of depth
-constexpr float frame_share = 1.0f / 3;       // of a full history, which a frame adds
+constexpr float epsilon = fsr3_epsilon, max_half = fsr3_greatest_half;
+constexpr float min_weight = 10 * epsilon;  // of a bilinear sample of depth
+constexpr float frame_share = 1.0f / 3;     // of a full history, which a frame adds
 
 /// The length of a motion, in pixels of an output of 3840 × 2160, whatever the output's size is.
 template <class F>
@@ -22,8 +22,8 @@ template <class F>
 
 /// The velocity from which on a surface at a depth, in metres, counts as moving.
 template <class F>
-[[gnu::always_inline]] inline F least_velocity(F depth) {
-  return mixed(F(0.25f), F(0.75f), saturated(min(depth, F(greatest_half)) / F(100.0f)));
+[[gnu::always_inline]] inline F min_velocity(F depth) {
+  return mixed(F(0.25f), F(0.75f), saturated(min(depth, F(max_half)) / F(100.0f)));
 }
 
 /// A value of [0, 1], rounded as a texture of 8 bits does.

@@ -51,8 +51,8 @@ template <class F>
 /// The least relative difference that five steps of a merge of two ascending lists meet, with its sign; 0 if they meet
 /// two equal values. A step leaves the smaller value behind, and in `last` also one that the next of `now` exceeds.
 template <class F>
-[[gnu::always_inline]] inline F least_difference(F (&now)[5], F (&last)[5]) {
-  F least = F(greatest_half);
+[[gnu::always_inline]] inline F min_difference(F (&now)[5], F (&last)[5]) {
+  F least = F(max_half);
   auto is_equal = F(0.0f) > F(1.0f);
   for (int step = 0; step < 5; ++step) {
     const F difference = now[0] - last[0];
@@ -78,7 +78,7 @@ template <class F>
   F now[5], last[5];
   sorted_lumas(frame, frame.luma, u + F(frame.jitter_x) / width, v + F(frame.jitter_y) / height, now);
   sorted_lumas(frame, frame.last_luma, last_u, last_v, last);
-  where(is_in_image(last_u, last_v), least_difference(now, last)).store(out + i);
+  where(is_in_image(last_u, last_v), min_difference(now, last)).store(out + i);
 }
 
 /// The share of a pixel that was hidden in the last frame.
@@ -86,7 +86,7 @@ template <class F>
 [[gnu::always_inline]] inline F disocclusion(const Fsr3PrepareFrame& frame, F u, F v, const Motion<F>& motion,
                                              F depth) {
   const F width = F(static_cast<float>(frame.width)), height = F(static_cast<float>(frame.height));
-  const auto is_motion = motion.velocity > least_velocity(depth);
+  const auto is_motion = motion.velocity > min_velocity(depth);
   const auto place = [](F at, F size) { return min(max(at * size - F(0.5f), F(-2.0f)), size + F(1.0f)); };
   const Neighbours<F, 2> taps(frame.width, frame.height, place(u + where(is_motion, motion.x), width),
                               place(v + where(is_motion, motion.y), height), 0);
@@ -96,7 +96,7 @@ template <class F>
     const F before = F::gather(frame.previous_depth, taps.row[k / 2] + taps.column[k % 2]);
     const F behind = depth - before;
     const F x = k % 2 ? taps.right : F(1.0f) - taps.right, y = k / 2 ? taps.below : F(1.0f) - taps.below;
-    const F weight = where(x * y > F(least_weight), x * y);
+    const F weight = where(x * y > F(min_weight), x * y);
     const auto is_behind = behind > F(std::numeric_limits<float>::min());
     is_seen = is_seen | ((weight > F(0.0f)) & (F(std::numeric_limits<float>::min()) >= behind));
     const F share = F(frame.separation) * max(depth, before) / select(is_behind, behind, F(1.0f));

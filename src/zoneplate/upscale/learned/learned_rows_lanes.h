@@ -227,12 +227,12 @@ template <class F>
 
   const Rgba<F> low = pixels.at(row.low, 1), high = pixels.at(row.high, 1);
   const auto is_filtered = [&](const HistoryRow& history) { return F::load(history.filtered + i) > zero; };
-  const F most = sample_mean::most_of<F>(frame, row, is_filtered(known.near), i);
+  const F most = sample_mean::max_of<F>(frame, row, is_filtered(known.near), i);
   KeptHistory<F> kept = kept_of(known.near, low, high, clamping, part, most, i);
   const auto is_borrowed = F::gather(row.is_borrowed, column) > zero;
   const F share = where(is_borrowed, limited(correction[12], 0, 1));
   if (!none(share > zero)) {
-    const F own_most = select(is_filtered(known.own), F(frame.most_filtered), F(frame.most));
+    const F own_most = select(is_filtered(known.own), F(frame.max_filtered), F(frame.most));
     const KeptHistory<F> own = kept_of(known.own, low, high, clamping, part, own_most, i);
     kept.color = select(is_borrowed, kept.color + (own.color - kept.color) * share, kept.color);
     kept.count = select(is_borrowed, kept.count + (own.count - kept.count) * share, kept.count);

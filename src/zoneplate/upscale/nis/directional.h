@@ -14,7 +14,7 @@ struct NisConstants {
   explicit NisConstants(float sharpness);
 
   float detect_ratio, detect_threshold;  ///< of a gradient over the one across it; minimum gradient
-  float least_contrast, contrast_scale;  ///< the ratio of contrasts where sharpening begins to fade, 1 / range
+  float min_contrast, contrast_scale;    ///< the ratio of contrasts where sharpening begins to fade, 1 / range
   float first_luma, luma_scale;          ///< the luma where sharpening begins to fade, 1 / range
   float strength, strength_scale;        ///< of sharpening: for light areas, and what dark ones have in addition
   float limit, limit_scale;              ///< of the change, relative to luma, likewise

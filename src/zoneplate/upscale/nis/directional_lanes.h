@@ -70,7 +70,7 @@ template <class F>
 [[gnu::always_inline]] inline F contrast_factor(F a, F b, F c, F d, F e, F f, const NisConstants& constants) {
   const F first = max(max(b, c), a) - min(min(b, c), a), second = max(max(d, e), f) - min(min(d, e), f);
   const F ratio = max(first, second) / (min(first, second) + F(1.0f / 255));
-  return F(1.0f) - saturated((ratio - F(constants.least_contrast)) * F(constants.contrast_scale));
+  return F(1.0f) - saturated((ratio - F(constants.min_contrast)) * F(constants.contrast_scale));
 }
 
 /// A detail that sharpening adds, scaled and limited by the luma on which it lies.

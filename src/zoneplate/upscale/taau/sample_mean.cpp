@@ -19,12 +19,12 @@ namespace zoneplate::upscale {
 namespace {
 
 /// The samples that count at most, by the sum of their weights: 190 frames at scale 2.
-constexpr float most_samples = 64;
+constexpr float max_samples = 64;
 /// The same of a history that lies between pixels, and is filtered in every frame: a longer one is blurred more than it
 /// is worth. In a slow pan of `panning-wires` over 72 frames 3 samples, or 9 frames at scale 2, have the highest PSNR.
-constexpr float most_filtered_samples = 3, most_filtered_frames = 8;
+constexpr float max_filtered_samples = 3, max_filtered_frames = 8;
 /// The same of a history that follows the surface beside, which drags the colours behind it along.
-constexpr float most_borrowed_samples = 1, most_borrowed_frames = 3;
+constexpr float max_borrowed_samples = 1, max_borrowed_frames = 3;
 /// The sum of the weights of a frame's samples is π / 2.29 per frame pixel.
 constexpr float weight_of_frame = 1.372f;
 
@@ -180,9 +180,9 @@ void SampleMean::for_output_rows(
                                .height = height_,
                                .is_first = is_first,
                                .scale = {scale_x, scale_y},
-                               .most = most_samples,
-                               .most_filtered = std::max(most_filtered_samples, most_filtered_frames * frame_weight),
-                               .most_borrowed = std::max(most_borrowed_samples, most_borrowed_frames * frame_weight),
+                               .most = max_samples,
+                               .max_filtered = std::max(max_filtered_samples, max_filtered_frames * frame_weight),
+                               .max_borrowed = std::max(max_borrowed_samples, max_borrowed_frames * frame_weight),
                                .history = is_first ? nullptr : floats_of(history_),
                                .count = count_.values().data()};
   // exp(-2.29 d²), with d in output pixels: a Gaussian near to the Blackman-Harris window of Karis 2014, by axis. Where

@@ -68,8 +68,8 @@ struct SampleMeanFrame {
   bool is_first;               ///< there is no history
   float scale[2];              ///< output pixels per frame pixel, per axis
   float most;                  ///< the greatest number of samples that counts
-  float most_filtered;         ///< the same of a history that lies between pixels, which filtering blurs
-  float most_borrowed;         ///< the same of one that follows the surface beside
+  float max_filtered;          ///< the same of a history that lies between pixels, which filtering blurs
+  float max_borrowed;          ///< the same of one that follows the surface beside
   const float* history;        ///< of the last frame, in the output's size: four floats per pixel
   const float* count;          ///< likewise: the sum of the weights of a pixel's samples
 };

@@ -241,11 +241,11 @@ struct Past {
 
 /// The greatest number of samples that counts.
 template <class F>
-[[gnu::always_inline]] inline F most_of(const SampleMeanFrame& frame, const SampleMeanRow& row,
-                                        typename F::Bool is_filtered, std::ptrdiff_t i) {
-  const F most = select(is_filtered, F(frame.most_filtered), F(frame.most));
+[[gnu::always_inline]] inline F max_of(const SampleMeanFrame& frame, const SampleMeanRow& row,
+                                       typename F::Bool is_filtered, std::ptrdiff_t i) {
+  const F most = select(is_filtered, F(frame.max_filtered), F(frame.most));
   const F borrowed = F::gather(row.is_borrowed, F::Int::load(row.columns[1] + i));
-  return select(borrowed > F(0.0f), min(most, F(frame.most_borrowed)), most);
+  return select(borrowed > F(0.0f), min(most, F(frame.max_borrowed)), most);
 }
 
 template <class F>
@@ -260,7 +260,7 @@ template <class F>
   const Past<F> past(frame, row, row.follow_x, row.follow_y, i);
   const F samples = past.samples * F::gather(row.kept, F::Int::load(row.columns[1] + i));
   const Kept<F> kept = clamped(past.color, samples, pixels.at(row.low, 1), pixels.at(row.high, 1));
-  const F all = min(kept.count, most_of<F>(frame, row, past.is_filtered, i)) + weights;
+  const F all = min(kept.count, max_of<F>(frame, row, past.is_filtered, i)) + weights;
   const Rgba<F> mean = kept.color + (current - kept.color) * (weights / all);
   select(past.is_inside, mean, current).store(row.resolved + 4 * i);
   select(past.is_inside, all, weights).store(row.count + i);

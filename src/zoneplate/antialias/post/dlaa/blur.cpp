@@ -39,11 +39,11 @@ void slide_row(const std::uint8_t* added, const std::uint8_t* removed, std::int1
 }
 
 void seen_row(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, const std::int16_t* level,
-              const std::int16_t* upright, int least_bend, int least_sum, std::uint8_t* seen, std::size_t n) {
+              const std::int16_t* upright, int min_bend, int min_sum, std::uint8_t* seen, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     const std::uint8_t* c = here + 4 * i;
     const int most = std::max(bend(c - 4, c + 4, c), bend(above + 4 * i, below + 4 * i, c));
-    seen[i] = most > least_bend || std::max(level[i], upright[i]) > least_sum ? 1 : 0;
+    seen[i] = most > min_bend || std::max(level[i], upright[i]) > min_sum ? 1 : 0;
   }
 }
 
@@ -84,7 +84,7 @@ float4 long_blur(const std::uint8_t* pixel, std::ptrdiff_t step) {
 
 void blur_pixel(const std::uint8_t* p, std::ptrdiff_t s, float level_mask, float upright_mask, std::uint8_t* to) {
   const int level_bend = bend(p - 4, p + 4, p), upright_bend = bend(p - s, p + s, p);
-  const bool has_long = std::abs(level_mask - upright_mask) > Constants::least_unlike;
+  const bool has_long = std::abs(level_mask - upright_mask) > Constants::min_unlike;
   if (std::max(level_bend, upright_bend) <= Constants::unseen_bend && !has_long) return;
   const float level = edge_of(level_bend), upright = edge_of(upright_bend);
   const float4 c = values_of(p), l = values_of(p - 4), r = values_of(p + 4), t = values_of(p - s), b = values_of(p + s);

@@ -13,7 +13,7 @@ struct DlaaConstants {
   static constexpr float lambda = 3, epsilon = 0.1f;
   static constexpr int half_blur = 8;                ///< pixels of the long blur on either side
   static constexpr int whole = 255 * 2 * half_blur;  ///< the maximum sum of sixteen codes
-  static constexpr float least_unlike = 0.2f;        ///< minimum difference of the two directions for the long blur
+  static constexpr float min_unlike = 0.2f;          ///< minimum difference of the two directions for the long blur
   /// The greatest second difference for which lambda × half its luma - epsilon is not positive.
   static constexpr int unseen_bend = 51;
 };

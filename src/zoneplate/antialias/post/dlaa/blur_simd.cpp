@@ -90,7 +90,7 @@ void slide_row(const std::uint8_t* added, const std::uint8_t* removed, std::int1
 
 template <class D>
 HWY_INLINE void seen_some(D d, const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below,
-                          const std::int16_t* level, const std::int16_t* upright, int least_bend, int least_sum,
+                          const std::int16_t* level, const std::int16_t* upright, int min_bend, int min_sum,
                           std::uint8_t* seen, std::size_t i) {
   const hn::Rebind<std::int16_t, D> words;
   const std::uint8_t* p = here + 4 * i;
@@ -99,15 +99,15 @@ HWY_INLINE void seen_some(D d, const std::uint8_t* above, const std::uint8_t* he
   const auto down = bend(d, Codes<D>(d, above + 4 * i), Codes<D>(d, below + 4 * i), c);
   const auto sum =
       hn::Max(hn::PromoteTo(d, hn::LoadU(words, level + i)), hn::PromoteTo(d, hn::LoadU(words, upright + i)));
-  const auto is_bent = hn::Gt(hn::Max(across, down), hn::Set(d, least_bend));
-  const auto is_long = hn::Gt(sum, hn::Set(d, least_sum));
+  const auto is_bent = hn::Gt(hn::Max(across, down), hn::Set(d, min_bend));
+  const auto is_long = hn::Gt(sum, hn::Set(d, min_sum));
   store_bytes(d, hn::IfThenElseZero(hn::Or(is_bent, is_long), hn::Set(d, 1)), seen + i);
 }
 
 void seen_row(const std::uint8_t* above, const std::uint8_t* here, const std::uint8_t* below, const std::int16_t* level,
-              const std::int16_t* upright, int least_bend, int least_sum, std::uint8_t* seen, std::size_t n) {
+              const std::int16_t* upright, int min_bend, int min_sum, std::uint8_t* seen, std::size_t n) {
   for_lanes<std::int32_t>(n, [&](auto d, std::size_t i) HWY_ATTR {
-    seen_some(d, above, here, below, level, upright, least_bend, least_sum, seen, i);
+    seen_some(d, above, here, below, level, upright, min_bend, min_sum, seen, i);
   });
 }
 
@@ -173,7 +173,7 @@ void blur_pixel(const std::uint8_t* p, std::ptrdiff_t s, float level_mask, float
             bi = load_codes4(p + s);
   const int level_bend = bend4(li, ri, ci), upright_bend = bend4(ti, bi, ci);
   const float unlike = level_mask - upright_mask;
-  const bool has_long = (unlike < 0 ? -unlike : unlike) > Constants::least_unlike;
+  const bool has_long = (unlike < 0 ? -unlike : unlike) > Constants::min_unlike;
   if (level_bend <= Constants::unseen_bend && upright_bend <= Constants::unseen_bend && !has_long) return;
   const float level = edge_of(level_bend), upright = edge_of(upright_bend);
   const VF4 c = shares_of(ci), l = shares_of(li), r = shares_of(ri), t = shares_of(ti), b = shares_of(bi);

@@ -51,7 +51,7 @@ using DF4 = hn::CappedTag<float, 4>;
 using VF4 = hn::Vec<DF4>;
 constexpr DF4 d4;
 
-HWY_INLINE float least_of(float a, float b) { return b < a ? b : a; }
+HWY_INLINE float min_of(float a, float b) { return b < a ? b : a; }
 HWY_INLINE float size_of(float v) { return v < 0 ? -v : v; }
 
 HWY_INLINE VF4 load_codes(const std::uint8_t* p) {
@@ -109,7 +109,7 @@ void mix_pixel(const FxaaConsoleRows& rows, float sharpness, std::ptrdiff_t x, s
   if (!(length > 0)) return;
   dx /= length, dy /= length;
   const Point before(x, -dx * 0.5f, -dy * 0.5f), after(x, dx * 0.5f, dy * 0.5f);
-  const float scale = least_of(size_of(dx), size_of(dy)) * sharpness;
+  const float scale = min_of(size_of(dx), size_of(dy)) * sharpness;
   const float fx = stretched(dx, scale), fy = stretched(dy, scale);
   const Point far_before(x, -fx, -fy), far_after(x, fx, fy);
 

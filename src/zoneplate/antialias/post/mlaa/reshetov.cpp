@@ -30,14 +30,14 @@ float split_height(int near, int across, int beyond, int beyond_near) {
 namespace {
 
 /// A difference in the upper four bits of a channel.
-constexpr int least_difference = 16;
+constexpr int min_difference = 16;
 
 EdgePlane find_edges(const Rgba8Image& image) {
   const MlaaKernels& kernels = MlaaKernels::of();
   EdgePlane edges(image.width(), image.height(), 1);
   for_rows(image.height(), [&](int y) {
     const auto row = image.row(y), above = image.row(std::max(y - 1, 0));
-    kernels.edges_row(&above[0].r, &row[0].r, least_difference, edges.at(0, y), row.size());
+    kernels.edges_row(&above[0].r, &row[0].r, min_difference, edges.at(0, y), row.size());
   });
   edges.extend();
   return edges;

@@ -77,7 +77,7 @@ void PixelCandidates::find_pixels(std::uint32_t number, const ScreenTriangle& tr
 
 /// Sorts the candidates by pixel; those of a pixel stay in the order in which they were found.
 void PixelCandidates::sort_by_pixel(std::size_t pixels) {
-  const auto is_seen = [&](const Candidate& c) { return !(c.greatest_depth < hidden_below_[c.pixel]); };
+  const auto is_seen = [&](const Candidate& c) { return !(c.max_depth < hidden_below_[c.pixel]); };
   first_.assign(pixels + 1, 0);
   for (const Candidate& c : found_)
     if (is_seen(c)) ++first_[c.pixel + 1];

@@ -29,7 +29,7 @@ class PixelCandidates {
     std::uint32_t pixel;     ///< within the rectangle, row by row
     std::uint32_t triangle;  ///< index into the list of triangles
     bool covers_pixel;
-    double greatest_depth;  ///< upper bound of the triangle's depths in the pixel
+    double max_depth;  ///< upper bound of the triangle's depths in the pixel
   };
 
   void find(std::span<const ScreenTriangle> triangles, const PixelRect& rect);

@@ -157,18 +157,18 @@ void PixelCells::store(const ConvexPolygon& polygon, std::uint32_t first_layer, 
   }
   cells_.push_back({polygon, first_layer, layers});
   free_ = cells_.size();
-  is_full_ = is_full_ || cells_.size() > most_cells || layers_.size() > most_layers;
+  is_full_ = is_full_ || cells_.size() > max_cells || layers_.size() > max_layers;
 }
 
 /// Stores the cell's layers with the triangle inserted before layer `at`; an opaque triangle is the last layer.
 void PixelCells::store_with(const ConvexPolygon& polygon, const Cell& cell, std::uint32_t at, std::uint32_t number) {
   if (at == cell.layers && cell.first_layer + at == layers_.size()) {
-    is_full_ = layers_.size() >= most_layers;
+    is_full_ = layers_.size() >= max_layers;
     // The cell's list is at the end: the lists of other cells that start with it keep their lengths.
     layers_.push_back(number);
     return store(polygon, cell.first_layer, at + 1);
   }
-  if (layers_.size() + cell.layers >= most_layers) {
+  if (layers_.size() + cell.layers >= max_layers) {
     is_full_ = true;
     return;
   }

@@ -33,7 +33,7 @@ struct PixelTriangle {
 /// Source    subtraction of nearer polygons: Catmull, A Hidden-Surface Algorithm with Anti-Aliasing, SIGGRAPH 1978.
 class PixelCells {
  public:
-  static constexpr std::size_t most_cells = std::size_t{1} << 13, most_layers = std::size_t{1} << 20;
+  static constexpr std::size_t max_cells = std::size_t{1} << 13, max_layers = std::size_t{1} << 20;
 
   struct Cell {
     ConvexPolygon polygon;

@@ -239,7 +239,7 @@ TEST(PixelRegions, PixelsWithTooManyPolygonsAreGivenUp) {
   }
   PixelRegions regions;
   EXPECT_FALSE(regions.find(triangles, [](const PixelCells& cells) {
-    EXPECT_LE(cells.cells().size(), PixelCells::most_cells);
+    EXPECT_LE(cells.cells().size(), PixelCells::max_cells);
     return true;
   }));
   // The next pixel is not affected; the callback may give up too.

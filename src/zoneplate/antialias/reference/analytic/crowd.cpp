@@ -10,9 +10,9 @@
 namespace zoneplate::antialias {
 namespace {
 
-constexpr std::size_t most_hits = std::size_t{1} << 16;    // hits that are collected before samples are finished
-constexpr std::size_t most_layers = std::size_t{1} << 16;  // layers that are collected before fragments are shaded
-constexpr std::size_t few_members = 3;                     // a square of this many members is not divided
+constexpr std::size_t max_hits = std::size_t{1} << 16;    // hits that are collected before samples are finished
+constexpr std::size_t max_layers = std::size_t{1} << 16;  // layers that are collected before fragments are shaded
+constexpr std::size_t few_members = 3;                    // a square of this many members is not divided
 // Squares along a pixel's side for which the filter's weights are tabulated.
 constexpr int squares = 8;
 
@@ -65,7 +65,7 @@ void CrowdSampler::find(std::span<const PixelTriangle> triangles, int x, int y, 
     take_round(round);
     estimate(SampleNet::ends[round]);
     count = SampleNet::ends[round];
-    if (shares_[shares_.size() / 2].variance <= bound * bound || layers_shaded_ > most_shaded) break;
+    if (shares_[shares_.size() / 2].variance <= bound * bound || layers_shaded_ > max_shaded) break;
   }
   covered_ /= static_cast<double>(count);
 }
@@ -110,14 +110,14 @@ void CrowdSampler::gather(int level, Place centre, double half) {
     if (z + change < hidden_below) continue;
     found.push_back({m.number, covers, z + change});
   }
-  std::erase_if(found, [&](const Member& m) { return m.greatest_depth < hidden_below; });
+  std::erase_if(found, [&](const Member& m) { return m.max_depth < hidden_below; });
 }
 
 void CrowdSampler::test_samples(std::size_t round, int level, std::uint32_t column, std::uint32_t row) {
   const std::vector<Member>& members = members_[static_cast<std::size_t>(level) + 1];
   net_.for_square(round, level, column, row, shift_, [&](SampleNet::Sample place) {
     add_hits(place, members);
-    if (hits_.size() > most_hits) finish_samples();
+    if (hits_.size() > max_hits) finish_samples();
   });
 }
 
@@ -191,7 +191,7 @@ void CrowdSampler::finish_samples() {
     if (s.seen > 0) store(s);
   samples_.clear();
   hits_.clear();
-  if (table_.layer_count() > most_layers) fold();
+  if (table_.layer_count() > max_layers) fold();
 }
 
 void CrowdSampler::store(const Sample& s) {

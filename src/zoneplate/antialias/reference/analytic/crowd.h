@@ -19,7 +19,7 @@ namespace zoneplate::antialias {
 /// The samples of a round form four groups, each of which is stratified; the variance of the groups' means gives a
 /// standard error, the maximum of the channels. It mostly overestimates the error, because all samples together are
 /// stratified more finely. A pixel takes 256 samples, then 1,024, then 4,096, until that estimate is at most `bound`,
-/// or until more than `most_shaded` layers were shaded for it. The region of one surface that is hit by the samples of
+/// or until more than `max_shaded` layers were shaded for it. The region of one surface that is hit by the samples of
 /// one part of the pixel is shaded once, at its centroid.
 ///
 /// Units     `bound` and the errors: of scene-linear or of display-linear light.
@@ -30,7 +30,7 @@ namespace zoneplate::antialias {
 class CrowdSampler {
  public:
   static constexpr double bound = 1.0 / 512;
-  static constexpr std::size_t most_shaded = std::size_t{1} << 17;
+  static constexpr std::size_t max_shaded = std::size_t{1} << 17;
 
   /// The contribution of a pixel to a neighbouring pixel: weighted colour and alpha, and the square of its standard
   /// error.
@@ -57,7 +57,7 @@ class CrowdSampler {
   struct Member {
     std::uint32_t number;
     bool covers;
-    double greatest_depth;
+    double max_depth;
   };
   /// A triangle that covers a sample.
   struct Hit {

@@ -145,7 +145,7 @@ class TileIntegrator {
   /// Adds the pixel's visible polygons. Returns false, and adds nothing, if the pixel is too crowded.
   bool add_polygons(int x, int y) {
     const auto is_masked = [](const PixelTriangle& t) { return t.alpha_mode == AlphaMode::Mask; };
-    if (std::ranges::count_if(here_, is_masked) > std::ptrdiff_t{MaskedPolygons::most_triangles}) return false;
+    if (std::ranges::count_if(here_, is_masked) > std::ptrdiff_t{MaskedPolygons::max_triangles}) return false;
     list_.begin_pixel(x, y);
     masks_.begin_pixel(x, y);
     if (regions_.find(here_, [&](const PixelCells& cells) { return add(cells); })) return true;

@@ -36,7 +36,7 @@ void MaskedPolygons::abandon_pixel() {
 bool MaskedPolygons::knows_masked(std::span<const Layer> layers) {
   for (const Layer& layer : layers) {
     if (layer.alpha_mode != AlphaMode::Mask || std::ranges::find(masked_, layer.id) != masked_.end()) continue;
-    if (masked_.size() == most_triangles) return false;
+    if (masked_.size() == max_triangles) return false;
     masked_.push_back(layer.id);
     known_answer_.resize(masked_.size() * static_cast<std::size_t>(grid_ * grid_), 0);
   }
@@ -44,8 +44,8 @@ bool MaskedPolygons::knows_masked(std::span<const Layer> layers) {
 }
 
 bool MaskedPolygons::add(const ConvexPolygon& polygon, std::span<const Layer> layers) {
-  const auto most_polygons = static_cast<std::size_t>(std::max(8192, 4 * grid_ * grid_));
-  if (!knows_masked(layers) || stored_.size() - stored_before_ > most_polygons) return false;
+  const auto max_polygons = static_cast<std::size_t>(std::max(8192, 4 * grid_ * grid_));
+  if (!knows_masked(layers) || stored_.size() - stored_before_ > max_polygons) return false;
   for_grid(polygon, {0, 0}, 1.0 / grid_, grid_, [&](int column, int row, const ConvexPolygon& p) {
     store(p, static_cast<std::uint32_t>(row * grid_ + column), layers);
   });

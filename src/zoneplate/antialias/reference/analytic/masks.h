@@ -15,7 +15,7 @@ namespace zoneplate::antialias {
 /// of alpha.
 class MaskedPolygons {
  public:
-  static constexpr std::size_t most_triangles = 8;  ///< alpha-tested triangles in a pixel
+  static constexpr std::size_t max_triangles = 8;  ///< alpha-tested triangles in a pixel
 
   MaskedPolygons(const ProjectedDraws& projected, const FragmentShader& shader, const Target& target, int grid,
                  Footprints footprints)

@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t crowd = 16;  // a region with more cutting triangles is divided into quarters
 // Regions with more are divided even if the last two divisions had little effect.
 constexpr std::size_t large = 256;
-constexpr std::size_t most_levels = 6;  // levels of division: the smallest regions have a side of 1/64 pixel
+constexpr std::size_t max_levels = 6;  // levels of division: the smallest regions have a side of 1/64 pixel
 
 ConvexPolygon square_at(double x, double y, double side) {
   ConvexPolygon out;
@@ -38,7 +38,7 @@ bool misses(const PixelTriangle& triangle, const ConvexPolygon& square) {
 bool PixelRegions::find(std::span<const PixelTriangle> triangles, const Use& use) {
   triangles_ = triangles;
   work_ = 0;
-  members_.resize(most_levels + 2);
+  members_.resize(max_levels + 2);
   members_[0].clear();
   for (std::uint32_t i = 0; i < triangles.size(); ++i) members_[0].push_back({i, triangles[i].covers_all, 0, 0});
   if (triangles.size() > crowd) return find_in(unit_square(), 1, {}, use);
@@ -51,7 +51,7 @@ bool PixelRegions::find(std::span<const PixelTriangle> triangles, const Use& use
 bool PixelRegions::insert(const PixelTriangle& triangle) {
   work_ += cells_.cells().size() + cells_.layer_count() / 4;
   cells_.insert(triangle);
-  return !cells_.is_full() && work_ <= most_work;
+  return !cells_.is_full() && work_ <= max_work;
 }
 
 /// Computes members_[level]: the members of the level above that overlap the square and are not entirely hidden in it.
@@ -72,7 +72,7 @@ void PixelRegions::gather(const ConvexPolygon& square, std::size_t level) {
     if (is_cover && t.alpha_mode == AlphaMode::Opaque) hidden_below = std::max(hidden_below, least);
     found.push_back({m.number, is_cover, least, greatest});
   }
-  std::erase_if(found, [&](const Member& m) { return m.greatest_depth < hidden_below; });
+  std::erase_if(found, [&](const Member& m) { return m.max_depth < hidden_below; });
 }
 
 /// The number of members of members_[level] that have an edge in the region, or may intersect another one in it.
@@ -82,10 +82,10 @@ std::size_t PixelRegions::count_cutters(std::size_t level) {
     if (m.covers) covering_.push_back(m);
   std::size_t cutters = members_[level].size() - covering_.size();
   std::sort(covering_.begin(), covering_.end(),
-            [](const Member& a, const Member& b) { return a.greatest_depth > b.greatest_depth; });
+            [](const Member& a, const Member& b) { return a.max_depth > b.max_depth; });
   for (std::size_t i = 1; i < covering_.size(); ++i) {
-    if (covering_[i].greatest_depth >= covering_[i - 1].least_depth) ++cutters;
-    covering_[i].least_depth = std::min(covering_[i].least_depth, covering_[i - 1].least_depth);
+    if (covering_[i].max_depth >= covering_[i - 1].min_depth) ++cutters;
+    covering_[i].min_depth = std::min(covering_[i].min_depth, covering_[i - 1].min_depth);
   }
   return cutters;
 }
@@ -97,7 +97,7 @@ bool PixelRegions::find_in(const ConvexPolygon& square, std::size_t level, Crowd
   // Nearly parallel lines through a pixel also pass together through its quarters, so that division has little effect.
   const std::size_t cutters = count_cutters(level);
   const Crowd here{cutters, 4 * cutters > 3 * above.cutters && above.cutters > 0 ? above.in_vain + 1 : 0};
-  if (cutters > crowd && level < most_levels + 1 && (here.in_vain < 2 || cutters > large)) {
+  if (cutters > crowd && level < max_levels + 1 && (here.in_vain < 2 || cutters > large)) {
     const Place corner = square[0];
     const double half = (square[1].x - corner.x) / 2;
     for (const Place p :

@@ -16,14 +16,14 @@ namespace zoneplate::antialias {
 ///
 /// Exact     as PixelCells: the polygons of all regions together fill the pixel. Whether a region is divided depends
 ///           only on the positions of the triangles.
-/// Cost      about n log n for n visible triangles, instead of n². A pixel that would exceed `most_work` is given up.
+/// Cost      about n log n for n visible triangles, instead of n². A pixel that would exceed `max_work` is given up.
 class PixelRegions {
  public:
   /// Returns false to give up the pixel.
   using Use = std::function<bool(const PixelCells&)>;
 
   /// Maximum number of cells that triangles are compared with, plus a quarter of the number of layers.
-  static constexpr std::size_t most_work = std::size_t{1} << 24;
+  static constexpr std::size_t max_work = std::size_t{1} << 24;
 
   /// Calls `use` with the cells of every region that has triangles. Returns false if the pixel is given up, because of
   /// `use` or because it has too many cells; `use` was then not called for all regions.
@@ -34,7 +34,7 @@ class PixelRegions {
   struct Member {
     std::uint32_t number;
     bool covers;
-    double least_depth, greatest_depth;
+    double min_depth, max_depth;
   };
   /// The number of cutting triangles in a region's parent, and the number of successive divisions that hardly reduced
   /// it.

@@ -97,7 +97,7 @@ int TileTriangles::list_rows(int first) {
   const auto tile_of = [&](int row) { return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_); };
   listed_from_ = first_[tile_of(first)];
   int last = first + 1;
-  while (last < rows_ && first_[tile_of(last + 1)] - listed_from_ <= most_listed) ++last;
+  while (last < rows_ && first_[tile_of(last + 1)] - listed_from_ <= max_listed) ++last;
   const std::size_t begin = tile_of(first), end = tile_of(last);
   growing("numbers of triangles in tiles", [&] { listed_.resize(first_[end] - listed_from_); });
   for (std::size_t tile = begin; tile < end; ++tile) counter_[tile] = 0;

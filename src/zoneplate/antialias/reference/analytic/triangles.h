@@ -25,10 +25,10 @@ struct ScreenTriangle {
 /// Only ids are stored, for some rows of tiles at a time; the triangles are set up for the current rows of pixels.
 ///
 /// Exact     each tile gets the same triangles for any number of threads, in any order.
-/// Memory    4 bytes for each triangle and tile of the listed rows: at most `most_listed`, or one row.
+/// Memory    4 bytes for each triangle and tile of the listed rows: at most `max_listed`, or one row.
 class TileTriangles {
  public:
-  static constexpr std::size_t most_listed = std::size_t{1} << 24;
+  static constexpr std::size_t max_listed = std::size_t{1} << 24;
 
   /// A tile's list contains the triangles within `reach` pixels of the tile.
   TileTriangles(const ProjectedDraws& projected, const Target& target, const RasterRules& rules, int reach);

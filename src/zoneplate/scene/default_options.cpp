@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/scene/usual_options.h"
+#include "zoneplate/scene/default_options.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,14 +17,14 @@ double points_of(const Scene& scene) {
   return points;
 }
 
-float usual_point_size(double points, int width, int height) {
+float default_point_size(double points, int width, int height) {
   constexpr double part = 1.0 / 16;
   const double area = part * width * height / std::max(points, 1.0), most = height / 100.0;
   return static_cast<float>(std::max(std::min(std::sqrt(area), most), 1.0));
 }
 
-float usual_point_size(const Scene& scene, int width, int height) {
-  return usual_point_size(points_of(scene), width, height);
+float default_point_size(const Scene& scene, int width, int height) {
+  return default_point_size(points_of(scene), width, height);
 }
 
 }  // namespace zoneplate
