@@ -114,7 +114,7 @@ TEST(Upscaled, TexturesAreFilteredForThePixelsOfTheImage) {
 /// Requests a frame of half the size, and measures how far the motion of surfaces at rest is from that of the camera.
 class CameraFollower : public Resolver {
  public:
-  explicit CameraFollower(float& greatest) : greatest_(greatest) {}
+  explicit CameraFollower(float& greatest) : max_(greatest) {}
   Request request(const FrameContext& context) override {
     context_ = context;
     Request request;
@@ -128,13 +128,13 @@ class CameraFollower : public Resolver {
       for (int x = 0; x < frame.depth.width(); ++x) {
         if (!std::isfinite(frame.depth(x, y))) continue;
         const float2 found = camera.at(x + 0.5, y + 0.5, double{frame.depth(x, y)}), own = frame.motion(x, y);
-        greatest_ = std::max({greatest_, std::abs(found.x - own.x), std::abs(found.y - own.y)});
+        max_ = std::max({max_, std::abs(found.x - own.x), std::abs(found.y - own.y)});
       }
     return LinearImage(context_.image.width, context_.image.height);
   }
 
  private:
-  float& greatest_;
+  float& max_;
   FrameContext context_;
 };
 

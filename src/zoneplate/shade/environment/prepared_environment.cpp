@@ -265,7 +265,7 @@ PreparedEnvironment::PreparedEnvironment(const CubeImage& cube, const std::funct
   for (std::size_t i = 0; i < 3 * points.size(); ++i) first(0)[i] = (first(0)[i] + separate[i]) * (1 / 1.125f);
 
   for (const float3& c : cube.texels)
-    greatest_ = {std::max(greatest_.x, c.x), std::max(greatest_.y, c.y), std::max(greatest_.z, c.z)};
+    max_ = {std::max(max_.x, c.x), std::max(max_.y, c.y), std::max(max_.z, c.z)};
 }
 
 namespace {
@@ -284,7 +284,7 @@ std::vector<std::uint8_t> PreparedEnvironment::bytes() const {
   Header header{};
   std::copy_n(magic, std::size(magic), header.magic);
   header.side = view_.side[0], header.has_sharp_lights = has_sharp_lights_ ? 1 : 0, header.mean = mean_,
-  header.greatest = greatest_, header.hash = content_hash(texels);
+  header.greatest = max_, header.hash = content_hash(texels);
   std::vector<std::uint8_t> out(sizeof header + texels.size());
   std::memcpy(out.data(), &header, sizeof header);
   std::memcpy(out.data() + sizeof header, texels.data(), texels.size());
@@ -303,7 +303,7 @@ std::optional<PreparedEnvironment> PreparedEnvironment::from_bytes(std::span<con
   if (texels.size() != floats * sizeof(float) || content_hash(texels) != header.hash) return std::nullopt;
   out.texels_.resize(floats);
   std::memcpy(out.texels_.data(), texels.data(), texels.size());
-  out.mean_ = header.mean, out.greatest_ = header.greatest, out.has_sharp_lights_ = header.has_sharp_lights != 0;
+  out.mean_ = header.mean, out.max_ = header.greatest, out.has_sharp_lights_ = header.has_sharp_lights != 0;
   // The hash is no secret: values that no image gives may have been stored with theirs.
   const float3 a = header.mean, b = header.greatest;
   const float limits[] = {a.x, a.y, a.z, b.x, b.y, b.z};

@@ -40,14 +40,14 @@ class PreparedEnvironment {
 
   /// The mean radiance over all directions, and the greatest of each channel, both without the factors of a view.
   float3 mean() const { return mean_; }
-  float3 greatest() const { return greatest_; }
+  float3 greatest() const { return max_; }
 
  private:
   PreparedEnvironment() = default;
   struct Header;
   EnvironmentView view_;
   std::vector<float> texels_;
-  float3 mean_{0, 0, 0}, greatest_{0, 0, 0};
+  float3 mean_{0, 0, 0}, max_{0, 0, 0};
   bool has_sharp_lights_ = false;  ///< narrow lobes have larger maps
 };
 
