@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A disc that jumps to another place every third of a second, and a wheel of spokes that turns.
 #include "zoneplate/math/transform.h"
-#include "zoneplate/scene/builtin/moving.h"
+#include "zoneplate/scene/builtin/moving/moving.h"
 
 namespace zoneplate {
 namespace {

@@ -2,7 +2,7 @@
 // Balls at rest under a light that is switched on and off, and a lamp that a board covers.
 #include "zoneplate/math/transform.h"
 #include "zoneplate/scene/builtin/builtin.h"
-#include "zoneplate/scene/builtin/moving.h"
+#include "zoneplate/scene/builtin/moving/moving.h"
 
 namespace zoneplate {
 namespace {

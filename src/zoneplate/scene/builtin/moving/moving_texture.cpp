@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A texture that scrolls over a surface at rest: its motion is not that of the surface.
 #include "zoneplate/math/random.h"
-#include "zoneplate/scene/builtin/moving.h"
+#include "zoneplate/scene/builtin/moving/moving.h"
 
 namespace zoneplate {
 namespace {

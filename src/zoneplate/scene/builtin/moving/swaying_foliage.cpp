@@ -3,7 +3,7 @@
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/scene/builtin/builtin.h"
-#include "zoneplate/scene/builtin/moving.h"
+#include "zoneplate/scene/builtin/moving/moving.h"
 
 namespace zoneplate {
 namespace {

@@ -2,7 +2,7 @@
 // The scene `wires`, seen by a camera that pans slowly: 11 pixels per second in an image 480 pixels high.
 #include "zoneplate/math/transform.h"
 #include "zoneplate/scene/builtin/builtin.h"
-#include "zoneplate/scene/builtin/moving.h"
+#include "zoneplate/scene/builtin/moving/moving.h"
 
 namespace zoneplate {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A fence at rest before a wall that moves sideways: history of the wall lies behind the bars.
 #include "zoneplate/math/transform.h"
-#include "zoneplate/scene/builtin/moving.h"
+#include "zoneplate/scene/builtin/moving/moving.h"
 
 namespace zoneplate {
 namespace {

@@ -2,7 +2,7 @@
 // Flakes smaller than a pixel, which fall before a dark wall.
 #include "zoneplate/math/elementary.h"
 #include "zoneplate/math/random.h"
-#include "zoneplate/scene/builtin/moving.h"
+#include "zoneplate/scene/builtin/moving/moving.h"
 
 namespace zoneplate {
 namespace {

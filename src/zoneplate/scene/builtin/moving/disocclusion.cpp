@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A slab that slides over a wall of small squares and uncovers it.
 #include "zoneplate/math/transform.h"
-#include "zoneplate/scene/builtin/moving.h"
+#include "zoneplate/scene/builtin/moving/moving.h"
 
 namespace zoneplate {
 namespace {

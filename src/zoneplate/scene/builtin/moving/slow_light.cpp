@@ -6,7 +6,7 @@
 
 #include "zoneplate/math/transform.h"
 #include "zoneplate/scene/builtin/builtin.h"
-#include "zoneplate/scene/builtin/moving.h"
+#include "zoneplate/scene/builtin/moving/moving.h"
 
 namespace zoneplate {
 namespace {
