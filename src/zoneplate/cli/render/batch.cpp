@@ -32,6 +32,71 @@
 namespace zoneplate::cli {
 namespace {
 
+// The reports of a batch: lines of results, progress, and records of the ledger. The first line that cannot be written
+// is the last that is tried: the images matter more than their reports.
+class BatchReports {
+ public:
+  // `ledger` may be null.
+  BatchReports(const RenderArgs& common, Ledger* ledger)
+      : common_(common),
+        ledger_(ledger),
+        progress_(common.progress ? *common.progress : parse_progress("auto")),
+        prints_text_(::isatty(STDOUT_FILENO) == 1 && !common.prints_json) {}
+
+  void begin(const std::string& stage, double done) { progress_.begin(stage, done); }
+  void warn(const std::string& text) {
+    progress_.clear();
+    say_warning(text);
+  }
+  void fail(const std::string& text) {
+    progress_.clear();
+    say_error(text);
+  }
+  // One line for a person at a terminal; failures are reported on stderr alone.
+  void add_text(const std::string& text) {
+    progress_.clear();
+    if (prints_text_) print_line(text);
+  }
+  void add(Json::Object line) {
+    progress_.clear();
+    if (!prints_text_) print_line(Json(std::move(line)).text());
+  }
+  void record(std::uint64_t number, const Json::Object& line) {
+    if (ledger_ == nullptr) return;
+    Json::Object result{{"item", number}};
+    for (const char* name : {"status", "error", "cause", "attempts", "frames", "seconds"})
+      for (const auto& [key, value] : line)
+        if (key == name) result.emplace_back(key, value);
+    attempt([&] { ledger_->add_result(std::move(result)); });
+  }
+  void finish() const {
+    if (!trouble_.empty()) throw Error(ErrorKind::Output, "not all reports could be printed: " + trouble_);
+  }
+
+ private:
+  void print_line(const std::string& text) {
+    if (common_.verbosity == Verbosity::Quiet) return;
+    attempt([&] { common_.is_dry_run ? print(text + '\n') : print_report(text + '\n'); });
+  }
+
+  template <class Write>
+  void attempt(const Write& write) {
+    if (!trouble_.empty()) return;
+    try {
+      write();
+    } catch (const Error& error) {
+      trouble_ = error.what();
+      say_error(trouble_ + "; the batch goes on without reports");
+    }
+  }
+
+  const RenderArgs& common_;
+  Ledger* const ledger_;
+  Progress progress_;
+  const bool prints_text_;
+  std::string trouble_;  ///< why reports are no longer written; empty if they are
+};
+
 // Processes items, several at once, and reports them in order. Consecutive items with one model form a group, which is
 // processed in one process.
 class Batch {
@@ -44,8 +109,7 @@ class Batch {
         size_(size),
         threads_(thread_limit()),
         max_at_once_(max_at_once(common.load.limits.memory)),
-        progress_(common.progress ? *common.progress : parse_progress("auto")),
-        prints_text_(::isatty(STDOUT_FILENO) == 1 && !common.prints_json) {}
+        reports_(common, ledger) {}
 
   // Adds the item that `make` returns; if it throws, the item has failed.
   template <class Make>
@@ -65,7 +129,7 @@ class Batch {
   void finish() {
     while (!groups_.empty()) report_first();
     if (failed_ > 0) throw PartialFailure(fmt::format("{} of {} items failed", failed_, count_));
-    if (!trouble_.empty()) throw Error(ErrorKind::Output, "not all reports could be printed: " + trouble_);
+    reports_.finish();
   }
 
  private:
@@ -148,12 +212,12 @@ class Batch {
   }
 
   Json::Object render(const Item& item, Group& group) {
-    progress_.begin(fmt::format("{} of {}: {}", count_ + 1, size_, item.name),
-                    static_cast<double>(count_) / static_cast<double>(size_));
+    reports_.begin(fmt::format("{} of {}: {}", count_ + 1, size_, item.name),
+                   static_cast<double>(count_) / static_cast<double>(size_));
     for (int attempt = 1;; ++attempt) try {
         const Summary summary = attempt == 1 ? first_attempt(group) : next_attempt(item);
-        print_text(fmt::format("{} -> {}, {} × {}, {:.0f} ms", item.name, summary.output, summary.width, summary.height,
-                               summary.total_ms()));
+        reports_.add_text(fmt::format("{} -> {}, {} × {}, {:.0f} ms", item.name, summary.output, summary.width,
+                                      summary.height, summary.total_ms()));
         Json::Object line = summary_json(item.args, summary);
         line.emplace(line.begin() + 4, "status", "done");
         if (attempt > 1) line.emplace_back("attempts", attempt);
@@ -163,8 +227,7 @@ class Batch {
       } catch (const Error& error) {
         if (attempt > common_.retries || !may_pass(error) || GracePeriod::has_begun())
           return failure(item, std::current_exception(), attempt);
-        progress_.clear();
-        say_warning(std::string(error.what()) + "; it is tried again");
+        reports_.warn(std::string(error.what()) + "; it is tried again");
       } catch (const std::exception&) {
         return failure(item, std::current_exception(), attempt);
       }
@@ -191,20 +254,20 @@ class Batch {
   }
 
   Json::Object skipped(const Item& item) {
-    print_text(fmt::format("{}: {} exists already", item.name, item.args.output));
+    reports_.add_text(fmt::format("{}: {} exists already", item.name, item.args.output));
     return plan_json(item.args, "skipped");
   }
   Json::Object planned(const Item& item) {
     const bool is_left_out = is_finished(item.args, ledger_);
-    print_text(is_left_out ? fmt::format("{}: {} exists already", item.name, item.args.output) : plan_text(item.args));
+    reports_.add_text(is_left_out ? fmt::format("{}: {} exists already", item.name, item.args.output)
+                                  : plan_text(item.args));
     return plan_json(item.args, is_left_out ? "skipped" : "planned");
   }
 
   Json::Object failure(const Item& item, const std::exception_ptr& error, int attempts = 1) {
     ++failed_;
     const auto [word, cause] = cause_of(item.name, error);
-    progress_.clear();
-    say_error(cause);
+    reports_.fail(cause);
     const std::string& output = item.args.output;
     Json::Object line{{"format", "zoneplate-render"},
                       {"version", report_version},
@@ -231,45 +294,12 @@ class Batch {
     }
   }
 
-  // Skipped items are recorded by an earlier line.
-  void record(const Item& item, const Json::Object& line) {
-    if (ledger_ == nullptr || !trouble_.empty()) return;
-    Json::Object result{{"item", item.number}};
-    for (const char* name : {"status", "error", "cause", "attempts", "frames", "seconds"})
-      for (const auto& [key, value] : line)
-        if (key == name) result.emplace_back(key, value);
-    try {
-      ledger_->add_result(std::move(result));
-    } catch (const Error& error) {
-      trouble_ = error.what();
-      say_error(trouble_ + "; the batch goes on without reports");
-    }
-  }
-
   void report(const Item& item, Json::Object line, const Stopwatch& watch) {
     const bool is_made = line.back().first == "seconds";
     if (!is_made) line.emplace_back("seconds", watch.ms() / 1000);
-    if (item.is_rendered || item.error) record(item, line);
+    if (item.is_rendered || item.error) reports_.record(item.number, line);  // others have an earlier record
     ++count_;
-    progress_.clear();
-    if (!prints_text_) print_line(Json(std::move(line)).text());
-  }
-
-  // One line for a person at a terminal; failures are reported on stderr alone.
-  void print_text(const std::string& text) {
-    progress_.clear();
-    if (prints_text_) print_line(text);
-  }
-
-  // The first line that cannot be printed is the last that is tried: the images matter more than their reports.
-  void print_line(const std::string& text) {
-    if (common_.verbosity == Verbosity::Quiet || !trouble_.empty()) return;
-    try {
-      common_.is_dry_run ? print(text + '\n') : print_report(text + '\n');
-    } catch (const Error& error) {
-      trouble_ = error.what();
-      say_error(trouble_ + "; the batch goes on without reports");
-    }
+    reports_.add(std::move(line));
   }
 
   const RenderArgs& common_;
@@ -278,12 +308,10 @@ class Batch {
   const std::uint64_t size_;
   const int threads_;
   const std::size_t max_at_once_;
-  Progress progress_;
-  const bool prints_text_;
+  BatchReports reports_;
   LimitedChildren processes_{[this] { start_some(); }};
   std::deque<Group> groups_;  ///< those that are not yet reported
   std::uint64_t count_ = 0, failed_ = 0;
-  std::string trouble_;  ///< why reports are no longer printed; empty if they are
 };
 
 // Fails before the first item is rendered if two items would write the same file, or one a file that another reads.
