@@ -296,6 +296,37 @@ void leave_ids(std::span<const std::uint32_t> elsewhere, std::span<Draw> draws) 
   }
 }
 
+/// The pixels that are drawn, without their planes.
+Target target_of(const Request& request, const RenderOptions& options, const Crop& crop) {
+  Target target;
+  target.viewport = {options.width, options.height};
+  target.x = crop.x, target.y = crop.y, target.width = crop.width, target.height = crop.height;
+  target.samples = request.samples;
+  target.weights = request.weights;
+  target.alpha = request.alpha;
+  target.centroid = request.centroid;
+  target.is_per_sample = request.rate == Rate::Sample;
+  target.has_data_at_samples = request.planes.was_visible;
+  if (request.footprint > 0 && (options.sample_footprint || !target.is_per_sample))
+    target.spacing = request.footprint;
+  else if (target.is_per_sample && options.sample_footprint)
+    target.spacing = 1 / std::sqrt(static_cast<float>(request.samples.size()));
+  if (!request.pixel_mask.empty()) target.pixel_mask = &request.pixel_mask;
+  return target;
+}
+
+RenderCounts counts_of(const RasterCounts& c, double prepare_ms, bool has_color, std::uint64_t geometric) {
+  return {.prepare_ms = prepare_ms,
+          .geometry_ms = c.geometry_ms,
+          .tiles_ms = c.tiles_ms,
+          .stages = c.stages,
+          .vertices = c.vertices,
+          .triangles = c.triangles,
+          .triangles_set_up = c.set_up,
+          .shaded = has_color ? c.shaded : 0,
+          .geometric = geometric + c.evaluated + (has_color ? 0 : c.shaded)};
+}
+
 class CpuBackend : public Backend {
  public:
   explicit CpuBackend(std::optional<FrameParts> parts = {}) : parts_(std::move(parts)) {}
@@ -346,20 +377,7 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
 
   Frame frame;
   frame.x = crop.x, frame.y = crop.y;
-  Target target;
-  target.viewport = {options.width, options.height};
-  target.x = crop.x, target.y = crop.y, target.width = crop.width, target.height = crop.height;
-  target.samples = request.samples;
-  target.weights = request.weights;
-  target.alpha = request.alpha;
-  target.centroid = request.centroid;
-  target.is_per_sample = request.rate == Rate::Sample;
-  target.has_data_at_samples = request.planes.was_visible;
-  if (request.footprint > 0 && (options.sample_footprint || !target.is_per_sample))
-    target.spacing = request.footprint;
-  else if (target.is_per_sample && options.sample_footprint)
-    target.spacing = 1 / std::sqrt(static_cast<float>(request.samples.size()));
-  if (!request.pixel_mask.empty()) target.pixel_mask = &request.pixel_mask;
+  Target target = target_of(request, options, crop);
   std::optional<DisplayTransform> display_transform;
   if (request.writes_display8) target.display_transform = &display_transform.emplace(options.display);
   const bool has_color = request.content == Content::Colour;
@@ -390,16 +408,7 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
   for (std::uint32_t& id : frame.object_id.values())
     if (id != Frame::no_id) id = static_cast<std::uint32_t>(scene.instances[id].object);
   rasterizer.gather_planes(request, frame);
-  if (counts)
-    *counts = {.prepare_ms = prepare_ms,
-               .geometry_ms = c.geometry_ms,
-               .tiles_ms = c.tiles_ms,
-               .stages = c.stages,
-               .vertices = c.vertices,
-               .triangles = c.triangles,
-               .triangles_set_up = c.set_up,
-               .shaded = has_color ? c.shaded : 0,
-               .geometric = geometric + c.evaluated + (has_color ? 0 : c.shaded)};
+  if (counts) *counts = counts_of(c, prepare_ms, has_color, geometric);
   return frame;
 }
 

@@ -70,37 +70,24 @@ struct LearnedMean::Work {
         network(frame_width, frame_height),
         unrest(frame_width, frame_height),
         past_unrest(frame_width, frame_height) {}
+  void describe(const Known& known, const Halves& across, const Halves& down);
   GatheredRow row(int y) { return {&current.row(y).data()->r, near.row(y), own.row(y)}; }
 };
 
-LearnedMean::LearnedMean(int width, int height, const Network& network)
-    : SampleMean(width, height), network_(network) {}
-LearnedMean::~LearnedMean() = default;
-
-LinearImage LearnedMean::resolved(const Known& known, Plane<float>& count) {
+/// The features of a frame's pixels, for the network.
+void LearnedMean::Work::describe(const Known& known, const Halves& across, const Halves& down) {
   const TaauInput& input = known.input;
   const LinearImage& color = known.color;
   const Boxes& boxes = known.boxes;
   const Followed& followed = known.followed;
   const int frame_width = color.width(), frame_height = color.height();
-  if (input.is_first || !work_) work_ = std::make_unique<Work>(width(), height(), frame_width, frame_height);
-  Work& work = *work_;
-  const auto pixels = static_cast<std::size_t>(width());
-  const TaauAxis columns(width(), frame_width, input.jitter.x), rows(height(), frame_height, input.jitter.y);
-  for_output_rows(known, [&](const SampleMeanFrame& frame, SampleMeanRow& row) {
-    const int middle = rows.around[1][static_cast<std::size_t>(row.y)];
-    LearnedKernels::of().gather(frame, row, input.motion_x.row(middle).data(), input.motion_y.row(middle).data(),
-                                work.row(row.y), pixels);
-  });
-
-  const Halves across(columns, frame_width), down(rows, frame_height);
   std::vector<float> column(static_cast<std::size_t>(frame_width));
   std::iota(column.begin(), column.end(), 0.0f);
   const auto first_of = [](float jitter) {
     const float place = 0.25f + jitter;
     return place - std::floor(2 * place) / 2 - 0.5f;
   };
-  std::swap(work.unrest, work.past_unrest);
+  std::swap(unrest, past_unrest);
   parallel_ranges(static_cast<std::size_t>(frame_height), 8, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const int y = static_cast<int>(i);
@@ -119,22 +106,43 @@ LinearImage LearnedMean::resolved(const Known& known, Plane<float>& count) {
                                      .follow_y = of(followed.y),
                                      .nearest = of(followed.nearest),
                                      .nearness = input.nearness.values().data(),
-                                     .past_unrest = work.past_unrest.values().data(),
+                                     .past_unrest = past_unrest.values().data(),
                                      .column = column.data(),
                                      .y = y,
                                      .width = frame_width,
                                      .height = frame_height,
                                      .first = {first_of(input.jitter.x), first_of(input.jitter.y)},
                                      .scale = {2, 2},
-                                     .above = work.row(down.first[i]),
-                                     .below = work.row(down.second[i]),
+                                     .above = row(down.first[i]),
+                                     .below = row(down.second[i]),
                                      .left = across.first.data(),
                                      .right = across.second.data(),
-                                     .features = work.network.features.at(0, y),
-                                     .unrest = work.unrest.row(y).data()},
+                                     .features = network.features.at(0, y),
+                                     .unrest = unrest.row(y).data()},
                                     static_cast<std::size_t>(frame_width));
     }
   });
+}
+
+LearnedMean::LearnedMean(int width, int height, const Network& network)
+    : SampleMean(width, height), network_(network) {}
+LearnedMean::~LearnedMean() = default;
+
+LinearImage LearnedMean::resolved(const Known& known, Plane<float>& count) {
+  const TaauInput& input = known.input;
+  const int frame_width = known.color.width(), frame_height = known.color.height();
+  if (input.is_first || !work_) work_ = std::make_unique<Work>(width(), height(), frame_width, frame_height);
+  Work& work = *work_;
+  const auto pixels = static_cast<std::size_t>(width());
+  const TaauAxis columns(width(), frame_width, input.jitter.x), rows(height(), frame_height, input.jitter.y);
+  for_output_rows(known, [&](const SampleMeanFrame& frame, SampleMeanRow& row) {
+    const int middle = rows.around[1][static_cast<std::size_t>(row.y)];
+    LearnedKernels::of().gather(frame, row, input.motion_x.row(middle).data(), input.motion_y.row(middle).data(),
+                                work.row(row.y), pixels);
+  });
+
+  const Halves across(columns, frame_width), down(rows, frame_height);
+  work.describe(known, across, down);
   network_.read(work.network);
 
   // A part of a row at a time, so that its corrections stay in the cache.

@@ -84,20 +84,24 @@ class Features {
   int next_ = 0;
 };
 
+/// The frame's colour and its surroundings.
 template <class F>
-[[gnu::always_inline]] inline void describe(const FeatureRow& row, std::ptrdiff_t i) {
-  const F one(1.0f), half(0.5f), small(1e-20f);
-  Features<F> out(row.features, i);
-  const Rgba<F> color = Rgba<F>::load(row.color + 4 * i);
-  const Rgba<F> low = Rgba<F>::load(row.low + 4 * i), high = Rgba<F>::load(row.high + 4 * i);
+[[gnu::always_inline]] inline void describe_color(const FeatureRow& row, std::ptrdiff_t i, const Rgba<F>& color,
+                                                  const Rgba<F>& low, const Rgba<F>& high, Features<F>& out) {
+  const F half(0.5f), two(2.0f), light = tone(luminance_of(color));
   for (int c = 0; c < 3; ++c) out.add(tone(color.c[c]));
   for (const float first : row.first) out.add(F(first * 2 + 1));
-  const F light = tone(luminance_of(color)), two(2.0f);
   out.add(two * (light - tone(luminance_of(low))));
   out.add(two * (tone(luminance_of(high)) - light));
   for (const float* plane : {row.alike, row.borrowed, row.steady, row.uncovered, row.kept}) out.add(F::load(plane + i));
   for (const float* plane : {row.change, row.trend}) out.add(half + half * F::load(plane + i));
+}
 
+/// The motion, and the depth around the pixel.
+template <class F>
+[[gnu::always_inline]] inline void describe_surface(const FeatureRow& row, std::ptrdiff_t i, const F& column,
+                                                    Features<F>& out) {
+  const F one(1.0f), small(1e-20f);
   const F follow[2] = {F::load(row.follow_x + i), F::load(row.follow_y + i)};
   out.add(F(0.25f) * (abs(follow[0]) + abs(follow[1])));
   for (int k = 0; k < 2; ++k) {
@@ -105,7 +109,6 @@ template <class F>
     out.add(F(4.0f) * fraction * (one - fraction));
   }
 
-  const F column = F::load(row.column + i);
   const PastPixels<F> around(column, F(static_cast<float>(row.y)), row.width, row.height, column, i, 1);
   const F own = around.value(row.nearness, 0, 0), nearest = F::load(row.nearest + i);
   F farthest = own;
@@ -113,6 +116,17 @@ template <class F>
   const F apart = (nearest - farthest) / max(nearest, small);
   out.add((nearest - own) / max(nearest - farthest, small));
   out.add(apart / (F(0.02f) + apart));
+}
+
+template <class F>
+[[gnu::always_inline]] inline void describe(const FeatureRow& row, std::ptrdiff_t i) {
+  const F one(1.0f), half(0.5f);
+  Features<F> out(row.features, i);
+  const Rgba<F> color = Rgba<F>::load(row.color + 4 * i);
+  const Rgba<F> low = Rgba<F>::load(row.low + 4 * i), high = Rgba<F>::load(row.high + 4 * i);
+  describe_color(row, i, color, low, high, out);
+  const F column = F::load(row.column + i);
+  describe_surface(row, i, column, out);
 
   // The four output pixels, in reading order.
   const auto is_borrowed = F::load(row.borrowed + i) > F(0.0f);
