@@ -368,6 +368,7 @@ typedef struct zoneplate_option {
   const char* choices;         ///< names that the value may be or begin with, separated by commas
   const char* group;           ///< "Camera"
   const char* summary;         ///< one sentence, with the default
+  const char* names;           ///< all that the command takes, separated by commas: "--resolution,--size"
 } zoneplate_option;
 
 /// The option of this index, from 0; ZONEPLATE_USAGE past the last one.

@@ -6,7 +6,6 @@
 #include <functional>
 #include <optional>
 
-#include "zoneplate/base/closest.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/capi/handles.h"
@@ -34,21 +33,6 @@ std::vector<Option> options_of(Job& job) {
   return out;
 }
 
-/// The first long form of an option's name, without its dashes.
-std::string row_name(const Option& option) { return names_of(option).front().substr(2); }
-
-/// A message of the library, in which options have the dashes of the command, as one about the rows of this interface.
-std::string without_dashes(const std::vector<Option>& options, std::string text) {
-  for (std::size_t at = 0; (at = text.find("--", at)) != text.npos;) {
-    const std::size_t end = std::min(text.find_first_not_of("abcdefghijklmnopqrstuvwxyz-", at + 2), text.size());
-    if (find_option(options, std::string_view(text).substr(at + 2, end - at - 2)) != nullptr)
-      text.erase(at, 2);
-    else
-      at += 2;
-  }
-  return text;
-}
-
 /// The files of a job.
 class FileSink final : public JobSink {
  public:
@@ -72,12 +56,6 @@ class FileSink final : public JobSink {
   std::optional<FfmpegFilm> film_;
 };
 
-/// Of a job whose images stay in memory.
-class NoFiles final : public JobSink {
-  void file(int, int, std::span<const std::uint8_t>) override {}
-  void film_frame(const Rgba8Image&) override {}
-};
-
 }  // namespace
 }  // namespace zoneplate::capi
 
@@ -93,13 +71,7 @@ struct zoneplate_job {
   /// Calls `body`; errors name options as rows.
   template <class Body>
   zoneplate_status checked(const Body& body) const {
-    return guarded([&] {
-      try {
-        body();
-      } catch (const Error& error) {
-        throw Error(error.kind(), without_dashes(options, error.what()));
-      }
-    });
+    return guarded([&] { naming_rows(options, body); });
   }
 
   /// The job of a scene, complete for an output.
@@ -167,26 +139,7 @@ void zoneplate_job_free(zoneplate_job* job) { delete job; }
 zoneplate_status zoneplate_job_set(zoneplate_job* job, const char* option, const char* value) {
   return guarded([&] {
     zoneplate_job& to = required(job, "job");
-    const std::string name = &required(option, "option");
-    const Option* const row = find_option(to.options, name);
-    if (row == nullptr) {
-      std::vector<std::string> names;
-      for (const Option& other : to.options)
-        for (const std::string& form : names_of(other))
-          if (form.starts_with("--")) names.push_back(form.substr(2));
-      const std::string_view near = closest(name, std::vector<std::string_view>(names.begin(), names.end()));
-      throw Error(ErrorKind::Usage, fmt::format("{}: there is no such option{}", name,
-                                                near.empty() ? "" : fmt::format("; did you mean {}?", near)));
-    }
-    if (row->kind() == ValueKind::Switch && value != nullptr)
-      throw Error(ErrorKind::Usage, fmt::format("{}: takes no value", name));
-    if (row->kind() != ValueKind::Switch && value == nullptr)
-      throw Error(ErrorKind::Usage, fmt::format("{}: needs a value: {}", name, row->value));
-    try {
-      row->set(value == nullptr ? "" : value);
-    } catch (const Error& error) {
-      throw Error(error.kind(), name + ": " + without_dashes(to.options, error.what()));
-    }
+    set_row(to.options, &required(option, "option"), value);
   });
 }
 
@@ -300,7 +253,7 @@ void zoneplate_frames_free(zoneplate_frames* frames) { delete frames; }
 
 zoneplate_status zoneplate_job_option(size_t index, zoneplate_option* option) {
   struct Row {
-    std::string name, value, choices, group, summary;
+    std::string name, value, choices, group, summary, names;
     ValueKind kind;
     double low, high;
   };
@@ -310,7 +263,7 @@ zoneplate_status zoneplate_job_option(size_t index, zoneplate_option* option) {
       std::vector<Row> out;
       for (const Option& o : options_of(job))
         out.push_back({row_name(o), o.value, fmt::format("{}", fmt::join(o.choices, ",")), o.group,
-                       without_dashes(options_of(job), o.meaning), o.kind(), o.set.low, o.set.high});
+                       without_dashes(options_of(job), o.meaning), o.names, o.kind(), o.set.low, o.set.high});
       return out;
     }();
     if (index >= rows.size()) throw Error(ErrorKind::Usage, "index: is past the last option");
@@ -324,7 +277,8 @@ zoneplate_status zoneplate_job_option(size_t index, zoneplate_option* option) {
                                 .high = row.high,
                                 .choices = row.choices.c_str(),
                                 .group = row.group.c_str(),
-                                .summary = row.summary.c_str()};
+                                .summary = row.summary.c_str(),
+                                .names = row.names.c_str()};
     if (out.size < sizeof(std::size_t) || out.size > sizeof full)
       throw Error(ErrorKind::Usage, "zoneplate_option: size is not sizeof(zoneplate_option)");
     std::memcpy(&out, &full, out.size);

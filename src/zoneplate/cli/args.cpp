@@ -12,7 +12,7 @@
 #include "zoneplate/cli/completions.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/man_page.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 
 namespace zoneplate::cli {
 

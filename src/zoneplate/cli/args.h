@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "zoneplate/job/option.h"
+#include "zoneplate/job/option/option.h"
 
 namespace zoneplate::cli {
 

@@ -13,7 +13,7 @@
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/evaluate/bench/frames.h"
 #include "zoneplate/evaluate/bench/limits.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/report/json.h"
 #include "zoneplate/report/report_version.h"
 #include "zoneplate/version.h"

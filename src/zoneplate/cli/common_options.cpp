@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/job/options.h"
-#include "zoneplate/job/values.h"
 
 namespace zoneplate::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "zoneplate/evaluate/ignored_regions.h"
-#include "zoneplate/job/option.h"
+#include "zoneplate/job/option/option.h"
 #include "zoneplate/process/delivery.h"
 
 namespace zoneplate::cli {

@@ -11,7 +11,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/verbs.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 
 namespace zoneplate::cli {
 namespace {

@@ -18,7 +18,7 @@
 #include "zoneplate/codec/apng.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/webp.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/output_paths.h"
 #include "zoneplate/report/figure_vector.h"

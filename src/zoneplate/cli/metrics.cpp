@@ -20,7 +20,7 @@
 #include "zoneplate/evaluate/metrics/judge.h"
 #include "zoneplate/evaluate/metrics/judgement_text.h"
 #include "zoneplate/formats/json/json.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/metrics/flip/magma.h"
 #include "zoneplate/metrics/metrics.h"
 #include "zoneplate/os/file.h"

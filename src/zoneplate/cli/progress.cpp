@@ -5,7 +5,7 @@
 
 #include "zoneplate/base/utf8.h"
 #include "zoneplate/cli/log.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/report/json.h"
 
 namespace zoneplate::cli {

@@ -34,4 +34,10 @@ class JobSink {
   virtual void environment(std::uint64_t, std::span<const std::uint8_t>) {}
 };
 
+/// Of a job whose images stay in memory.
+class NoFiles final : public JobSink {
+  void file(int, int, std::span<const std::uint8_t>) override {}
+  void film_frame(const Rgba8Image&) override {}
+};
+
 }  // namespace zoneplate

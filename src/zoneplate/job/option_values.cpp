@@ -11,7 +11,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/spec.h"
 #include "zoneplate/image/transfer.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate {

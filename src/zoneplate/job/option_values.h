@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "zoneplate/job/job.h"
-#include "zoneplate/job/option.h"
+#include "zoneplate/job/option/option.h"
 #include "zoneplate/render/method.h"
 
 namespace zoneplate {

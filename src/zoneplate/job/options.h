@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "zoneplate/job/job.h"
-#include "zoneplate/job/option.h"
+#include "zoneplate/job/option/option.h"
 
 namespace zoneplate {
 

@@ -202,9 +202,7 @@ bool is_film(const std::string& output) {
 
 struct JobFrames::State {
   State(Job given_job, std::unique_ptr<Resolver> method, JobSink& sink, const PreparedScene* given)
-      : job(std::move(given_job)),
-        source(given == nullptr ? std::make_unique<SceneSource>(job.input, job.load) : nullptr),
-        plan(job, source.get(), given) {
+      : job(std::move(given_job)), source(given == nullptr ? open(job) : nullptr), plan(job, source.get(), given) {
     sink.has_read();
     check_passes(job, request_of(job, *method));
     check_history(job, *method);
@@ -219,6 +217,12 @@ struct JobFrames::State {
     warnings = sequence->scene(plan.frames().front()).scene().warnings;
     set_brightness();
     warnings.insert(warnings.end(), plan.notes().begin(), plan.notes().end());
+  }
+
+  static std::unique_ptr<SceneSource> open(const Job& job) {
+    std::unique_ptr<SceneSource> out;
+    within_import_time(job.input, job.load.limits, [&] { out = std::make_unique<SceneSource>(job.input, job.load); });
+    return out;
   }
 
   /// The camera of all frames, or of each.
@@ -263,11 +267,11 @@ struct JobFrames::State {
     return out;
   }
 
-  /// Renders the frames before the first one, for the history of the method.
-  void warm_up() {
+  /// Renders frames before this one, for the history of the method.
+  void warm_up(int frame, int count) {
     const RenderSettings settings = settings_of(job, job.output);
-    for (int i = job.sequence.warm_up; i > 0; --i) {
-      SceneView earlier = view(plan.frames().front() - i * job.sequence.jump);
+    for (int i = count; i > 0; --i) {
+      SceneView earlier = view(frame - i * job.sequence.jump);
       renderer->set_scene(std::move(earlier.scene));
       renderer->render(earlier.camera, settings);
     }
@@ -315,19 +319,30 @@ JobFrames::~JobFrames() = default;
 
 const Job& JobFrames::job() const { return state_->job; }
 const std::vector<int>& JobFrames::frames() const { return state_->plan.frames(); }
-const Scene& JobFrames::scene() const { return state_->renderer->scene().scene(); }
+const Scene& JobFrames::scene() const { return prepared().scene(); }
+const PreparedScene& JobFrames::prepared() const { return state_->renderer->scene(); }
 std::size_t JobFrames::done() const { return state_->done; }
 std::vector<std::string>& JobFrames::warnings() { return state_->warnings; }
 
 void JobFrames::skip() {
-  if (state_->done == 0) state_->warm_up();
+  if (state_->done == 0) state_->warm_up(frames().front(), state_->job.sequence.warm_up);
   ++state_->done;
   state_->renderer->begin_sequence();
 }
 
+void JobFrames::seek(int frame, int warm_up) {
+  const auto found = std::ranges::find(frames(), frame);
+  if (found == frames().end())
+    throw Error(ErrorKind::Usage,
+                fmt::format("there is no frame {}, only {} to {}", frame, frames().front(), frames().back()));
+  state_->renderer->begin_sequence();
+  state_->warm_up(frame, warm_up);
+  state_->done = static_cast<std::size_t>(found - frames().begin());
+}
+
 JobImage JobFrames::next(std::function<void(double)> progress) {
   State& s = *state_;
-  if (s.done == 0) s.warm_up();
+  if (s.done == 0) s.warm_up(frames().front(), s.job.sequence.warm_up);
   const int frame = frames().at(s.done++);
   JobImage out = s.render(frame, std::move(progress));
   if (frame != frames().front()) return out;

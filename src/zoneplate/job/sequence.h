@@ -35,14 +35,20 @@ class JobFrames {
 
   const Job& job() const;  ///< resolved
   const std::vector<int>& frames() const;
-  std::size_t done() const;    ///< of them, rendered or skipped
-  const Scene& scene() const;  ///< of the frame that was rendered last
+  std::size_t done() const;               ///< of them, rendered or skipped
+  const Scene& scene() const;             ///< of the frame that was rendered last
+  const PreparedScene& prepared() const;  ///< the same
   std::vector<std::string>& warnings();
 
   /// Renders the next frame. Requires: there is one.
   JobImage next(std::function<void(double)> progress = {});
   /// Leaves out the next frame; the one after it begins a sequence.
   void skip();
+  /// Lets this frame be the next, as if it was the first of the job: `warm_up` frames before it are rendered for the
+  /// history of the method.
+  ///
+  /// Errors    ErrorKind::Usage for a frame that is not one of `frames`.
+  void seek(int frame, int warm_up);
 
  private:
   struct State;

@@ -11,7 +11,7 @@
 #include "zoneplate/cli/common_options.h"
 #include "zoneplate/evaluate/compare/methods.h"
 #include "zoneplate/formats/load.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/metrics/metrics.h"
 #include "zoneplate/process/exr_layer.h"
 #include "zoneplate/scene/builtin/builtin.h"

@@ -20,8 +20,8 @@
 #include "zoneplate/cli/render/args.h"
 #include "zoneplate/cli/verbs.h"
 #include "zoneplate/evaluate/fidelity.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/job/options.h"
-#include "zoneplate/job/values.h"
 #include "zoneplate/math/angle.h"
 #include "zoneplate/report/table.h"
 

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 
 namespace zoneplate::cli {
 namespace {

@@ -24,8 +24,8 @@
 #include "zoneplate/cli/render/batch.h"
 #include "zoneplate/cli/render/batch_items.h"
 #include "zoneplate/cli/verbs.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/job/render_job.h"
-#include "zoneplate/job/values.h"
 #include "zoneplate/report/report_version.h"
 
 namespace zoneplate::cli {

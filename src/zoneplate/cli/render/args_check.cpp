@@ -11,10 +11,10 @@
 #include "zoneplate/cli/config/config.h"
 #include "zoneplate/cli/render/args.h"
 #include "zoneplate/codec/save.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/job/output/film.h"
 #include "zoneplate/job/output/frame_name.h"
 #include "zoneplate/job/picture.h"
-#include "zoneplate/job/values.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::cli {

@@ -8,9 +8,9 @@
 #include "zoneplate/cli/confined.h"
 #include "zoneplate/cli/environment_cache.h"
 #include "zoneplate/cli/render/args.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/job/option_values.h"
 #include "zoneplate/job/options.h"
-#include "zoneplate/job/values.h"
 
 namespace zoneplate::cli {
 namespace {

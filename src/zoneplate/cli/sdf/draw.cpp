@@ -3,7 +3,7 @@
 #include "zoneplate/cli/sdf/scene_args.h"
 #include "zoneplate/cli/sdf/sdf.h"
 #include "zoneplate/imaging/sdf/draw_shapes.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 
 namespace zoneplate::cli {
 namespace {

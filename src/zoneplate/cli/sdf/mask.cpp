@@ -4,7 +4,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/sdf/scene_args.h"
 #include "zoneplate/cli/sdf/sdf.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 
 namespace zoneplate::cli {
 namespace {

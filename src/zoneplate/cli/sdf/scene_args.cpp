@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 
 namespace zoneplate::cli {
 namespace {

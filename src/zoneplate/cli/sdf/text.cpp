@@ -5,7 +5,7 @@
 #include "zoneplate/cli/sdf/sdf.h"
 #include "zoneplate/cli/signal/args.h"
 #include "zoneplate/imaging/sdf/atlas_file.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 
 namespace zoneplate::cli {
 namespace {

@@ -5,7 +5,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/cli/signal/args.h"
 #include "zoneplate/cli/signal/signal.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 
 namespace zoneplate::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include "zoneplate/cli/signal/args.h"
 #include "zoneplate/cli/signal/signal.h"
 #include "zoneplate/imaging/signal/filter.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 
 namespace zoneplate::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include "zoneplate/imaging/signal/series.h"
 #include "zoneplate/cli/signal/args.h"
 #include "zoneplate/cli/signal/signal.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 
 namespace zoneplate::cli {
 namespace {

@@ -3,7 +3,7 @@
 #include "zoneplate/imaging/texture/normal_from_height.h"
 #include "zoneplate/cli/signal/args.h"
 #include "zoneplate/cli/texture/texture.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 
 namespace zoneplate::cli {
 namespace {

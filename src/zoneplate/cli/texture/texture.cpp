@@ -6,7 +6,7 @@
 
 #include "zoneplate/cli/log.h"
 #include "zoneplate/cli/verbs.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 
 namespace zoneplate::cli {
 namespace {

@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "zoneplate/antialias/methods.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate {

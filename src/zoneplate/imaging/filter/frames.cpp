@@ -12,9 +12,9 @@
 #include "zoneplate/codec/png.h"
 #include "zoneplate/codec/save.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/job/output/film.h"
 #include "zoneplate/job/output/frame_name.h"
-#include "zoneplate/job/values.h"
 #include "zoneplate/os/file.h"
 
 namespace zoneplate {

@@ -13,8 +13,8 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/batch/output_files.h"
 #include "zoneplate/codec/save.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/job/output/frame_name.h"
-#include "zoneplate/job/values.h"
 #include "zoneplate/metrics/file/picture_file.h"
 
 namespace zoneplate {

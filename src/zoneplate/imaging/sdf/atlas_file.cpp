@@ -11,7 +11,7 @@
 #include "zoneplate/base/utf8.h"
 #include "zoneplate/codec/png.h"
 #include "zoneplate/formats/json/json.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/mapped_file_guard.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "zoneplate/image/transfer.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/metrics/rows.h"
 #include "zoneplate/signal/functions.h"
 

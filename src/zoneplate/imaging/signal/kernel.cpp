@@ -7,7 +7,7 @@
 #include <filesystem>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/signal/filter/convolve.h"
 #include "zoneplate/signal/filter/kernel.h"

@@ -9,7 +9,7 @@
 #include "zoneplate/imaging/signal/load.h"
 #include "zoneplate/imaging/signal/reduce.h"
 #include "zoneplate/imaging/signal/show.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/report/figure.h"
 
 namespace zoneplate {

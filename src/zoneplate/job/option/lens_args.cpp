@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/job/lens_args.h"
+#include "zoneplate/job/option/lens_args.h"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/formats/import/import_budget.h"
 #include "zoneplate/formats/json/json.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/os/file.h"
 
 namespace zoneplate {

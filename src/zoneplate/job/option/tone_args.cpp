@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/job/tone_args.h"
+#include "zoneplate/job/option/tone_args.h"
 
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/math/elementary.h"
 
 namespace zoneplate {

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "zoneplate/image/tonemap.h"
-#include "zoneplate/job/option.h"
+#include "zoneplate/job/option/option.h"
 
 namespace zoneplate {
 

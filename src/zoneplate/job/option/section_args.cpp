@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/job/section_args.h"
+#include "zoneplate/job/option/section_args.h"
 
 #include <fmt/format.h>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 
 namespace zoneplate {
 

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "zoneplate/base/error.h"
+
 namespace zoneplate {
 
 /// Names of which an option takes one, or a list.
@@ -37,14 +39,15 @@ OptionSetter angle(double low, double high, std::function<void(float)> set);
 
 /// One option of a job or of a verb. Parsing, help and the interfaces for other languages use the same table.
 struct Option {
-  std::string names;      ///< all forms, the one for messages first: "--output,-o"
-  std::string value;      ///< placeholder of the value in help, "FILE"; empty for a switch
-  std::string meaning;    ///< one sentence, without a full stop
-  std::string group;      ///< heading in the full help
-  bool is_basic = false;  ///< included in the short help
-  OptionSetter set;       ///< takes the value's text (empty for a switch)
-  Choices choices{};      ///< values that shells complete
-  bool repeats = false;   ///< may be given several times; otherwise the last value counts
+  std::string names;        ///< all forms, the one for messages first: "--output,-o"
+  std::string value;        ///< placeholder of the value in help, "FILE"; empty for a switch
+  std::string meaning;      ///< one sentence, without a full stop
+  std::string group;        ///< heading in the full help
+  bool is_basic = false;    ///< included in the short help
+  OptionSetter set;         ///< takes the value's text (empty for a switch)
+  Choices choices{};        ///< values that shells complete
+  bool repeats = false;     ///< may be given several times; otherwise the last value counts
+  bool is_refused = false;  ///< by refuse_rows
 
   ValueKind kind() const { return value.empty() ? ValueKind::Switch : set.kind; }
 };
@@ -58,5 +61,30 @@ std::vector<std::string> names_of(const Option& option);
 
 /// The option of that name without dashes; null if there is none.
 const Option* find_option(const std::vector<Option>& options, std::string_view name);
+
+/// What interfaces without dashes call the option: its first long form, without them.
+std::string row_name(const Option& option);
+
+/// Sets the option of that name without dashes by the text of its value, which is null for a switch alone.
+///
+/// Errors    ErrorKind::Usage naming the row: one that is not there, a value that is missing, or wrong.
+void set_row(const std::vector<Option>& options, const std::string& name, const char* value);
+
+/// Lets the options of these names, which are separated by spaces, be errors with a reason: they cannot act in the
+/// interface that has the table.
+void refuse_rows(std::vector<Option>& options, std::string_view names, const std::string& reason);
+
+/// A message of the library, in which options have the dashes of the command, as one about rows.
+std::string without_dashes(const std::vector<Option>& options, std::string text);
+
+/// Calls `body`; its errors name options as rows.
+template <class Body>
+void naming_rows(const std::vector<Option>& options, const Body& body) {
+  try {
+    body();
+  } catch (const Error& error) {
+    throw Error(error.kind(), without_dashes(options, error.what()));
+  }
+}
 
 }  // namespace zoneplate

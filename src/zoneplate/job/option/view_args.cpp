@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/job/view_args.h"
+#include "zoneplate/job/option/view_args.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "zoneplate/base/spec.h"
 #include "zoneplate/formats/import/import_budget.h"
 #include "zoneplate/formats/json/json.h"
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/math/double3.h"
 #include "zoneplate/os/file.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/job/values.h"
+#include "zoneplate/job/option/values.h"
 
 #include <gtest/gtest.h>
 
