@@ -34,9 +34,21 @@ set(simd_sources ${core_simd_sources})
 
 if(NOT BUILD_TESTING) # of the package for Node and browsers
   list(APPEND simd_sources ${package_kernels})
+  # One process draws an image (web/no_system.cpp).
+  sources_of(parts raster/parts)
+  list(REMOVE_ITEM parts src/zoneplate/raster/parts/partition.cpp)
+  # What takes little of the time of a frame; a page that is smaller is there sooner.
+  sources_of(small_sources scene sdf signal)
+  list(REMOVE_ITEM library_sources ${parts} ${small_sources})
+  add_library(zoneplate_small OBJECT ${small_sources})
+  target_link_libraries(zoneplate_small PRIVATE zoneplate_flags)
+  target_compile_options(zoneplate_small PRIVATE -Oz)
+  target_precompile_headers(zoneplate_small PRIVATE ${common_headers})
+  compile_folders_together(zoneplate_small)
+  set(small_objects $<TARGET_OBJECTS:zoneplate_small>)
 endif()
 add_kernels("${simd_sources}")
-add_library(zoneplate STATIC ${library_sources} ${kernel_objects})
+add_library(zoneplate STATIC ${library_sources} ${kernel_objects} ${small_objects})
 target_link_libraries(zoneplate PUBLIC zoneplate_flags)
 target_precompile_headers(zoneplate PRIVATE ${common_headers})
 compile_folders_together(zoneplate)

@@ -18,10 +18,11 @@ set_source_files_properties(src/zoneplate/shade/environment/prepare_studio.cpp P
 sources_of(package_sources capi codec formats job metrics)
 sources_of(left_out formats/assimp formats/font)
 list(REMOVE_ITEM package_sources ${left_out} src/zoneplate/formats/gltf/draco.cpp src/zoneplate/codec/system/in_child.cpp)
-list(APPEND package_sources src/zoneplate/report/json.cpp src/zoneplate/report/scene_contents.cpp)
+list(APPEND package_sources src/zoneplate/os/cache_folder.cpp src/zoneplate/os/memory_limit.cpp
+            src/zoneplate/report/json.cpp src/zoneplate/report/scene_contents.cpp)
 make_table(package_sources metrics metrics metrics/metrics.h Metric zoneplate::metrics metrics "")
 add_executable(zoneplate_node EXCLUDE_FROM_ALL node/native/module.cpp node/native/libraries.cpp
-               node/native/flip_kernels.cpp web/file_bytes.cpp ${package_sources})
+               node/native/flip_kernels.cpp web/file_bytes.cpp web/no_system.cpp ${package_sources})
 set_target_properties(zoneplate_node PROPERTIES OUTPUT_NAME zoneplate)
 compile_folders_together(zoneplate_node)
 target_link_libraries(zoneplate_node PRIVATE zoneplate zoneplate_codecs zoneplate_playground_flags)

@@ -3,20 +3,25 @@
 # models, and the lessons.
 find_path(nlohmann_headers nlohmann/json.hpp PATHS /usr/include REQUIRED NO_CMAKE_FIND_ROOT_PATH)
 file(CREATE_LINK ${nlohmann_headers}/nlohmann ${CMAKE_CURRENT_BINARY_DIR}/headers/nlohmann SYMBOLIC)
-# For the types of functions alone: the page has no library for Zstandard.
-file(CREATE_LINK /usr/include/zstd.h ${CMAKE_CURRENT_BINARY_DIR}/headers/zstd.h SYMBOLIC)
+# For the types of functions alone: the page has no library for Zstandard and Deflate.
+foreach(header zstd.h zlib.h zconf.h)
+  file(CREATE_LINK /usr/include/${header} ${CMAKE_CURRENT_BINARY_DIR}/headers/${header} SYMBOLIC)
+endforeach()
 
-# files.cpp takes the place of the sources that need libraries or child processes.
-sources_of(readers formats/gltf formats/import formats/json formats/obj formats/ply formats/stl codec/ktx2)
+# The readers of models, and the job. files.cpp and ../no_system.cpp take the place of the sources that need libraries or
+# child processes.
+sources_of(readers formats/gltf formats/import formats/json formats/obj formats/ply formats/stl codec/ktx2 job)
 list(REMOVE_ITEM readers src/zoneplate/formats/gltf/draco.cpp src/zoneplate/formats/import/image_file.cpp
-                         src/zoneplate/formats/import/scene_bytes.cpp)
-list(APPEND readers src/zoneplate/codec/hdr.cpp src/zoneplate/codec/bitmap/tga.cpp src/zoneplate/report/json.cpp)
+                         src/zoneplate/formats/import/scene_bytes.cpp src/zoneplate/job/import_time.cpp)
+list(APPEND readers src/zoneplate/codec/hdr.cpp src/zoneplate/codec/save.cpp src/zoneplate/codec/bitmap/tga.cpp
+            src/zoneplate/formats/load.cpp src/zoneplate/os/cache_folder.cpp src/zoneplate/os/memory_limit.cpp
+            src/zoneplate/report/json.cpp)
 
 # The lessons of `zoneplate demo`, and what they use of other rooms; figures.cpp and truetype.cpp take the place of what
 # draws texts and plots.
 sources_of(lessons lessons)
 make_table(lessons lessons demos lessons/demo.h Demo zoneplate::lessons demos demo_)
-set(figures imaging/sdf/atlas_file imaging/sdf/show_field imaging/sdf/text_error job/output/false_color formats/font/text_outline
+set(figures imaging/sdf/atlas_file imaging/sdf/show_field imaging/sdf/text_error formats/font/text_outline
     report/figure report/page_table report/plot_labels report/plot_palette metrics/mse metrics/power metrics/psnr
     metrics/flip/magma)
 list(TRANSFORM figures REPLACE "(.+)" "src/zoneplate/\\1.cpp")
@@ -28,8 +33,8 @@ target_compile_options(zoneplate_playground_flags INTERFACE -include ${CMAKE_CUR
                        -Wno-shorten-64-to-32 -Wno-unused-private-field)
 add_library(zoneplate_readers STATIC ${readers})
 add_library(zoneplate_lessons STATIC ${lessons} ${figures})
-add_executable(zoneplate_playground web/playground/session.cpp web/playground/look.cpp web/playground/files.cpp
-               web/file_bytes.cpp web/playground/figures.cpp web/playground/truetype.cpp)
+add_executable(zoneplate_playground web/playground/session.cpp web/playground/files.cpp web/file_bytes.cpp
+               web/no_system.cpp web/playground/figures.cpp web/playground/truetype.cpp)
 target_link_libraries(zoneplate_playground PRIVATE zoneplate_lessons zoneplate_readers)
 # What takes time is in the library; a page that is smaller is there sooner.
 foreach(target zoneplate_readers zoneplate_lessons zoneplate_playground)
@@ -40,7 +45,7 @@ foreach(target zoneplate_readers zoneplate_lessons zoneplate_playground)
 endforeach()
 # The page has one instruction set, whose vectors every kernel has (base/isa.h); a tenth of the module was scalar twins.
 target_compile_definitions(zoneplate PUBLIC ZONEPLATE_WITHOUT_SCALAR_TWINS)
-target_link_options(zoneplate_playground PRIVATE -O2 --no-entry -sMODULARIZE -sEXPORT_ES6 -sENVIRONMENT=worker -sEXIT_RUNTIME=0
+target_link_options(zoneplate_playground PRIVATE -Oz --no-entry -sMODULARIZE -sEXPORT_ES6 -sENVIRONMENT=worker -sEXIT_RUNTIME=0
                     -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=ccall,FS)
 # With threads (cmake/wasm_threads.cmake), the workers of all of them are there before the first call: a browser starts
 # none while a function runs. No more threads are started than there are workers.

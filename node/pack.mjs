@@ -7,7 +7,8 @@ import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import zlib from 'node:zlib';
-import { fileURLToPath } from 'node:url';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { typesOf } from './types.mjs';
 
 const root = path.dirname(path.dirname(fileURLToPath(import.meta.url)));
 const [program, build] = process.argv.slice(2).map((name) => path.resolve(name));
@@ -34,7 +35,7 @@ for (const name of ['pool', 'requests']) {
   fs.writeFileSync(at(`${name}.cjs`), `'use strict';\n${text.replace(/^export /gm, '')}\nmodule.exports = { ${names.join(', ')} };\n`);
 }
 
-for (const name of ['index', 'matcher']) fs.writeFileSync(at(`${name}.d.cts`), read(`node/package/${name}.d.ts`).replace('./index.js', './index.cjs'));
+for (const name of ['index', 'matcher']) fs.writeFileSync(at(`${name}.d.cts`), read(`node/package/${name}.d.ts`).replaceAll(/'\.\/(index|options)\.js'/g, "'./$1.cjs'"));
 
 // The prepared studio, from the cache of the program: the package would need seconds for it.
 const cache = fs.mkdtempSync(path.join(os.tmpdir(), 'zoneplate-cache-'));
@@ -60,6 +61,12 @@ fs.writeFileSync(at('package.json'), `${JSON.stringify({
     './package.json': './package.json',
   },
 }, null, 2)}\n`);
+
+// The table of options, which the command and the types take from the module.
+const { list, close } = await import(pathToFileURL(at('index.js')).href), { options } = await list();
+close();
+fs.writeFileSync(at('options.js'), `// SPDX-License-Identifier: Apache-2.0\n// Made by pack.mjs from the table of options.\nexport default ${JSON.stringify(options, null, 1)};\n`);
+for (const ending of ['d.ts', 'd.cts']) fs.writeFileSync(at(`options.${ending}`), typesOf(options));
 
 // npm's archive: a tar of the folder `package`, without owners and with the time that npm states for all files.
 execFileSync('chmod', ['-R', 'u=rwX,go=rX', folder]);

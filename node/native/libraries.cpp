@@ -1,27 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the readers need of an operating system and of libraries that the package does not contain.
+// What readers and writers need of libraries that the package does not contain, and of programs.
 #include <meshoptimizer.h>
 
 #include <algorithm>
 #include <string_view>
 #include <utility>
 
-#include "zoneplate/base/error.h"
+#include "../../web/no_system.h"
 #include "zoneplate/codec/system/in_child.h"
-#include "zoneplate/formats/assimp/assimp.h"
-#include "zoneplate/formats/gltf/draco.h"
-#include "zoneplate/formats/import/scene_bytes.h"
-#include "zoneplate/os/file.h"
 #include "zoneplate/os/library.h"
-#include "zoneplate/os/limited_child.h"
-#include "zoneplate/os/mapped_file_guard.h"
+#include "zoneplate/os/run_program.h"
 
 namespace zoneplate {
-namespace {
 
-[[noreturn]] void refuse(const std::string& place, std::string_view what) {
-  throw Error(ErrorKind::Input, place + ": " + std::string(what) + " the program zoneplate, not by this package");
-}
+const std::string_view this_door = "this package";
+
+namespace {
 
 /// What needs a library, in the order of Library.
 constexpr std::string_view contents[] = {"models of this format are read by",    "AVIF images are read by",
@@ -60,33 +54,12 @@ StoredImage decode_in_child(const std::string& place, Library library, std::uint
   return decode();
 }
 
-DracoMesh decode_draco(std::span<const std::uint8_t>, std::uint64_t, std::span<const DracoWish>,
-                       const std::string& place, ImportBudget&) {
-  refuse(place, "meshes packed by Draco are read by");
+class RunningProgram::Process {};
+RunningProgram::RunningProgram(const std::string& program, const std::vector<std::string>&, const ProgramLimits&) {
+  refuse(program, "films of this format are encoded by");
 }
-
-std::span<const SceneFormat> assimp_formats() { return {}; }
-Scene load_by_assimp(const std::string& path, std::string_view, ImportBudget&) {
-  refuse(path, contents[static_cast<std::size_t>(Library::Assimp)]);
-}
-
-void check_is_file(const std::string&) {}
-void read_parts(const std::string& path, const std::function<bool(std::span<const std::uint8_t>)>& take) {
-  const FileBytes file(path);
-  take(file.bytes());
-}
-
-// Files are not mapped, and there are no child processes: the module has a memory of its own.
-MappedFileWatch::MappedFileWatch() : before_(0) {}
-void MappedFileWatch::check(const std::string&) const {}
-
-bool is_limited_child() { return true; }
-void ChildAnswer::write(const void*, std::size_t) {}
-LimitedChild::LimitedChild(std::string place, Limits, const std::function<void(ChildAnswer&)>&,
-                           const std::function<void()>&) {
-  refuse(place, "child processes are started by");
-}
-LimitedChild::~LimitedChild() = default;
-void LimitedChild::read(void*, std::size_t) {}
+RunningProgram::~RunningProgram() = default;
+void RunningProgram::write(std::span<const std::uint8_t>) {}
+ProgramResult RunningProgram::finish() { return {}; }
 
 }  // namespace zoneplate

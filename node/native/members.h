@@ -32,17 +32,7 @@ class Members {
   std::optional<std::string> text(const char* name) {
     return value<std::string>(name, "text", &nlohmann::json::is_string);
   }
-  bool flag(const char* name, bool otherwise = false) {
-    return value<bool>(name, "true or false", &nlohmann::json::is_boolean).value_or(otherwise);
-  }
   std::optional<double> number(const char* name) { return value<double>(name, "a number", &nlohmann::json::is_number); }
-  std::optional<float> real(const char* name) {
-    const std::optional<double> found = number(name);
-    return found ? std::optional(static_cast<float>(*found)) : std::nullopt;
-  }
-  std::optional<std::int32_t> whole(const char* name) {
-    return value<std::int32_t>(name, "a whole number", &nlohmann::json::is_number_integer);
-  }
 
   /// A list of `count` numbers.
   template <class Number>

@@ -10,6 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "members.h"
@@ -17,7 +19,7 @@
 #include "zoneplate/capi/arrays.h"
 #include "zoneplate/capi/handles.h"
 #include "zoneplate/codec/animated/animation_reader.h"
-#include "zoneplate/image/transfer.h"
+#include "zoneplate/job/option/values.h"
 #include "zoneplate/metrics/compare.h"
 #include "zoneplate/metrics/file/picture_file.h"
 #include "zoneplate/metrics/ignored.h"
@@ -57,9 +59,11 @@ void check(zoneplate_status status) {
 struct Free {
   void operator()(zoneplate_scene* scene) const { zoneplate_scene_free(scene); }
   void operator()(zoneplate_image* image) const { zoneplate_image_free(image); }
+  void operator()(zoneplate_job* job) const { zoneplate_job_free(job); }
 };
 using ScenePointer = std::unique_ptr<zoneplate_scene, Free>;
 using ImagePointer = std::unique_ptr<zoneplate_image, Free>;
+using JobPointer = std::unique_ptr<zoneplate_job, Free>;
 
 /// What the last answer points to.
 std::vector<ImagePointer>& held() {
@@ -67,115 +71,59 @@ std::vector<ImagePointer>& held() {
   return images;
 }
 
-double radians(double degrees) { return degrees * (3.14159265358979323846 / 180); }
+/// Sizes have 32 bits here, and the image and the tables of a scene need memory in addition to its file.
+constexpr const char* default_memory = "1G";
+constexpr std::uint64_t max_memory = std::numeric_limits<std::int32_t>::max();
 
-/// The sRGB codes in [0, 1] of "#rrggbb", "#rrggbbaa" or of numbers, with alpha.
-std::optional<std::vector<float>> color_of(Members& members, const char* name) {
-  const Input* const found = members.find(name);
-  if (found == nullptr) return std::nullopt;
-  constexpr const char* expected = "#rrggbb, #rrggbbaa, or 3 or 4 numbers";
-  std::vector<float> out;
-  if (found->is_string()) {
-    const std::string text = found->get<std::string>();
-    if ((text.size() != 7 && text.size() != 9) || text[0] != '#' ||
-        text.find_first_not_of("0123456789abcdefABCDEF", 1) != text.npos)
-      members.refuse(name, expected);
-    for (std::size_t i = 1; i < text.size(); i += 2)
-      out.push_back(static_cast<float>(std::stoi(text.substr(i, 2), nullptr, 16)) / 255);
-  } else {
-    if (!found->is_array() || (found->size() != 3 && found->size() != 4) ||
-        !std::all_of(found->begin(), found->end(), [](const Input& item) { return item.is_number(); }))
-      members.refuse(name, expected);
-    out = found->get<std::vector<float>>();
-  }
-  if (out.size() == 3) out.push_back(1);
+/// The rows that cannot act in a worker, which has one thread and one instruction set, and no child process.
+constexpr std::string_view refused[] = {"threads", "isa", "sandbox"};
+
+using Rows = std::vector<std::pair<std::string, std::optional<std::string>>>;
+
+/// The rows of the table of options that a request sets: [[NAME, TEXT or null], ...].
+Rows rows_of(const Input& request) {
+  Rows out;
+  for (const Input& row : request.at("rows"))
+    out.emplace_back(row.at(0), row.at(1).is_null() ? std::nullopt : std::optional(row.at(1).get<std::string>()));
   return out;
 }
 
-/// The light of a colour: text is sRGB-encoded, numbers are linear.
-std::optional<std::vector<float>> light_of(Members& members, const char* name) {
-  std::optional<std::vector<float>> color = color_of(members, name);
-  if (color && members.find(name)->is_string())
-    for (float& c : *color) c = decode_srgb8(static_cast<std::uint8_t>(c * 255 + 0.5f));
-  return color;
+JobPointer job_of(const Rows& rows) {
+  zoneplate_job* made = nullptr;
+  check(zoneplate_job_new(&made));
+  JobPointer job(made);
+  check(zoneplate_job_set(made, "max-memory", default_memory));
+  for (const auto& [name, text] : rows) {
+    if (std::ranges::find(refused, name) != std::end(refused))
+      throw Error(ErrorKind::Usage, name + ": is an option of the program zoneplate, not of this package");
+    check(zoneplate_job_set(made, name.c_str(), text ? text->c_str() : nullptr));
+    if (name == "max-memory" && parse_bytes(text.value_or("")) > max_memory)
+      throw Error(ErrorKind::Usage, fmt::format("max-memory: is {}, expected at most 2 GiB", *text));
+  }
+  return job;
 }
 
-/// Sizes have 32 bits here, and the image and the tables of a scene need memory in addition to its file.
-constexpr double default_memory = 1 << 30, max_memory = std::numeric_limits<std::int32_t>::max();
-
-ScenePointer load(const Input& request) {
-  Members members(request.value("load", Input()), "model");
-  const std::optional<std::string> format = members.text("format"), variant = members.text("variant");
-  const std::optional<std::int32_t> scene = members.whole("scene");
-  std::optional<std::int32_t> animation;
-  std::optional<std::string> animation_name;
-  if (const Input* const found = members.find("animation")) {
-    if (found->is_string())
-      animation_name = members.text("animation");
-    else
-      animation = members.whole("animation");
-  }
-  const double time = members.number("time").value_or(0), memory = members.number("maxMemory").value_or(default_memory);
-  const double seconds = members.number("maxSeconds").value_or(0);
-  if (!(memory >= 1 && memory <= max_memory)) members.refuse("maxMemory", fmt::format("bytes, 1 to {}", max_memory));
-  if (!(seconds >= 0)) members.refuse("maxSeconds", "0 or more");
-  members.finish();
-
-  const zoneplate_load_options options{.size = sizeof options,
-                                       .format = format ? format->c_str() : nullptr,
-                                       .variant = variant ? variant->c_str() : nullptr,
-                                       .scene = scene ? &*scene : nullptr,
-                                       .animation = animation ? &*animation : nullptr,
-                                       .time = time,
-                                       .is_sandboxed = 0,
-                                       .max_memory = static_cast<std::uint64_t>(memory),
-                                       .max_seconds = seconds,
-                                       .animation_name = animation_name ? animation_name->c_str() : nullptr};
+ScenePointer load(const Input& request, const zoneplate_job& job) {
   zoneplate_scene* out = nullptr;
-  check(zoneplate_scene_load(request.at("model").get<std::string>().c_str(), &options, &out));
+  check(zoneplate_job_load(&job, request.at("model").get<std::string>().c_str(), &out));
   return ScenePointer(out);
 }
 
-/// The camera of a view of the scene, or that which is given; nothing: the default view of the command.
-std::optional<zoneplate_camera> camera_of(const Input& request, const zoneplate_scene& scene, double aspect) {
-  Members view(request.value("view", Input()), "view"), pose(request.value("camera", Input()), "camera");
-  const std::optional<std::int32_t> index = view.whole("index");
-  const auto position = view.numbers<double>("position", 3), focal_point = view.numbers<double>("focalPoint", 3);
-  const auto view_up = view.numbers<float>("viewUp", 3);
-  const auto angle = [&](const char* name) {
-    const std::optional<double> degrees = view.number(name);
-    return degrees ? std::optional(static_cast<float>(radians(*degrees))) : std::nullopt;
-  };
-  const std::optional<float> vertical_fov = angle("verticalFov"), azimuth = angle("azimuth"),
-                             elevation = angle("elevation");
-  const bool is_orthographic = view.flag("orthographic");
-  view.finish();
+/// The pose of a camera that takes the place of the job's view, if it is given.
+std::optional<zoneplate_camera> camera_of(const Input& request) {
+  if (!request.contains("camera")) return std::nullopt;
+  Members pose(request.at("camera"), "camera");
   const auto matrix = pose.numbers<double>("matrix", 16);
+  if (!matrix) throw Error(ErrorKind::Usage, "camera: requires matrix");
   const std::optional<double> height = pose.number("height");
-  const double fov = pose.number("verticalFov").value_or(30), near = pose.number("near").value_or(0.01);
-  const double far = pose.number("far").value_or(height ? 1000 : std::numeric_limits<double>::infinity());
-  pose.finish();
-
+  constexpr double degree = 3.14159265358979323846 / 180;
   zoneplate_camera out{.size = sizeof out};
-  if (matrix) {
-    std::copy(matrix->begin(), matrix->end(), out.world_from_camera);
-    out.is_orthographic = height ? 1 : 0;
-    out.vertical_fov = radians(fov), out.half_height = height ? *height / 2 : 1;
-    out.near = near, out.far = far;
-    return out;
-  }
-  if (request.value("camera", Input()).is_object()) throw Error(ErrorKind::Usage, "camera: requires matrix");
-  if (!request.value("view", Input()).is_object()) return std::nullopt;
-  const zoneplate_view chosen{.size = sizeof chosen,
-                              .index = index ? &*index : nullptr,
-                              .position = position ? position->data() : nullptr,
-                              .focal_point = focal_point ? focal_point->data() : nullptr,
-                              .view_up = view_up ? view_up->data() : nullptr,
-                              .vertical_fov = vertical_fov ? &*vertical_fov : nullptr,
-                              .azimuth = azimuth ? &*azimuth : nullptr,
-                              .elevation = elevation ? &*elevation : nullptr,
-                              .is_orthographic = is_orthographic ? 1 : 0};
-  check(zoneplate_scene_camera(&scene, &chosen, aspect, &out));
+  std::copy(matrix->begin(), matrix->end(), out.world_from_camera);
+  out.is_orthographic = height ? 1 : 0;
+  out.vertical_fov = pose.number("verticalFov").value_or(30) * degree, out.half_height = height ? *height / 2 : 1;
+  out.near = pose.number("near").value_or(0.01);
+  out.far = pose.number("far").value_or(height ? 1000 : std::numeric_limits<double>::infinity());
+  pose.finish();
   return out;
 }
 
@@ -193,50 +141,15 @@ Json::Array warnings_of(const zoneplate_scene& scene) {
 }
 
 Json::Object render(const Input& request) {
-  const ScenePointer scene = load(request);
-  Members members(request.value("options", Input()), "render");
-  zoneplate_render_options options{.size = sizeof options};
-  const auto size = members.numbers<std::int32_t>("size", 2), crop = members.numbers<std::int32_t>("crop", 4);
-  if (size && ((*size)[0] < 1 || (*size)[1] < 1)) members.refuse("size", "a width and a height of 1 or more");
-  options.width = size ? (*size)[0] : 800, options.height = size ? (*size)[1] : 600;
-  const std::optional<std::string> method = members.text("aa"), tone_mapping = members.text("toneMapping");
-  options.method = method ? method->c_str() : nullptr;
-  options.tone_mapping = tone_mapping ? tone_mapping->c_str() : nullptr;
-  std::string passes;
-  if (const Input* const aovs = members.find("aovs")) {
-    if (!aovs->is_array()) members.refuse("aovs", "a list of names");
-    for (const Input& name : *aovs)
-      passes += (passes.empty() ? "" : ",") + (name.is_string() ? name.get<std::string>() : name.dump());
-  }
-  options.passes = passes.c_str();
-  options.form = static_cast<zoneplate_form>(members.chosen("dtype", {"uint8", "uint16", "float32"}));
-  if (crop) std::copy(crop->begin(), crop->end(), options.crop);
-  // A plane of four floats has at most 1 GiB.
-  constexpr double max_pixels = 1 << 26;
-  const auto& rendered = crop ? std::vector(crop->begin() + 2, crop->end()) : size.value_or(std::vector{800, 600});
-  if (static_cast<double>(rendered[0]) * rendered[1] > max_pixels)
-    members.refuse(crop ? "crop" : "size", fmt::format("at most {} pixels", max_pixels));
-  options.exposure = members.real("exposure").value_or(0);
-  const auto background = color_of(members, "background"), environment = light_of(members, "environment");
-  options.background = background ? background->data() : nullptr;
-  options.environment = environment ? environment->data() : nullptr;
-  options.is_transparent = members.flag("transparent") ? 1 : 0;
-  const std::optional<float> intensity = members.real("lightIntensity");
-  options.light_intensity = intensity ? &*intensity : nullptr;
-  options.shadows = static_cast<zoneplate_shadows>(members.chosen("shadows", {"none", "map", "hard", "soft"}));
-  options.occlusion_samples = members.whole("ambientOcclusion").value_or(0);
-  options.has_shadow_ground = members.flag("shadowGround") ? 1 : 0;
-  options.anisotropy = members.whole("anisotropy").value_or(0);
-  options.keeps_back_faces = members.flag("cullBackFaces", true) ? 0 : 1;
-  options.point_size = members.real("pointSize").value_or(0);
+  const JobPointer job = job_of(rows_of(request));
+  const ScenePointer scene = load(request, *job);
+  const std::optional<zoneplate_camera> camera = camera_of(request);
+  Members members(request.at("form"), "render");
+  const auto form = static_cast<zoneplate_form>(members.chosen("dtype", {"uint8", "uint16", "float32"}));
   const std::string output = members.text("output").value_or("png");
   members.finish();
-  options.threads = 1;
-
-  const auto camera =
-      camera_of(request, *scene, static_cast<double>(options.width) / static_cast<double>(options.height));
   zoneplate_image* image = nullptr;
-  check(zoneplate_render(scene.get(), camera ? &*camera : nullptr, &options, &image));
+  check(zoneplate_job_render(job.get(), scene.get(), camera ? &*camera : nullptr, form, &image));
   held().emplace_back(image);
   zoneplate_array color{};
   check(zoneplate_image_array(image, "color", &color));
@@ -260,8 +173,41 @@ Json::Object render(const Input& request) {
   return out;
 }
 
+/// Writes the files of the command's `render`, below `request.output` of the module's memory.
+Json::Object save(const Input& request) {
+  const JobPointer job = job_of(rows_of(request));
+  const ScenePointer scene = load(request, *job);
+  check(zoneplate_job_save(job.get(), scene.get(), request.at("output").get<std::string>().c_str()));
+  return {{"warnings", warnings_of(*scene)}};
+}
+
+/// The rows of the table of options.
+Json::Array option_rows() {
+  constexpr const char* kinds[] = {"switch", "number", "whole", "choice", "text"};
+  Json::Array out;
+  zoneplate_option o{.size = sizeof o};
+  for (std::size_t i = 0; zoneplate_job_option(i, &o) == ZONEPLATE_OK; ++i)
+    if (std::ranges::find(refused, o.name) == std::end(refused))
+      out.push_back(Json::Object{{"name", o.name},
+                                 {"value", o.value},
+                                 {"kind", kinds[o.kind]},
+                                 {"low", o.low},
+                                 {"high", o.high},
+                                 {"choices", o.choices},
+                                 {"group", o.group},
+                                 {"summary", o.summary},
+                                 {"names", o.names}});
+  return out;
+}
+
 Json::Object info(const Input& request) {
-  const ScenePointer scene = load(request);
+  const Rows rows = rows_of(request);
+  zoneplate_option o{.size = sizeof o};
+  for (std::size_t i = 0; zoneplate_job_option(i, &o) == ZONEPLATE_OK; ++i)
+    for (const auto& [name, text] : rows)
+      if (name == o.name && std::string_view(o.group) != "Input" && std::string_view(o.group) != "Running")
+        throw Error(ErrorKind::Usage, name + ": is an option of render, not of info");
+  const ScenePointer scene = load(request, *job_of(rows));
   return scene->read([](const Scene& s) {
     return Json::Object{{"contents", scene_contents(s)}, {"text", scene_contents_text(s)}};
   });
@@ -347,6 +293,7 @@ Json::Object list(const Input&) {
       rows.emplace_back(name, summary);
     out.emplace_back(names[kind], std::move(rows));
   }
+  out.emplace_back("options", option_rows());
   return out;
 }
 
@@ -355,7 +302,7 @@ Json::Object answer(const char* text) {
     const char* name;
     Json::Object (*run)(const Input&);
   };
-  constexpr Verb verbs[] = {{"render", render}, {"info", info}, {"compare", compare}, {"list", list}};
+  constexpr Verb verbs[] = {{"render", render}, {"save", save}, {"info", info}, {"compare", compare}, {"list", list}};
   const Input request = Input::parse(text);
   const std::string name = request.at("verb");
   for (const Verb& verb : verbs)

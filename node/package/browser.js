@@ -40,7 +40,7 @@ async function toImage(image) {
   throw new TypeError('image: expected a URL, the bytes of a file, or { width, height, data }');
 }
 
-export const { render, info, compare, list } = makeFunctions((request) => pool.ask(request), toRequest, toImage);
+export const { render, renderFiles, info, compare, list } = makeFunctions((request) => pool.ask(request), toRequest, toImage);
 export { ZoneplateError };
 
 /// Sets the greatest number of workers, each of which answers one request at a time.

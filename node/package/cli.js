@@ -3,7 +3,9 @@
 // The main verbs of the command `zoneplate`, with the same names of options, exit codes and bytes.
 import fs from 'node:fs';
 import path from 'node:path';
-import { compare, info, list, render, ZoneplateError } from './index.js';
+import { compare, info, list, renderFiles, ZoneplateError } from './index.js';
+import rows from './options.js';
+import { optionName, repeated } from './requests.js';
 
 const elsewhere = 'the native program zoneplate has it';
 const fail = (message, code = 'usage') => { throw new ZoneplateError(message, code); };
@@ -13,38 +15,12 @@ const numbers = (count) => (text, flag) => {
   const found = text.split(',').map((part) => number(part, flag));
   return found.length === count ? found : fail(`${flag}: '${text}', expected ${count} numbers`);
 };
-const size = (text, flag) => {
-  const found = /^(\d+)(?:[x,](\d+))?$/.exec(text) ?? fail(`${flag}: '${text}', expected W,H, WxH or a number`);
-  return [Number(found[1]), Number(found[2] ?? found[1])];
-};
-const memory = (text, flag) => {
-  const found = /^(\d+)([KMG]?)$/.exec(text) ?? fail(`${flag}: '${text}', expected bytes, such as 512M`);
-  return Number(found[1]) * { '': 1, K: 1 << 10, M: 1 << 20, G: 1 << 30 }[found[2]];
-};
 const word = (text) => text;
-const of = (...names) => (text, flag) => (names.includes(text) ? text : fail(`${flag}: '${text}', expected ${names.join(', ')}; ${elsewhere}`));
 
 // Rows of: names, the option that gets the value, how its text is read, and whether it may be repeated: the option is then a
-// list. Without a reader it is a flag of that value.
-const loading = [
-  [['--format'], 'format', word], [['--scene'], 'scene', number], [['--variant'], 'variant', word],
-  [['--animation-index'], 'animation', (text) => (/^\d+$/.test(text) ? Number(text) : text === 'all' ? -1 : text)], [['--animation-time'], 'time', number],
-  [['--max-memory'], 'maxMemory', memory], [['--max-import-seconds'], 'maxSeconds', number],
-];
-const rendering = [
-  [['-o', '--output'], 'file', word], [['--output-format'], 'output', word], [['--resolution', '--size'], 'size', size], [['--anti-aliasing', '--aa'], 'aa', word],
-  [['--background-color', '--background'], 'background', word], [['--no-background'], 'transparent', true],
-  [['--tone-mapping'], 'toneMapping', word], [['--exposure'], 'exposure', number],
-  [['--bit-depth'], 'dtype', (text, flag) => ({ 8: 'uint8', 16: 'uint16' })[text] ?? fail(`${flag}: '${text}', expected 8 or 16`)],
-  [['--crop'], 'crop', numbers(4)], [['--light-intensity'], 'lightIntensity', number], [['--environment'], 'environment', word],
-  [['--shadows'], 'shadows', of('none', 'map', 'hard', 'soft')], [['--ground'], 'shadowGround', (text, flag) => of('none', 'shadow')(text, flag) === 'shadow'],
-  [['--no-cull'], 'cullBackFaces', false], [['--point-size'], 'pointSize', number], [['--anisotropy'], 'anisotropy', number],
-  [['--camera-azimuth-angle'], 'view.azimuth', number], [['--camera-elevation-angle'], 'view.elevation', number],
-  [['--camera-position'], 'view.position', numbers(3)], [['--camera-focal-point'], 'view.focalPoint', numbers(3)],
-  [['--camera-view-up'], 'view.viewUp', numbers(3)], [['--camera-view-angle'], 'view.verticalFov', number],
-  [['--camera-orthographic'], 'view.orthographic', true], [['--camera-index'], 'view.index', number],
-  [['-q', '--quiet'], 'quiet', true], ...loading,
-];
+// list. Without a reader it is a flag of that value. Those of the table of options are texts.
+const table = rows.map(({ name, names, kind }) => [names.split(','), optionName(name), kind === 'switch' ? true : word, repeated.includes(name)]);
+const files = [[['-o', '--output'], 'file', word], [['--output-format'], 'output', word], [['-q', '--quiet'], 'quiet', true]];
 const json = [['--json'], 'json', true];
 
 /// The operands and options of arguments.
@@ -57,12 +33,11 @@ function parse(verb, rows, args) {
       continue;
     }
     const row = rows.find(([names]) => names.includes(flag)) ?? fail(`${verb}: no option '${flag}' in this package; ${elsewhere}`);
-    const [, name, read, isList] = row, [owner, member] = name.includes('.') ? name.split('.') : [null, name];
+    const [, member, read, isList] = row;
     let value = read;
     if (typeof read === 'function') value = read(given ?? args[++i] ?? fail(`${flag}: requires a value`), flag);
     else if (given !== undefined) fail(`${flag}: takes no value`);
     if (isList) (options[member] ??= []).push(value);
-    else if (owner) (options[owner] ??= {})[member] = value;
     else options[member] = value;
   }
   return { operands, options };
@@ -73,22 +48,21 @@ const format = (value) => (Number.isFinite(value) ? Number(value.toPrecision(6))
 
 const verbs = {
   async render(args) {
-    const { operands, options: { file, quiet, ...options } } = parse('render', rendering, args);
+    const { operands, options: { file, output = 'png', quiet, ...options } } = parse('render', [...files, ...table], args);
     if (operands.length !== 1 || !file) fail('render takes one input, a model or a built-in scene, and -o OUT');
-    const extension = path.extname(file).slice(1).toLowerCase();
-    options.output ??= file === '-' ? 'png' : { jpeg: 'jpg' }[extension] ?? extension;
-    if (!['png', 'jpg', 'webp', 'pfm'].includes(options.output)) fail(`${file}: expected .png, .jpg, .webp or .pfm; ${elsewhere}`);
-    if (options.output === 'pfm') options.dtype = 'float32';
-    const { data, warnings } = await render(operands[0], options);
+    const { files: made, warnings } = await renderFiles(operands[0], file === '-' ? `stdout.${output}` : path.basename(file), options);
     for (const warning of quiet ? [] : warnings) console.error(`zoneplate: warning: ${warning}`);
-    try {
-      fs.writeFileSync(file === '-' ? 1 : file, data);
-    } catch (error) {
-      fail(`${file}: ${error.message}`, 'output');
+    for (const [name, data] of Object.entries(made)) {
+      const place = file === '-' ? 1 : path.join(path.dirname(file), name);
+      try {
+        fs.writeFileSync(place, data);
+      } catch (error) {
+        fail(`${place}: ${error.message}`, 'output');
+      }
     }
   },
   async info(args) {
-    const { operands, options: { json: isJson, ...options } } = parse('info', [json, ...loading], args);
+    const { operands, options: { json: isJson, ...options } } = parse('info', [json, ...table], args);
     if (operands.length !== 1) fail('info takes one input: a model or a built-in scene');
     const found = await info(operands[0], options);
     print(isJson ? `${JSON.stringify({ input: operands[0], ...found })}\n` : `${operands[0]}\n${found.text}`);
@@ -110,7 +84,7 @@ const verbs = {
     if (!passes) process.exitCode = 1;
   },
   async list(args) {
-    const { operands } = parse('list', [], args), { version, ...catalogues } = await list();
+    const { operands } = parse('list', [], args), { version, options, ...catalogues } = await list();
     const rows = catalogues[operands[0]] ?? fail(`list takes one of ${Object.keys(catalogues).join(', ')}; ${elsewhere}`);
     for (const [name, summary] of Object.entries(rows)) print(`${name.padEnd(20)} ${summary}\n`);
   },
@@ -119,13 +93,13 @@ const others = ['contact-sheet', 'plan', 'verify', 'filter', 'compare', 'dataset
 
 const help = `Zoneplate renders 3D models to antialiased images, on the CPU. This package has the main verbs of the program.
 
-  zoneplate render IN -o OUT [OPTIONS]   an image of a model or a built-in scene (the verb is optional)
+  zoneplate render IN -o OUT [OPTIONS]   images of a model or a built-in scene (the verb is optional)
   zoneplate info IN [--json]             the contents of a model
   zoneplate metrics REFERENCE TEST [--metric NAME,...] [--threshold VALUE] [--ignore X,Y,W,H] [--json]
   zoneplate list methods|metrics|scenes|aovs|kernels
 
 Options of render, which have the meaning of the program's:
-  ${rendering.map(([names]) => names.at(-1)).join(' ').replace(/(.{1,96})(?: |$)/g, '$1\n  ').trimEnd()}
+  ${[...files, ...table].map(([names]) => names.find((name) => name.startsWith('--'))).join(' ').replace(/(.{1,96})(?: |$)/g, '$1\n  ').trimEnd()}
 `;
 
 async function main([verb = '--help', ...rest]) {

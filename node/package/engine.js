@@ -19,6 +19,7 @@ export async function makeEngine(makeModule, code, studio, host) {
   const { FS } = module;
   FS.writeFile('/studio.env', studio);
   FS.mkdir('/zoneplate.files');
+  FS.mkdir('/zoneplate.out'); // what a request writes
 
   const keep = (bytes) => {
     const at = module._malloc(bytes.length);
@@ -59,7 +60,7 @@ export async function makeEngine(makeModule, code, studio, host) {
       const text = new TextEncoder().encode(`${JSON.stringify(request)}\0`), at = keep(text);
       places.push(at);
       const begin = module._zoneplate_answer(at), end = module.HEAPU8.indexOf(0, begin);
-      const result = JSON.parse(new TextDecoder().decode(module.HEAPU8.slice(begin, end)).replaceAll('/zoneplate.host/', '/').replaceAll('/zoneplate.files/', ''));
+      const result = JSON.parse(new TextDecoder().decode(module.HEAPU8.slice(begin, end)).replaceAll('/zoneplate.host/', '/').replaceAll(/\/zoneplate\.(files|out)\//g, ''));
       const isSpent = module.HEAPU8.length > mostMemory || result.status === 5;
       for (const owner of [result, result.arrays ?? {}])
         for (const [name, value] of Object.entries(owner)) {
@@ -68,6 +69,8 @@ export async function makeEngine(makeModule, code, studio, host) {
           const Type = arrays[type], count = shape.reduce((a, b) => a * b, 1);
           owner[name] = { shape, data: new Type(module.HEAPU8.slice(place, place + count * Type.BYTES_PER_ELEMENT).buffer) };
         }
+      const written = FS.readdir('/zoneplate.out').filter((name) => name !== '.' && name !== '..');
+      if (request.verb === 'save') result.files = Object.fromEntries(written.map((name) => [name, { data: FS.readFile(`/zoneplate.out/${name}`) }]));
       return { ...result, isSpent };
     } catch (error) { // a trap of WebAssembly, or an end of the module
       return { error: `${request.model ?? request.verb}: the renderer failed: ${error.message ?? error}`, status: error.status ?? 1, isSpent: true };
@@ -76,6 +79,7 @@ export async function makeEngine(makeModule, code, studio, host) {
         for (const place of places) module._free(place);
         FS.chdir('/');
         remove('/zoneplate.files');
+        remove('/zoneplate.out');
         host?.unmount(FS);
       } catch { /* the module is replaced */ }
     }
@@ -84,5 +88,5 @@ export async function makeEngine(makeModule, code, studio, host) {
 
 /// The buffers of a reply, which are moved to the caller.
 export function buffersOf(reply) {
-  return [reply, reply.arrays ?? {}].flatMap((owner) => Object.values(owner)).map((value) => value?.data?.buffer).filter((buffer) => buffer instanceof ArrayBuffer);
+  return [reply, reply.arrays ?? {}, reply.files ?? {}].flatMap((owner) => Object.values(owner)).map((value) => value?.data?.buffer).filter((buffer) => buffer instanceof ArrayBuffer);
 }

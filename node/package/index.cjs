@@ -64,7 +64,7 @@ function toImage(image) {
   throw new TypeError('image: expected a path, a URL, the bytes of a file, or { width, height, data }');
 }
 
-const { render, info, compare, list } = makeFunctions((request) => pool.ask(request), toRequest, toImage);
+const { render, renderFiles, info, compare, list } = makeFunctions((request) => pool.ask(request), toRequest, toImage);
 
 /// Sets the greatest number of workers, each of which answers one request at a time.
 function setWorkers(count) {
@@ -72,4 +72,4 @@ function setWorkers(count) {
   pool.most = count;
 }
 
-module.exports = { render, info, compare, list, setWorkers, close: () => pool.stop(), ZoneplateError };
+module.exports = { render, renderFiles, info, compare, list, setWorkers, close: () => pool.stop(), ZoneplateError };

@@ -1,24 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+import type { FileOptions, ImageOptions, ReadingOptions } from './options.js';
+
 /** A path (in browsers: a URL) of a model, the name of a built-in scene such as "teapot", or the bytes of a file. */
 export type Model = string | URL | Uint8Array | ArrayBuffer;
 
-export interface LoadOptions {
+export interface LoadOptions extends ReadingOptions {
   /** Files of the model by their relative paths, such as { "chair.gltf": bytes, "chair.bin": bytes }, in place of the disk's. */
   files?: Record<string, Uint8Array | ArrayBuffer>;
-  /** An extension without its dot, "stl"; default: that of the name, or what the first bytes say. */
-  format?: string;
-  /** A material variant of a glTF file. */
-  variant?: string;
-  /** Index of a scene of a glTF file; default: the file's default scene. */
-  scene?: number;
-  /** Index or name of an animation of a glTF file, -1: all; default: not animated. */
-  animation?: number | string;
-  /** Of the animation, in seconds. */
-  time?: number;
-  /** Bytes of decoded data, at most 2 GiB; default 1 GiB. */
-  maxMemory?: number;
-  /** Seconds of reading; default 60. */
-  maxSeconds?: number;
+  /** Bytes of a model and its image, such as "512M"; default 1 GiB, at most 2 GiB. */
+  maxMemory?: number | string;
 }
 
 /** The choice of a camera by what it shows; angles in degrees. */
@@ -51,44 +41,41 @@ export interface Camera {
 /** "#rrggbb", "#rrggbbaa", or numbers. */
 export type Color = string | [number, number, number] | [number, number, number, number];
 
-export interface RenderOptions extends LoadOptions {
+/** The options of the command, in camelCase: hdriFile is --hdri-file. Those that are here are shorter, or of another type. */
+export interface CommonOptions extends LoadOptions, ImageOptions {
   /** Width and height in pixels; default 800 × 600. */
   size?: [number, number];
   /** The antialiasing method, such as "ssaa:n=4" or "smaa"; default "msaa:n=8,alpha=samples". */
   aa?: string;
-  /** The result: a file, or "pixels"; "exr" and "pfm" require dtype "float32". Default "png". */
-  output?: 'png' | 'jpg' | 'webp' | 'exr' | 'pfm' | 'pixels';
   /** Data passes, such as "depth", "normal" or "object-id". */
   aovs?: string[];
-  /** "uint8" and "uint16": sRGB codes with straight alpha; "float32": linear light, premultiplied. Default "uint8". */
-  dtype?: 'uint8' | 'uint16' | 'float32';
   view?: View;
-  camera?: Camera;
   /** x, y, width, height: the rectangle of the image that is rendered. */
   crop?: [number, number, number, number];
-  /** Default: "neutral" in the studio that a scene without lights gets, else "none". */
-  toneMapping?: 'none' | 'aces' | 'neutral' | 'agx' | 'filmic';
-  /** In stops. */
-  exposure?: number;
-  /** Numbers are sRGB codes in [0, 1]; default "#333333". */
+  /** Numbers are sRGB codes in [0, 1]; default "#333333"; "environment": the light's image. */
   background?: Color;
   /** No background. */
   transparent?: boolean;
-  /** Factor of every light; default: 1, and lights that would clip the surfaces to white are dimmed. */
-  lightIntensity?: number;
-  /** A colour whose light from all directions replaces the default light; numbers are linear. */
+  /** A colour whose light from all directions replaces the default light, or "studio"; numbers are linear. */
   environment?: Color;
-  shadows?: 'none' | 'map' | 'hard' | 'soft';
-  /** Rays of ambient occlusion; default 0. */
-  ambientOcclusion?: number;
+  /** Rays of ambient occlusion, or "rays:samples=64,distance=2"; default none. */
+  ambientOcclusion?: number | string;
   /** A ground that is visible only where it is in shadow. */
   shadowGround?: boolean;
-  /** Most probes of texture filters; 0, the default: 4, or the own value of a built-in scene. */
-  anisotropy?: number;
   cullBackFaces?: boolean;
-  /** Pixels along a side of the squares of points; 0, the default: by the number of points. */
-  pointSize?: number;
 }
+
+export interface RenderOptions extends CommonOptions {
+  /** The result: a file, or "pixels"; "exr" and "pfm" require dtype "float32". Default "png". */
+  output?: 'png' | 'jpg' | 'webp' | 'exr' | 'pfm' | 'pixels';
+  /** "uint8" and "uint16": sRGB codes with straight alpha; "float32": linear light, premultiplied. Default "uint8". */
+  dtype?: 'uint8' | 'uint16' | 'float32';
+  /** In place of a view. */
+  camera?: Camera;
+}
+
+/** Options of `renderFiles`. */
+export interface RenderFilesOptions extends CommonOptions, FileOptions {}
 
 export type Pixels = Uint8Array | Uint16Array | Float32Array;
 
@@ -107,6 +94,12 @@ export interface RenderedImage<Data = Uint8Array> {
 /** Renders a model in a worker. The same bytes as the command's, on every machine. */
 export function render(model: Model, options: RenderOptions & { output: 'pixels' }): Promise<RenderedImage<Pixels>>;
 export function render(model: Model, options?: RenderOptions): Promise<RenderedImage>;
+
+/**
+ * The files that the command `zoneplate render MODEL -o NAME` writes, by their names and with the same bytes: an image with
+ * its data passes, frames as "chair.####.png", or a film such as "chair.webp".
+ */
+export function renderFiles(model: Model, name: string, options?: RenderFilesOptions): Promise<{ files: Record<string, Uint8Array>; warnings: string[] }>;
 
 export interface Info {
   triangles: number;
@@ -167,8 +160,25 @@ export interface Comparison {
 /** Measures the difference between an image and a reference. */
 export function compare(reference: Image, test: Image, options?: CompareOptions): Promise<Comparison>;
 
-/** The names of methods, metrics and others, each with a line about it, and the version. */
+/** A row of the table of options. */
+export interface OptionRow {
+  name: string;
+  /** The form of the value, or its unit: "X,Y,Z", "DEG". */
+  value: string;
+  kind: 'switch' | 'number' | 'whole' | 'choice' | 'text';
+  low: number;
+  high: number;
+  /** Names that the value may be or begin with, separated by commas. */
+  choices: string;
+  group: string;
+  summary: string;
+  /** All that the command takes, separated by commas. */
+  names: string;
+}
+
+/** The names of methods, metrics and others, each with a line about it, the options, and the version. */
 export function list(): Promise<{
+  options: OptionRow[];
   version: string;
   methods: Record<string, string>;
   metrics: Record<string, string>;

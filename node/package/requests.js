@@ -11,6 +11,39 @@ export class ZoneplateError extends Error {
   }
 }
 
+/// A row of the table of options from the name of an option: 'shadows', 'hdri-file' of hdriFile.
+export const rowName = (name) => name.replace(/[A-Z]/g, (letter) => `-${letter.toLowerCase()}`);
+export const optionName = (row) => row.replace(/-([a-z])/g, (_, letter) => letter.toUpperCase());
+
+const isList = (value) => Array.isArray(value) || ArrayBuffer.isView(value);
+const textOf = (value) => (isList(value) ? [...value].map(textOf).join(',') : String(value));
+/// Rows of which each use adds a value.
+export const repeated = ['section', 'allow-path'];
+
+/// Options that are shorter than a row, or of another type.
+const shorter = {
+  aovs: (names) => ['aov', names.length ? names : null],
+  transparent: (is) => ['no-background', is],
+  cullBackFaces: (are) => ['no-cull', !are],
+  shadowGround: (is) => ['ground', is ? 'shadow' : null],
+  ambientOcclusion: (rays) => ['ambient-occlusion', typeof rays !== 'number' ? rays : rays > 0 ? `rays:samples=${rays}` : null],
+  environment: (light) => ['environment', isList(light) ? `linear:${textOf(light)}` : light],
+};
+const ofView = { index: 'camera-index', position: 'camera-position', focalPoint: 'camera-focal-point', viewUp: 'camera-view-up', verticalFov: 'camera-view-angle',
+  azimuth: 'camera-azimuth-angle', elevation: 'camera-elevation-angle', orthographic: 'camera-orthographic' };
+
+/// The rows that options set, [NAME, TEXT], or [NAME, null] for a switch. `quality` is first: it sets several, which others
+/// change.
+export function rowsOf({ view, ...options }) {
+  const rows = Object.entries(options).map(([name, value]) => (value === undefined || value === null ? [name, null] : shorter[name]?.(value) ?? [rowName(name), value]));
+  for (const [name, value] of Object.entries(view ?? {}))
+    rows.push([ofView[name] ?? (() => { throw new ZoneplateError(`view: no option '${name}'; there are ${Object.keys(ofView).join(', ')}`, 'usage'); })(), value]);
+  return rows.filter(([, value]) => value !== undefined && value !== null && value !== false)
+    .flatMap(([name, value]) => (repeated.includes(name) && isList(value) && !(typeof value[0] === 'number') ? value.map((one) => [name, one]) : [[name, value]]))
+    .map(([name, value]) => [name, value === true ? null : textOf(value)])
+    .sort(([a], [b]) => (b === 'quality') - (a === 'quality'));
+}
+
 /// `ask` sends a request to a worker; `toRequest(model, files)` describes a model by { model, files, folder }, and
 /// `toImage(image)` an image.
 export function makeFunctions(ask, toRequest, toImage) {
@@ -20,28 +53,25 @@ export function makeFunctions(ask, toRequest, toImage) {
     return reply;
   }
 
-  const loadOptions = ['format', 'variant', 'scene', 'animation', 'time', 'maxMemory', 'maxSeconds'];
-  /// The options of loading, and the others.
-  const split = (options) => {
-    const load = {}, others = {};
-    for (const [name, value] of Object.entries(options)) (loadOptions.includes(name) ? load : others)[name] = value;
-    return { load, others };
-  };
-
   /// Matrices have four rows, or are flat.
   const toCamera = (camera) => (camera?.matrix ? { ...camera, matrix: [...camera.matrix].flatMap((row) => (typeof row === 'number' ? row : [...row])) } : camera);
 
-  async function render(model, options = {}) {
-    const { load, others: { view, camera, files, ...own } } = split(options);
-    const reply = await send({ verb: 'render', load, view, camera: toCamera(camera), options: own, ...await toRequest(model, files) });
-    const { width, height, warnings, data: { data }, arrays } = reply;
-    return { width, height, output: own.output ?? 'png', data, arrays, warnings };
+  async function render(model, { files, camera, dtype, output, ...options } = {}) {
+    const request = { verb: 'render', rows: rowsOf(options), form: { dtype, output }, ...await toRequest(model, files) };
+    if (camera !== undefined && camera !== null) request.camera = toCamera(camera);
+    const { width, height, warnings, data: { data }, arrays } = await send(request);
+    return { width, height, output: output ?? 'png', data, arrays, warnings };
   }
 
-  async function info(model, options = {}) {
-    const { load, others: { files, ...unknown } } = split(options);
-    for (const name of Object.keys(unknown)) throw new ZoneplateError(`info: no option '${name}'; there are ${loadOptions.join(', ')}, files`, 'usage');
-    const { contents, text } = await send({ verb: 'info', load, ...await toRequest(model, files) });
+  /// The files that the command writes for this name of an output, by their names.
+  async function renderFiles(model, name, { files, ...options } = {}) {
+    if (typeof name !== 'string' || /^$|[/\\]/.test(name)) throw new ZoneplateError(`${name}: expected the name of a file, without a folder`, 'usage');
+    const { files: made, warnings } = await send({ verb: 'save', output: `/zoneplate.out/${name}`, rows: rowsOf(options), ...await toRequest(model, files) });
+    return { files: Object.fromEntries(Object.entries(made).map(([file, { data }]) => [file, data])), warnings };
+  }
+
+  async function info(model, { files, ...options } = {}) {
+    const { contents, text } = await send({ verb: 'info', rows: rowsOf(options), ...await toRequest(model, files) });
     return Object.defineProperty(contents, 'text', { value: text }); // not a part of JSON
   }
 
@@ -61,7 +91,7 @@ export function makeFunctions(ask, toRequest, toImage) {
   }
 
   const list = () => send({ verb: 'list', files: {} });
-  return { render, info, compare, list };
+  return { render, renderFiles, info, compare, list };
 }
 
 /// The pixels of an image { width, height, data }, or nothing.

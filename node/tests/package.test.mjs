@@ -140,11 +140,11 @@ test('an error is one line with the file and the cause, and others still work', 
   fs.writeFileSync(at('broken.glb'), fs.readFileSync(at('square.glb')).subarray(0, 300));
   await rejects(zoneplate.render('broken.glb'), 'input', /^broken\.glb: /);
   await rejects(zoneplate.render(at('broken.glb')), 'input', new RegExp(`^${at('broken.glb')}: `));
-  await rejects(zoneplate.render('teapot', { antialias: 'smaa' }), 'usage', /no option 'antialias'; there are size/);
+  await rejects(zoneplate.render('teapot', { antialias: 'smaa' }), 'usage', /^antialias: there is no such option$/);
   await rejects(zoneplate.render('teapot', { aa: 'smooth' }), 'usage', /smooth/);
-  await rejects(zoneplate.render('teapot', { size: [0, 10] }), 'usage', /size/);
+  await rejects(zoneplate.render('teapot', { size: [0, 10] }), 'usage', /^size: /);
   await rejects(zoneplate.render('wave.glb', { maxMemory: 100000 }), 'input', /^wave\.glb: .*100/);
-  await rejects(zoneplate.render('teapot', { size: [30000, 30000] }), 'usage', /size: is \[30000,30000\], expected at most 67108864 pixels/);
+  await rejects(zoneplate.render('teapot', { size: [30000, 30000] }), 'usage', /^size: .*30000/);
   fs.copyFileSync(at('square.gltf'), at('alone.gltf'));
   fs.mkdirSync(at('apart'), { recursive: true });
   fs.renameSync(at('alone.gltf'), at('apart/alone.gltf'));
@@ -217,6 +217,8 @@ test('npx zoneplate', () => {
   assert.equal(run('wave.glb', '-o', 'made.png', '--size', '160x120', '--aa', 'smaa').stderr, '');
   assert.ok(native('wave.glb', 'native.png', ...native160, '--aa', 'smaa').equals(fs.readFileSync(at('made.png'))));
   assert.ok(native('wave.glb', 'native.png', ...native160).equals(run('render', 'wave.glb', '--size=160,120', '-o', '-').stdout));
+  assert.equal(run('teapot', '-o', 'turn.##.png', '--size', '16', '--turntable', '2', '--section', '1,0,0,0', '--section', '0,0,1,0').stderr, '');
+  for (const name of ['turn.00.png', 'turn.01.png']) assert.ok(fs.statSync(at(name)).size > 100, name);
   assert.equal(run('info', 'square.obj').stdout.toString(), execFileSync(program, ['info', 'square.obj'], { cwd: folder, encoding: 'utf8' }));
   assert.equal(run('metrics', 'made.png', 'made.png').status, 0);
   const differ = run('metrics', 'made.png', 'native.png', '--metric', 'psnr,flip:ppd=30', '--json');
@@ -231,9 +233,9 @@ test('npx zoneplate', () => {
     if (!['render', 'info', 'metrics', 'list'].includes(verb)) assert.match(run(verb, 'a').stderr, /no verb of this package/, verb);
   assert.match(run('list', 'methods').stdout.toString(), /^smaa /m);
   for (const [args, status, text] of [[['compare', 'teapot'], 2, /compare: no verb of this package; the native program zoneplate has it/],
-    [['teapot', '-o', 'a.png', '--turntable', '4'], 2, /no option '--turntable' in this package/], [['none.glb', '-o', 'a.png'], 3, /none\.glb: no such file/],
+    [['teapot', '-o', 'a.png', '--turntable', '4'], 2, /a\.png: several frames require a frame number/], [['teapot', '-o', 'a.png', '--threads', '2'], 2, /no option '--threads' in this package/], [['none.glb', '-o', 'a.png'], 3, /none\.glb: no such file/],
     [['teapot', '-o', 'a.png', '--no-background=0'], 2, /--no-background: takes no value/],
-    [['teapot', '-o', 'none/a.png'], 4, /none\/a\.png/], [['teapot', '-o', 'a.gif'], 2, /a\.gif/]]) {
+    [['teapot', '-o', 'none/a.png'], 4, /none\/a\.png/], [['teapot', '-o', 'a.gif', '--size', '8'], 3, /films of this format are encoded by the program, not by this package/]]) {
     const found = run(...args);
     assert.equal(found.status, status, found.stderr);
     assert.match(found.stderr, text);
@@ -243,5 +245,5 @@ test('npx zoneplate', () => {
 
 test('CommonJS has the same functions', () => {
   const text = `const z = require('zoneplate'); z.render('wave.glb', { size: [16, 16] }).then(({ width }) => console.log(width, Object.keys(z).join()));`;
-  assert.equal(execFileSync(process.execPath, ['-e', text], { cwd: folder, encoding: 'utf8' }), '16 render,info,compare,list,setWorkers,close,ZoneplateError\n');
+  assert.equal(execFileSync(process.execPath, ['-e', text], { cwd: folder, encoding: 'utf8' }), '16 render,renderFiles,info,compare,list,setWorkers,close,ZoneplateError\n');
 });

@@ -49,13 +49,6 @@ export class Chooser {
     this.node = element('div', {}, this.list, this.spec, this.summary, this.details);
   }
 
-  /// Only the parameters of the only row, without the list.
-  bare(title) {
-    this.list.hidden = this.spec.hidden = this.summary.hidden = true;
-    this.details.firstChild.textContent = title;
-    return this;
-  }
-
   show(text) {
     const { name, given } = readSpec(text), row = this.rows.find((r) => r.name === name);
     this.list.value = row ? name : '';

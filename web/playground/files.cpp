@@ -6,13 +6,20 @@
 #include <algorithm>
 #include <string_view>
 
+#include "../no_system.h"
+#include "zoneplate/base/deadline.h"
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
 #include "zoneplate/codec/bitmap/tga.h"
 #include "zoneplate/codec/hdr.h"
 #include "zoneplate/codec/ktx2/ktx2.h"
-#include "zoneplate/formats/gltf/draco.h"
+#include "zoneplate/formats/3mf/3mf.h"
+#include "zoneplate/formats/amf/amf.h"
 #include "zoneplate/formats/import/image_file.h"
+#include "zoneplate/formats/import/scene_bytes.h"
 #include "zoneplate/formats/meshopt/meshopt.h"
+#include "zoneplate/formats/zip/zip.h"
+#include "zoneplate/job/import_time.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/library.h"
 
@@ -36,6 +43,8 @@ EM_JS(void, copy_image, (int image, void* to), {
 // clang-format on
 
 namespace zoneplate {
+
+const std::string_view this_door = "this page";
 
 /// Why the page does not decode an image that the program does; empty for others.
 static std::string_view reason_of(std::span<const std::uint8_t> bytes) {
@@ -89,18 +98,31 @@ DecodedImage decode_image(std::span<const std::uint8_t> bytes, const std::string
 
 std::optional<std::string> size_warning(const TextureImage&) { return std::nullopt; }
 
+bool open_library(Library) { return false; }
 SharedLibrary::SharedLibrary(Library library, const std::string& place) : library_(library), place_(place) {
-  throw Error(ErrorKind::Input, place + ": data packed by Zstandard are read by the program, not by this page");
+  refuse(place, "data packed by Zstandard are read by");
 }
 SharedLibrary::Found SharedLibrary::find(const char*) const { return Found(nullptr); }
 
-DracoMesh decode_draco(std::span<const std::uint8_t>, std::uint64_t, std::span<const DracoWish>,
-                       const std::string& place, ImportBudget&) {
-  throw Error(ErrorKind::Input, place + ": meshes packed by Draco are read by the program, not by this page");
-}
-
 std::vector<std::uint8_t> decode_meshopt(const JsonView& json, std::span<const std::uint8_t>, ImportBudget&) {
   json.fail("data packed by meshoptimizer are read by the program, not by this page");
+}
+
+bool is_zip(std::span<const std::uint8_t>) { return false; }
+Scene load_3mf(const std::string& path, const LoadLimits&) { refuse(path, "3MF models are read by"); }
+Scene load_amf(const std::string& path, const LoadLimits&) { refuse(path, "AMF models are read by"); }
+
+// Scenes are read in no child process.
+void write_scene(const Scene&, const ByteSink&) {}
+Scene read_scene(const ByteSource&, ImportBudget&) { return {}; }
+
+std::string late_reading(const std::string& name, const LoadLimits& limits) {
+  return fmt::format("{}: takes longer to load than the limit of {:.6g} s (--max-import-seconds)", name,
+                     limits.seconds);
+}
+// Files and decoded images are those of the module's first thread.
+void within_import_time(const std::string& name, const LoadLimits& limits, const std::function<void()>& read) {
+  with_deadline(limits.seconds, ErrorKind::Input, late_reading(name, limits), [&] { with_threads(1, read); });
 }
 
 }  // namespace zoneplate

@@ -46,12 +46,18 @@ export class LessonPanel {
 
   /// The field of a parameter, if the method of the state has it; `range` changes its limits.
   field(part, name, range, state) {
-    const chooser = this.choosersOf()[part], text = part.startsWith('look') ? `look:${state[part]}` : state[part], { name: rowName, given } = readSpec(text);
-    const whole = chooser.rows.find((row) => row.name === rowName)?.params.find((p) => p.name === name);
-    if (!whole) return null;
-    const param = { ...whole, ...range };
-    const field = makeField(param, `knob-${part}`, given.get(name) ?? defaultOf(param), (value) => chooser.set(param, value)), side = part === 'scene' ? '' : part.at(-1).toUpperCase();
+    const chooser = this.choosersOf()[part], side = part === 'scene' ? '' : part.at(-1).toUpperCase();
+    const field = part.startsWith('look') ? chooser.field(name, `knob-${part}`) : this.param(chooser, part, name, range, state);
+    if (!field) return null;
     if (side) field.querySelector('label').prepend(element('span', { class: 'mark' }, side));
     return field;
+  }
+
+  /// The field of a parameter of a scene or a method.
+  param(chooser, part, name, range, state) {
+    const { name: rowName, given } = readSpec(state[part]), whole = chooser.rows.find((row) => row.name === rowName)?.params.find((p) => p.name === name);
+    if (!whole) return null;
+    const param = { ...whole, ...range };
+    return makeField(param, `knob-${part}`, given.get(name) ?? defaultOf(param), (value) => chooser.set(param, value));
   }
 }

@@ -92,7 +92,7 @@ export const lessons = [
     name: 'shadows', title: 'Shadows',
     steps: [
       { text: 'A shadow map is an image of depths from the light, with aliasing of its own. One ray to the light is the exact shadow of a point; many rays to an extended light give a penumbra.',
-        state: { a: 'msaa:n=4', looka: 'shadows=hard,ground=shadow', lookb: 'shadows=soft,ground=shadow' }, knobs: [['looka', 'shadows'], ['lookb', 'shadows'], ['lookb', 'ambient-occlusion']] },
+        state: { a: 'msaa:n=4', looka: 'shadows=hard;ground=shadow', lookb: 'shadows=soft;ground=shadow' }, knobs: [['looka', 'shadows'], ['lookb', 'shadows'], ['lookb', 'ambient-occlusion']] },
     ],
   },
   {

@@ -8,7 +8,8 @@ import { Stage } from './report/stage.js';
 import { FigurePanel } from './figure.js';
 import { LessonPanel } from './lesson.js';
 import { Samples } from './samples.js';
-import { commandOf, defaults, hashOf, readState, sizes } from './state.js';
+import { OptionPanel } from './options.js';
+import { commandOf, defaults, hashOf, optionsOf, readState, sizes } from './state.js';
 
 const app = document.getElementById('app');
 const state = readState(location.hash);
@@ -28,19 +29,14 @@ function fail(text) {
 }
 
 let model; // { name, files } of a model that was dropped
-let environment = ''; // the name of the file that lights the scene, if any
+let environment = '', lightFile; // the file that lights the scene, if any, and its name
 let about, loaded, choosers, sceneChooser, figure;
-const number = (text) => (text === '' ? NaN : Number(text));
 const sizeNow = () => state.size.split('x').map(Number);
 const sizeText = (picture) => { const { width, height } = sizeOf(picture); return `${width}x${height}`; };
 
-const lookOf = (key) => (state[`look${key}`] ? `look:${state[`look${key}`]}` : 'look');
-
 /// The work that makes the displayed image of a side.
 function jobOf({ key }) {
-  const [width, height] = sizeNow();
-  return { width, height, azimuth: number(state.azimuth), elevation: number(state.elevation), viewAngle: number(state.angle), method: state[key], look: lookOf(key),
-    frame: state.frame === '' ? -1 : Number(state.frame) };
+  return { options: optionsOf(state, about, { method: state[key], look: state[`look${key}`], environment }), frame: state.frame === '' ? -1 : Number(state.frame), name: `${state[key]} ${state[`look${key}`].replaceAll(';', ' ')}`.trim() };
 }
 
 /// Renders a side until its image is that of the state.
@@ -53,7 +49,7 @@ async function render(side) {
       const image = await side.renderer.ask('render', job);
       side.ms = image.ms, side.hasHistory = image.has_history, side.error = '';
       side.picture = addPicture(image, side.picture);
-      display(side, job, image);
+      display(side, job.name, image);
     } catch (failure) {
       side.error = failure.message;
     }
@@ -66,8 +62,7 @@ async function render(side) {
   if (sides.every((s) => !s.isBusy)) inspect();
 }
 
-function display(side, job, { width, height }) {
-  const name = job.look === 'look' ? job.method : `${job.method} ${job.look.slice(5)}`;
+function display(side, name, { width, height }) {
   side.image = { name, frames: [side.picture], facts: `${side.ms.toFixed(1)} ms` };
   if (stage.scene && stage.size.width === width && stage.size.height === height) return stage.replace(sides.indexOf(side), side.image);
   if (sides.some(({ image }) => !image || sizeText(image.frames[0]) !== `${width}x${height}`)) return;
@@ -123,6 +118,7 @@ async function load(scene) {
   const request = model?.name === scene ? ['model', model.files] : ['builtin', scene];
   try {
     [about] = await Promise.all(sides.map(({ renderer }) => renderer.ask(...request)));
+    if (lightFile) await Promise.all(sides.map(({ renderer }) => renderer.ask('files', [lightFile]))); // a model has a folder of its own
     fail('');
   } catch (failure) {
     fail(failure.message);
@@ -142,6 +138,7 @@ async function chooseFiles(list) {
   const files = await Promise.all([...list].map(async (file) => ({ path: file.webkitRelativePath || file.name, bytes: new Uint8Array(await file.arrayBuffer()) })));
   const first = files.findIndex(({ path }) => /\.(glb|gltf|vrm|obj|ply|stl)$/i.test(path)), light = files.find(({ path }) => /\.hdr$/i.test(path));
   if (first < 0 && light) return chooseEnvironment(light);
+  if (first < 0 && files.every(({ path }) => /\.(png|jpe?g|webp|ktx2|tga|json)$/i.test(path))) return addFiles(files);
   if (first < 0) return fail('None of these files is a model or an environment: the page reads .glb, .gltf, .vrm, .obj, .ply and .stl, with the files that belong to them, and .hdr.');
   const last = model;
   model = { name: files[first].path, files: [files[first], ...files.filter((_, i) => i !== first)] };
@@ -150,16 +147,24 @@ async function chooseFiles(list) {
   return undefined;
 }
 
+/// Takes images and other files, which options of rendering name: texture=wood.png.
+async function addFiles(files) {
+  for (const { renderer } of sides) await renderer.ask('files', files);
+  filtering.textContent = `Options of rendering may name ${files.map(({ path }) => path).join(', ')}.`;
+  for (const side of sides) side.done = null;
+  set({});
+}
+
 /// Lights the scene by the image of a file, filtered by a renderer of its own; without one, by the scene's own light.
 async function chooseEnvironment(file) {
   app.dataset.done = 'false';
   const renderer = file && new Renderer();
   if (file) filtering.textContent = `The light of ${file.path} is being filtered, which takes up to a minute …`;
   try {
-    const { data } = file ? await renderer.ask('prepare', file) : { data: new Uint8Array() };
-    for (const side of sides) await side.renderer.ask('environment', data);
-    environment = file?.path ?? '';
-    if (await load(state.scene)) set({});
+    const light = file && await renderer.ask('prepare', file);
+    for (const side of file ? sides : []) await side.renderer.ask('environment', light), await side.renderer.ask('files', [file]);
+    environment = file?.path ?? '', lightFile = file;
+    set({});
   } catch (failure) {
     fail(failure.message);
   }
@@ -243,7 +248,7 @@ const commands = element('code');
 function showControls() {
   if (!about || state.demo) return;
   sceneChooser.show(state.scene);
-  for (const { key } of sides) choosers[key].show(state[key]), choosers[`look${key}`].show(lookOf(key));
+  for (const { key } of sides) choosers[key].show(state[key]), choosers[`look${key}`].show(state[`look${key}`]);
   lessonPanel.show(state);
   sizeList.selectedIndex = sizes.indexOf(state.size);
   for (const [name, part] of Object.entries(lens)) {
@@ -273,7 +278,7 @@ function setTheme(theme) {
 }
 setTheme('auto');
 
-const files = element('input', { type: 'file', multiple: true, hidden: true, 'aria-label': 'Files of a model, or an environment', accept: '.glb,.gltf,.vrm,.obj,.ply,.stl,.mtl,.bin,.ktx2,.hdr,.tga,image/*',
+const files = element('input', { type: 'file', multiple: true, hidden: true, 'aria-label': 'Files of a model, or an environment', accept: '.glb,.gltf,.vrm,.obj,.ply,.stl,.mtl,.bin,.ktx2,.hdr,.tga,.json,image/*',
   onchange: () => chooseFiles(files.files) });
 for (const type of ['dragover', 'dragleave', 'drop']) {
   document.addEventListener(type, (event) => {
@@ -284,13 +289,13 @@ for (const type of ['dragover', 'dragleave', 'drop']) {
 }
 
 function build(catalogue) {
-  const { scenes, methods, upscalers, figures, look } = catalogue;
+  const { scenes, methods, upscalers, figures, options } = catalogue;
   figure = new FigurePanel(figures, (next) => go({ ...defaults, ...next }), set, endFigure);
   lessonPanel.listFigures(figures);
   const groups = [['Antialiasing', methods.filter((m) => !m.is_reference)], ['References', methods.filter((m) => m.is_reference)], ['Upscalers', upscalers]];
   choosers = Object.fromEntries(sides.map(({ key }) => [key, new Chooser(key, `Method ${key.toUpperCase()}`, groups, (text) => set({ [key]: text }))]));
   for (const { key } of sides)
-    choosers[`look${key}`] = new Chooser(`look${key}`, `Rendering of ${key.toUpperCase()}`, [['', look]], (text) => set({ [`look${key}`]: text.slice(5) })).bare('Rendering');
+    choosers[`look${key}`] = new OptionPanel(`look${key}`, `Rendering of ${key.toUpperCase()}`, options, (text) => set({ [`look${key}`]: text }));
   const failures = scenes.filter((scene) => scene.failure), others = scenes.filter((scene) => !scene.failure);
   sceneChooser = choosers.scene = new Chooser('scene', 'Scene', [['Scenes', others], ['Scenes that show a failure', failures]], chooseScene);
   const card = (title, ...parts) => element('section', { class: 'card', 'aria-label': title.at(-1).textContent ?? title.at(-1) }, element('h2', {}, title), ...parts);

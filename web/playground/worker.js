@@ -13,17 +13,11 @@ let models = 0;
 const isLit = setStudio();
 isLit.catch(() => {}); // the first scene reports it
 
-/// Gives the session the prepared light of scenes without lights.
+/// Writes the prepared light of scenes without lights where the session looks for it.
 async function setStudio() {
-  await give('set_studio', new Uint8Array(await studio));
-}
-
-/// Calls a function of session.cpp that takes bytes.
-async function give(name, bytes) {
-  const { module } = await ready, at = module._malloc(bytes.length);
-  memoryOf(module).set(bytes, at);
-  await call(name, ['number', 'number'], [at, bytes.length]);
-  module._free(at);
+  const { key } = await call('name_studio'), { FS } = (await ready).module;
+  FS.mkdir('/cache');
+  FS.writeFile(`/cache/${key}`, new Uint8Array(await studio));
 }
 
 /// The font of drawings, where the program looks for it.
@@ -44,43 +38,61 @@ async function call(name, types = [], args = []) {
   return result;
 }
 
+/// The same for what reads images: readers run without interruption, and browsers decode images only between. What a reader met
+/// is decoded, and the call repeated.
+async function callReading(name, types, args) {
+  const { module } = await ready;
+  module.images ??= [];
+  for (;;) {
+    module.missing = [];
+    const answer = await call(name, types, args).catch((error) => ({ error }));
+    if (!module.missing.length && answer.error) throw answer.error;
+    if (!module.missing.length) return answer;
+    module.images.push(...await Promise.all(module.missing.map(decodeImage)));
+  }
+}
+
+/// Writes files, { path, bytes }, into the working directory, where models and options find them.
+async function write(files) {
+  const { FS } = (await ready).module;
+  for (const { path, bytes } of files) {
+    if (path.includes('/')) FS.mkdirTree(`./${path.slice(0, path.lastIndexOf('/'))}`);
+    FS.writeFile(path, bytes);
+  }
+}
+
 const requests = {
   catalogue: () => call('list_catalogue'),
   async builtin(text) {
     await isLit;
-    return call('set_builtin', ['string'], [text]);
+    return call('open_model', ['string'], [text]);
   },
-  /// `files` are { path, bytes }; the first is the model.
+  /// The first of the files is the model.
   async model(files) {
     await isLit;
     const { module } = await ready, { FS } = module, folder = `/models/${++models}`;
     FS.mkdirTree(folder);
-    for (const { path, bytes } of files) {
-      const place = `${folder}/${path}`;
-      FS.mkdirTree(place.slice(0, place.lastIndexOf('/')));
-      FS.writeFile(place, bytes);
-    }
     FS.chdir(folder);
-    // Readers run without interruption, and browsers decode images only between: what a reader met is decoded, and the model read again.
     module.images = [];
-    for (;;) {
-      module.missing = [];
-      const about = await call('set_model', ['string'], [files[0].path]).catch((error) => ({ error }));
-      if (!module.missing.length && about.error) throw about.error;
-      if (!module.missing.length) return about;
-      module.images.push(...await Promise.all(module.missing.map(decodeImage)));
-    }
+    await write(files);
+    return callReading('open_model', ['string'], [files[0].path]);
   },
-  /// The light of an image, filtered for all scenes: bytes for the request `environment`.
-  async prepare({ path, bytes }) {
-    const { module } = await ready, place = `/${path.split('/').pop()}`;
-    module.FS.writeFile(place, bytes);
-    const { at, size } = await call('prepare_environment', ['string'], [place]);
-    return { data: memoryOf(module).slice(at, at + size) };
+  /// Further files, which options name.
+  async files(files) {
+    await write(files);
+    return {};
   },
-  /// The light of the scenes that are chosen from now on; without bytes they have their own.
-  async environment(data) {
-    await give('set_environment', data);
+  /// The light of an image, filtered for all scenes: { key, data } for the request `environment`.
+  async prepare(file) {
+    await write([file]);
+    const { key, at, size } = await call('prepare_environment', ['string'], [file.path]);
+    return { key, data: memoryOf((await ready).module).slice(at, at + size) };
+  },
+  /// Takes a light that another renderer has prepared.
+  async environment({ key, data }) {
+    const { FS } = (await ready).module;
+    await isLit;
+    FS.writeFile(`/cache/${key}`, data);
     return {};
   },
   /// A lesson as a scene of a viewer, and its images.
@@ -90,9 +102,10 @@ const requests = {
     return { scene, images: images.map(({ at, width, height }) => ({ width, height, data: memory.slice(at, at + 4 * width * height) })) };
   },
   samples: (x, y) => call('samples_of', ['number', 'number'], [x, y]),
-  async render({ width, height, azimuth = NaN, elevation = NaN, viewAngle = NaN, method, look = 'look', frame = -1 }) {
-    await call('set_view', Array(5).fill('number'), [width, height, azimuth, elevation, viewAngle]);
-    const counts = await call('render_frame', ['string', 'string', 'number'], [method, look, frame]);
+  /// `options` are those of the command, [NAME, VALUE], or [NAME, ''] of a switch; `frame` is -1 for a still image.
+  async render({ options, frame = -1 }) {
+    const text = options.map(([name, value]) => (value === '' ? name : `${name}=${value}`)).join('\n');
+    const counts = await callReading('render_frame', ['string', 'number'], [text, frame]);
     const { module, session } = await ready;
     const at = module.ccall('pixels_of', 'number', ['number'], [session]);
     return { ...counts, data: memoryOf(module).slice(at, at + 4 * counts.width * counts.height) };

@@ -10,6 +10,7 @@ import os from 'node:os';
 import path from 'node:path';
 import { fileURLToPath } from 'node:url';
 import { lessonOf, lessons } from '../playground/lessons.js';
+import { argumentsOf, pairsOf } from '../playground/state.js';
 import { documentGroups, failures } from './content.mjs';
 import { escapeText, pageOf } from './template.mjs';
 import { rendered, sectionsOf } from './markdown.mjs';
@@ -98,7 +99,7 @@ function writeGallery() {
   fs.mkdirSync(at('gallery'), { recursive: true });
   const { scenes } = JSON.parse(run('list', 'scenes', '--json'));
   const cards = failures.map(({ scene, methods, frames, size, look = '' }) => {
-    const options = look.split(',').filter(Boolean).flatMap((item) => [`--${item.split('=')[0]}`, item.split('=')[1]]);
+    const options = argumentsOf(pairsOf(look));
     const more = frames ? ['--frames', String(frames)] : ['--turns', '1'];
     run('compare', scene, '--aa', methods, '--size', size, '--html', `gallery/${scene}.html`, '--quiet', ...more, ...options);
     addWayBack(`gallery/${scene}.html`, 'Gallery');

@@ -10,7 +10,9 @@ import path from 'node:path';
 import { after, before, test } from 'node:test';
 import zlib from 'node:zlib';
 import { Browser } from './browser.mjs';
+import { pairsOf } from '../playground/state.js';
 import { ktx2File, writeModels } from './models.mjs';
+import { copyOptionFiles, optionFiles, optionRows } from './options.mjs';
 import { readPage, writeHdr } from './pictures.mjs';
 import { serve } from './server.mjs';
 
@@ -50,6 +52,9 @@ after(async () => {
   fs.rmSync(folder, { recursive: true, force: true });
 });
 
+/// A job of renderAll: options of rendering as in the address of the page.
+const jobOf = ({ scene, width, height, method, look = '' }) => ({ scene, options: [['resolution', `${width},${height}`], ['anti-aliasing', method], ...pairsOf(look)] });
+
 /// Asks a renderer of the page for images; returns their bytes in base64, and their times.
 const renderAll = (page, jobs) => page.evaluate(async (list) => {
   const { Renderer } = await import('./renderer.js');
@@ -72,7 +77,7 @@ test('ten scenes have the same bytes as those of the program, by every method', 
   const scenes = ['teapot', 'checkerboard', 'city', 'foliage', 'crossing', 'metal', 'wires', 'triangles', 'passing-fence', 'text-ui'];
   for (const scene of scenes) {
     const jobs = methods.map(({ name }) => ({ scene, width, height, method: name }));
-    const images = await renderAll(page, jobs);
+    const images = await renderAll(page, jobs.map(jobOf));
     jobs.forEach(({ method }, i) => assert.ok(Buffer.from(images[i].bytes, 'base64').equals(nativeImage(scene, method, [width, height])), `${scene} by ${method}`));
   }
 });
@@ -90,7 +95,7 @@ test('threads render the same bytes, where the page is cross-origin isolated', a
     await restart(threads);
     for (const scene of ['teapot', 'foliage', 'passing-fence']) {
       const jobs = [...methods, ...(threads === 2 ? upscalers : [])].map(({ name }) => ({ scene, width, height, method: name }));
-      const images = await renderAll(page, jobs);
+      const images = await renderAll(page, jobs.map(jobOf));
       jobs.forEach(({ method }, i) => assert.ok(Buffer.from(images[i].bytes, 'base64').equals(nativeImage(scene, method, [width, height])), `${scene} by ${method}, ${threads} threads`));
     }
     const lessons = ['sampling', 'shadows', 'texture-filters', 'upscaling'], drawn = await drawLessons(page, lessons, 64), native = await nativeLessons(lessons, 64, drawn);
@@ -100,7 +105,7 @@ test('threads render the same bytes, where the page is cross-origin isolated', a
   for (const threads of [1, 2]) {
     await restart(threads);
     for (const method of ['msaa:n=4', 'ssaa:n=4']) {
-      const all = (await renderAll(page, Array(12).fill({ scene: 'teapot', width: 640, height: 360, method }))).map(({ ms }) => ms).sort((a, b) => a - b);
+      const all = (await renderAll(page, Array(12).fill(jobOf({ scene: 'teapot', width: 640, height: 360, method })))).map(({ ms }) => ms).sort((a, b) => a - b);
       (times[method] ??= []).push(all[0]);
       t.diagnostic(`teapot, 640 × 360, ${method}, ${threads} threads: ${all[0].toFixed(1)} ms, median ${all[6].toFixed(1)} ms`);
     }
@@ -109,39 +114,68 @@ test('threads render the same bytes, where the page is cross-origin isolated', a
   for (const [method, [one, two]] of Object.entries(times)) assert.ok(two < 1.3 * one, `${method}: ${one} ms by one thread, ${two} ms by two`);
 });
 
-test('a camera has the same bytes as that of the program', async () => {
-  const page = await open(), job = { scene: 'teapot', width: 160, height: 90, method: 'msaa:n=4', azimuth: 75.5, elevation: -12.25, viewAngle: 18 };
-  const [{ bytes }] = await renderAll(page, [job]);
-  const options = ['--camera-azimuth-angle', '75.5', '--camera-elevation-angle', '-12.25', '--camera-view-angle', '18'];
-  assert.ok(Buffer.from(bytes, 'base64').equals(nativeImage('teapot', job.method, [160, 90], ...options)));
-});
-
-test('frames of sequences have the same bytes as those that the stated command makes', async () => {
-  const page = await open('#size=320x180'), size = { width: 128, height: 72 };
-  const cases = [['passing-fence', 'taa', 5], ['passing-fence', 'msaa:n=4', 30], ['wires', 'taa', 2], ['teapot', 'smaa', 60], ['teleport', 'taa', 40]];
-  for (const [scene, method, frame] of cases) {
-    const [{ bytes }] = await renderAll(page, [{ scene, ...size, method, frame }]);
-    const command = await page.evaluate(async (name, wanted, number) => {
-      const { commandOf, readState } = await import('./state.js');
-      const about = await window.testRenderer.ask('builtin', name);
-      return commandOf({ ...readState(''), scene: name, size: '128x72', frame: String(number) }, about, { method: wanted, look: '', hasHistory: wanted === 'taa', output: 'image.rgba' });
-    }, scene, method, frame);
+test('frames of sequences and cameras have the same bytes as those that the stated command makes', async () => {
+  const page = await open('#size=320x180');
+  const cases = [['passing-fence', 'taa', '5'], ['passing-fence', 'msaa:n=4', '30'], ['wires', 'taa', '2'], ['teapot', 'smaa', '60'], ['teleport', 'taa', '40'],
+    ['teapot', 'msaa:n=4', '', '', { azimuth: '75.5', elevation: '-12.25', angle: '18' }], ['teapot', 'none', '30', 'turntable=60;shadows=soft:samples=8,angle=5'],
+    ['passing-fence', 'none', '3', 'shutter=180;shutter-samples=4'], ['teapot', 'none', '1', 'views=top,iso'], ['teapot', 'msaa:n=4', '', 'quality=best;ground=none']];
+  for (const [scene, method, frame, look = '', camera = {}] of cases) {
+    const { command, bytes } = await page.evaluate(async (given, chosen) => {
+      const { commandOf, optionsOf, readState } = await import('./state.js'), { Renderer } = await import('./renderer.js');
+      const state = { ...readState(''), size: '128x72', ...given }, renderer = window.testRenderer ??= new Renderer(), about = await renderer.ask('builtin', state.scene);
+      window.testScene = state.scene;
+      const { data, has_history: hasHistory } = await renderer.ask('render', { options: optionsOf(state, about, chosen), frame: state.frame === '' ? -1 : Number(state.frame) });
+      return { command: commandOf(state, about, { ...chosen, hasHistory, output: 'image.rgba' }), bytes: btoa(String.fromCharCode(...data)) };
+    }, { scene, frame, ...camera }, { method, look });
     execFileSync(program, [...command.split(' ').slice(1), '--quiet'], { cwd: folder });
     assert.ok(Buffer.from(bytes, 'base64').equals(fs.readFileSync(path.join(folder, 'image.rgba'))), command);
   }
 });
 
-test('every option of rendering has the same bytes as that of the program', async () => {
-  const page = await open('#size=320x180'), [width, height] = [128, 72];
-  const cases = [['cyclic', 'visibility=painter'], ['crossing', 'edge-rule=inside'], ['teapot', 'shading-frequency=flat'], ['teapot', 'shading-frequency=gouraud'],
-    ...['nearest', 'trilinear', 'ewa', 'probes', 'sat', 'catmull-rom'].map((filter) => ['tiles', `texture-filter=${filter}`]), ['checkerboard', 'anisotropy=8'],
-    ...['geometric', 'full'].map((kind) => ['metal', `specular-aa=${kind}`]), ...['map', 'hard', 'soft'].map((kind) => ['teapot', `shadows=${kind},ground=shadow`]),
-    ['teapot', 'ambient-occlusion=rays'], ['teapot', 'background=environment'], ...['aces', 'neutral', 'agx', 'filmic'].map((curve) => ['sun-roof', `tone-mapping=${curve},exposure=-1.5`])];
-  const images = await renderAll(page, cases.map(([scene, look]) => ({ scene, width, height, method: 'msaa:n=4', look: `look:${look}` })));
-  cases.forEach(([scene, look], i) => {
-    const options = look.split(',').flatMap((item) => [`--${item.split('=')[0]}`, item.split('=')[1]]);
-    assert.ok(Buffer.from(images[i].bytes, 'base64').equals(nativeImage(scene, 'msaa:n=4', [width, height], ...options)), `${scene} ${look}`);
+test('every row of the table of options has the same bytes as in the program, or is refused by name', async () => {
+  const page = await open('#size=320x180'), rows = optionRows(), place = path.join(folder, 'options'), isSequence = ([name]) => ['turntable', 'views', 'camera-path', 'frame-rate', 'shutter'].includes(name);
+  copyOptionFiles(place);
+  // Frames are chosen by the page: a row of a sequence is displayed at frame 1, or, for turntable and views, which have few, too.
+  const jobs = rows.map(({ name, model, options }) => ({ name, model, frame: options.some(isSequence) ? 1 : -1, options: options.filter(([other]) => other === name || !/^frames$|^frame-start$/.test(other)) }));
+  const { names, answers } = await page.evaluate(async (list, files) => {
+    const { Renderer } = await import('./renderer.js'), renderer = new Renderer(), catalogue = await renderer.ask('catalogue'), out = [];
+    const all = files.map(({ path: name, text }) => ({ path: name, bytes: Uint8Array.from(atob(text), (c) => c.charCodeAt(0)) }));
+    await renderer.ask('files', all);
+    for (const { model, options, frame } of list) {
+      const own = all.find(({ path: name }) => name === model);
+      if (own) await renderer.ask('model', [own, ...all.filter((file) => file !== own)]);
+      else await renderer.ask('builtin', model);
+      out.push(await renderer.ask('render', { options, frame }).then(({ data }) => ({ bytes: btoa(String.fromCharCode(...data)) }), (error) => ({ error: error.message })));
+    }
+    renderer.worker.terminate();
+    return { names: catalogue.options.map(({ name }) => name), answers: out };
+  }, jobs, optionFiles().map(({ path: name, bytes }) => ({ path: name, text: bytes.toString('base64') })));
+  const refused = rows.map(({ name }) => name).filter((name) => !names.includes(name));
+  assert.deepEqual(refused, ['bit-depth', 'jpeg-quality', 'webp-quality', 'png-compression', 'exr-compression', 'aov', 'frames', 'frame-start', 'frame-end', 'frame-jump', 'warm-up',
+    'threads', 'isa', 'allow-path', 'max-memory', 'sandbox']);
+  jobs.forEach(({ name, model, frame, options }, i) => {
+    if (refused.includes(name)) return assert.match(answers[i].error ?? '', new RegExp(`^${name}: `), name);
+    const range = frame < 0 ? [] : ['--frame-start', String(frame), '--frame-end', String(frame)];
+    execFileSync(program, ['render', model, '-o', 'image.rgba', '--quiet', '--no-cache', ...options.map(([key, value]) => (value === '' ? `--${key}` : `--${key}=${value}`)), ...range], { cwd: place });
+    assert.equal(answers[i].error, undefined, name);
+    return assert.ok(Buffer.from(answers[i].bytes, 'base64').equals(fs.readFileSync(path.join(place, 'image.rgba'))), name);
   });
+});
+
+test('options are chosen in the page, and the address and the command have them', async () => {
+  const page = await open('#size=320x180&lookb=edges=mesh;no-cull'), shown = () => page.evaluate(() => [...document.querySelectorAll('.command code')].map((code) => code.textContent).join());
+  assert.match(await shown(), /-o b\.png --resolution 320,180 --anti-aliasing msaa:n=4 --edges mesh --no-cull$/);
+  const choose = async (name, set) => {
+    await page.evaluate((id, text) => { const field = document.getElementById(id); document.getElementById('app').dataset.done = 'false'; if (field.type === 'checkbox') field.checked = text !== ''; else field.value = text; field.dispatchEvent(new Event('change')); }, `lookb-${name}`, set);
+    await done(page);
+  };
+  await choose('shadows', 'soft:samples=4,angle=5');
+  await choose('no-cull', '');
+  assert.equal(await hashOf(page), '#size=320x180&lookb=edges=mesh;shadows=soft:samples=4,angle=5');
+  await choose('shadows', 'sift');
+  assert.match(await page.evaluate('document.querySelector(".error").textContent'), /^shadows: /);
+  await choose('shadows', '');
+  assert.equal(await page.evaluate('document.querySelector(".error").textContent'), '');
 });
 
 test('every lesson opens at every step with its knobs, and a knob changes the image', async () => {
@@ -259,7 +293,7 @@ test('models of every format have the same bytes as those of the program', async
     const text = await page.evaluate(async (list) => {
       const { Renderer } = await import('./renderer.js'), renderer = new Renderer();
       await renderer.ask('model', list.map((file) => ({ path: file.path, bytes: Uint8Array.from(atob(file.text), (c) => c.charCodeAt(0)) })));
-      const { data } = await renderer.ask('render', { width: 64, height: 48, method: 'ssaa:n=2' });
+      const { data } = await renderer.ask('render', { options: [['resolution', '64,48'], ['anti-aliasing', 'ssaa:n=2']] });
       renderer.worker.terminate();
       return btoa(String.fromCharCode(...data));
     }, files);
@@ -282,15 +316,19 @@ test('a Radiance image lights the scene with the same bytes as in the program, u
     const shown = () => page.evaluate(() => [...document.querySelectorAll('.command code')].map((code) => code.textContent).join());
     const imageOf = (look) => page.evaluate(async (text, list) => {
       const { Renderer } = await import('./renderer.js'), renderer = new Renderer(), bytes = Uint8Array.from(atob(list), (c) => c.charCodeAt(0));
-      await renderer.ask('environment', (await renderer.ask('prepare', { path: 'sky.hdr', bytes })).data);
+      const file = { path: 'sky.hdr', bytes }, other = new Renderer();
+      await renderer.ask('environment', await other.ask('prepare', file));
+      other.worker.terminate();
+      await renderer.ask('files', [file]);
       await renderer.ask('builtin', 'metal');
-      const { data } = await renderer.ask('render', { width: 64, height: 48, method: 'msaa:n=4', look: text });
+      const begin = performance.now(), { data } = await renderer.ask('render', { options: [['resolution', '64,48'], ['anti-aliasing', 'msaa:n=4'], ['hdri-file', 'sky.hdr'], ...text] });
+      window.testSeconds = (performance.now() - begin) / 1000;
       renderer.worker.terminate();
       return btoa(String.fromCharCode(...data));
     }, look, fs.readFileSync(path.join(folder, 'sky.hdr')).toString('base64'));
     const options = ['--hdri-file', 'sky.hdr', '--no-cache'];
-    assert.ok(Buffer.from(await imageOf('look'), 'base64').equals(nativeImage('metal', 'msaa:n=4', [64, 48], ...options)));
-    assert.ok(Buffer.from(await imageOf('look:background=environment'), 'base64').equals(nativeImage('metal', 'msaa:n=4', [64, 48], ...options, '--background', 'environment')));
+    assert.ok(Buffer.from(await imageOf([]), 'base64').equals(nativeImage('metal', 'msaa:n=4', [64, 48], ...options)));
+    assert.ok(Buffer.from(await imageOf([['background', 'environment']]), 'base64').equals(nativeImage('metal', 'msaa:n=4', [64, 48], ...options, '--background', 'environment')));
     const before = await page.shot();
     await choose(page, ['sky.hdr']);
     await done(page);
@@ -323,12 +361,16 @@ test('files are opened from the disk, and one that is no model is refused', asyn
   assert.match(await hashOf(page), /scene=square\.obj/);
   assert.match(await page.evaluate('document.querySelector(".card").textContent'), /2 triangles/);
   await drop(['face.png']);
+  await page.until('document.querySelector(".card [role=status]").textContent === "Options of rendering may name face.png."');
+  await done(page);
+  fs.writeFileSync(path.join(folder, 'notes.txt'), 'no model');
+  await drop(['notes.txt']);
   await page.until('!document.querySelector(".error").hidden');
 });
 
 test('a frame of the teapot takes at most 60 ms', async (t) => {
   const page = await open('#size=320x180');
-  const times = (await renderAll(page, Array(20).fill({ scene: 'teapot', width: 640, height: 360, method: 'msaa:n=4' }))).map(({ ms }) => ms).sort((a, b) => a - b);
+  const times = (await renderAll(page, Array(20).fill(jobOf({ scene: 'teapot', width: 640, height: 360, method: 'msaa:n=4' })))).map(({ ms }) => ms).sort((a, b) => a - b);
   t.diagnostic(`teapot, 640 × 360, msaa:n=4: ${times[0].toFixed(1)} ms, median ${times[10].toFixed(1)} ms`);
   assert.ok(times[0] <= 60, `${times[0]} ms`);
 });
