@@ -11,7 +11,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/image/hash_for_test.h"
+#include "zoneplate/image/golden_for_test.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/render/renderer.h"
 #include "zoneplate/scene/builtin/builtin.h"
@@ -53,7 +53,7 @@ struct Golden {
   std::uint64_t hash;
 };
 
-/// Changed bits are a reviewed change: the test prints the new table.
+/// Changed bits are a reviewed change: the test prints the new hashes.
 constexpr Golden goldens[] = {
     {"teapot", "none", 0x36d6ab9da33554beu},
     {"teapot", "msaa:n=4", 0x8d290cf7ed232fb6u},
@@ -68,18 +68,8 @@ constexpr Golden goldens[] = {
 };
 
 TEST(Pictures, TenPicturesHaveTheirBits) {
-  for (const Golden& g : goldens) {
-    const std::uint64_t hash = hash_of(Shot(g.scene).frame(g.method).color);
-    EXPECT_EQ(hash, g.hash) << "    {\"" << g.scene << "\", \"" << g.method << "\", 0x" << std::hex << hash << "u},";
-  }
-}
-
-/// FNV-1a over the codes of an image as it is shown.
-std::uint64_t hash_of(const Rgba8Image& image) {
-  std::uint64_t h = 0xcbf29ce484222325u;
-  for (const Rgba8& c : image.values())
-    for (const std::uint8_t v : {c.r, c.g, c.b, c.a}) h = (h ^ v) * 0x100000001b3u;
-  return h;
+  for (const Golden& g : goldens)
+    expect_golden(std::string(g.scene) + ' ' + g.method, Shot(g.scene).frame(g.method).color, g.hash);
 }
 
 /// How light is shown: over the usual grey, over nothing, or by a tone curve.
@@ -146,8 +136,9 @@ TEST(Pictures, ShownPicturesHaveTheirBitsForAnyThreadsAndInstructionSet) {
         };
         with_isa(isa, [&] { with_threads(threads, render); });
         ASSERT_EQ(picture.width(), g.width);
-        EXPECT_EQ(hash_of(picture), g.hash) << g.scene << ", " << g.method << ", " << name_of(isa) << ", " << threads
-                                            << " threads: 0x" << std::hex << hash_of(picture) << "u";
+        expect_golden(std::string(g.scene) + ' ' + g.method + ' ' + std::to_string(g.width) + ' ' +
+                          std::string(name_of(isa)) + ' ' + std::to_string(threads),
+                      picture, g.hash);
       }
   }
 }
@@ -184,8 +175,9 @@ TEST(Pictures, ShadowsHaveTheirBits) {
        0x2034c4bafa4f8fdcu},
       {{.method = ShadowMethod::Map, .map = {.filter = ShadowFilter::Evsm, .size = 64}}, 0x7809dd3cc54ae652u},
   };
+  int number = 0;
   for (const auto& [shadows, hash] : shadow_goldens)
-    EXPECT_EQ(hash_of(shadowed_shot(shadows).frame("msaa:n=4").color), hash) << std::hex << hash;
+    expect_golden("shadows " + std::to_string(++number), shadowed_shot(shadows).frame("msaa:n=4").color, hash);
 }
 
 TEST(Pictures, CropsOfShadowsHaveTheirBits) {

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "zoneplate/image/hash_for_test.h"
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/random.h"
@@ -87,14 +88,6 @@ struct Band {
     return std::sqrt(sum / count);
   }
 };
-
-/// FNV-1a over the bytes of an image.
-inline std::uint64_t hash_of(const Rgba8Image& image) {
-  std::uint64_t h = 0xcbf29ce484222325u;
-  for (const Rgba8& c : image.values())
-    for (const std::uint8_t v : {c.r, c.g, c.b, c.a}) h = (h ^ v) * 0x100000001b3u;
-  return h;
-}
 
 /// FNV-1a over the colours without alpha, which some other implementations discard.
 inline std::uint64_t hash_of_colors(const Rgba8Image& image) {

@@ -20,4 +20,12 @@ inline std::uint64_t hash_of(const LinearImage& image) {
   return h;
 }
 
+/// FNV-1a over the codes of an image as it is shown.
+inline std::uint64_t hash_of(const Rgba8Image& image) {
+  std::uint64_t h = 0xcbf29ce484222325u;
+  for (const Rgba8& c : image.values())
+    for (const std::uint8_t v : {c.r, c.g, c.b, c.a}) h = (h ^ v) * 0x100000001b3u;
+  return h;
+}
+
 }  // namespace zoneplate

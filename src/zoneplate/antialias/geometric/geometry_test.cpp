@@ -10,7 +10,7 @@
 #include "zoneplate/antialias/shots_for_test.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/image/hash_for_test.h"
+#include "zoneplate/image/golden_for_test.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/scene/builtin/builtin.h"
 
@@ -332,10 +332,9 @@ TEST(GeometryMethods, PicturesHaveTheirBits) {
       {"cyclic", "axial", 0x2dc4becb456b18b7u},   {"foliage", "axial", 0x8af0a55dc6109306u},
       {"near-axis", "gbaa", 0x5f84563c13140fc8u}, {"city", "sraa:n=16", 0x93b4cbd52fbb472fu},
   };
-  for (const Golden& golden : goldens) {
-    const std::uint64_t found = hash_of(shot(*make_builtin_scene(golden.scene), golden.method));
-    EXPECT_EQ(found, golden.hash) << golden.scene << " " << golden.method << " 0x" << std::hex << found;
-  }
+  for (const Golden& golden : goldens)
+    expect_golden(std::string(golden.scene) + ' ' + golden.method,
+                  shot(*make_builtin_scene(golden.scene), golden.method), golden.hash);
 }
 
 }  // namespace

@@ -11,19 +11,12 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/codec/ktx2/files_for_test.h"
 #include "zoneplate/codec/ktx2/uastc.h"
+#include "zoneplate/image/hash_for_test.h"
 
 namespace zoneplate {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
-
-/// FNV-1a of the texels as red, green, blue, alpha: for the files above, that of Binomial's transcoder.
-std::uint64_t hash_of(const Rgba8Image& image) {
-  std::uint64_t hash = 14695981039346656037u;
-  for (const Rgba8& p : image.values())
-    for (const std::uint8_t byte : {p.r, p.g, p.b, p.a}) hash = (hash ^ byte) * 1099511628211u;
-  return hash;
-}
 
 Rgba8Image decoded(std::span<const std::uint8_t> bytes) { return decode_ktx2(bytes, "tex", 1 << 20).as<Rgba8>(); }
 
@@ -40,6 +33,7 @@ std::string error_of(const Bytes& bytes, std::uint64_t max_pixels = 1 << 20) {
 TEST(Ktx2, DecodesTheTexelsOfTheReferenceTranscoder) {
   EXPECT_TRUE(is_ktx2(etc1s_file));
   EXPECT_EQ(find_ktx2_size(etc1s_file), (int2{8, 8}));
+  // Of the texels by Binomial's transcoder.
   EXPECT_EQ(hash_of(decoded(etc1s_file)), 0xf165f5bef02a6f04u);
   EXPECT_EQ(hash_of(decoded(zstandard_file)), 0xedee8b237f0a8154u);
 }
