@@ -107,21 +107,38 @@ Json::Object catalogue() {
           {"options", option_rows()}};
 }
 
+/// The frames of a job.
+struct FramesOfOptions {
+  std::string options;                   ///< of the job
+  std::optional<PreparedScene> resting;  ///< the scene, if it does not move
+  std::unique_ptr<JobFrames> frames;
+  int next = 0;  ///< the frame that continues `frames`
+};
+
+/// An image, and by what it was rendered.
+struct DrawnImage {
+  Rgba8Image image;
+  RenderCounts counts;
+  double ms = 0;
+  Job job;  ///< resolved
+  std::optional<PreparedScene> scene;
+  Camera camera;
+};
+
 /// A model, and the image of the job that was rendered last.
 class Session {
  public:
   Json::Object open(const std::string& name);
   Json::Object prepare_environment(const std::string& file);
   Json::Object render(const std::string& options, int frame);
-  const Rgba8Image& image() const { return image_; }
+  const Rgba8Image& image() const { return drawn_.image; }
   Json::Object samples(int x, int y) const;
 
  private:
   Job job_of(const std::string& options, bool is_frame) const;
   const PreparedScene& model(const Job& job);
-  void render_still(Job job, std::unique_ptr<Resolver> method);
-  void render_frame(const Job& job, std::unique_ptr<Resolver> method, const std::string& options, int frame);
-  void take(RenderedImage image, const Job& job, const PreparedScene& scene, const Camera& camera);
+  DrawnImage render_still(Job job, std::unique_ptr<Resolver> method);
+  DrawnImage render_frame(const Job& job, std::unique_ptr<Resolver> method, const std::string& options, int frame);
 
   std::string name_;
   Environments environments_;
@@ -131,16 +148,8 @@ class Session {
   std::string model_key_;  ///< of `model_`
   std::optional<PreparedScene> model_;
 
-  std::string frames_options_;  ///< of `frames_`
-  std::unique_ptr<JobFrames> frames_;
-  int next_frame_ = 0;  ///< that continues `frames_`
-
-  Rgba8Image image_;
-  RenderCounts counts_;
-  double ms_ = 0;
-  Job job_;  ///< of `image_`, resolved
-  std::optional<PreparedScene> scene_;
-  Camera camera_;
+  FramesOfOptions frames_;
+  DrawnImage drawn_;
 };
 
 LoadLimits page_limits() { return {.memory = std::uint64_t{1} << 30}; }
@@ -194,7 +203,7 @@ const PreparedScene& Session::model(const Job& job) {
 
 /// Takes a built-in scene, or a model of the working directory of the module's memory.
 Json::Object Session::open(const std::string& name) {
-  frames_.reset(), scene_.reset(), model_.reset();
+  frames_ = {}, drawn_ = {}, model_.reset();
   name_ = name;
   const Job job = job_of("", false);
   const Scene& scene = model(job).scene();
@@ -220,40 +229,35 @@ Json::Object Session::open(const std::string& name) {
           {"warnings", Json::Array(scene.warnings.begin(), scene.warnings.end())}};
 }
 
-void Session::take(RenderedImage image, const Job& job, const PreparedScene& scene, const Camera& camera) {
-  image_ = std::move(image.display), counts_ = image.counts;
-  job_ = job, camera_ = camera;
-  scene_.emplace(scene);
-}
-
-void Session::render_still(Job job, std::unique_ptr<Resolver> method) {
+DrawnImage Session::render_still(Job job, std::unique_ptr<Resolver> method) {
   if (job.sequence.requests_frames())
     throw Error(ErrorKind::Usage, "turntable, views and camera-path are of frames, and this is a still image");
-  const PreparedScene& at_rest = model(job);
-  const LitStill still = light_still(std::move(job), at_rest, false);
+  LitStill still = light_still(job, model(job), false);
   Renderer renderer(still.scene, std::move(method));
   const Stopwatch watch;
   RenderedImage image = renderer.render_still(still.camera, settings_of(still.job, still.job.output));
-  ms_ = watch.ms();
-  take(std::move(image), still.job, still.scene, still.camera);
+  return {std::move(image.display), image.counts,           watch.ms(),
+          std::move(still.job),     std::move(still.scene), still.camera};
 }
 
 /// A method with history gets the frames before this one, if they are not those that were rendered last, but at most
 /// `max_warm_up`.
-void Session::render_frame(const Job& job, std::unique_ptr<Resolver> method, const std::string& options, int frame) {
+DrawnImage Session::render_frame(const Job& job, std::unique_ptr<Resolver> method, const std::string& options,
+                                 int frame) {
   const bool has_history = method->has_history();
-  if (!frames_ || frames_options_ != options) {
-    frames_.reset();
-    const PreparedScene& at_rest = model(job);
-    frames_ = std::make_unique<JobFrames>(job, std::move(method), sink_,
-                                          at_rest.scene().animations.empty() ? &at_rest : nullptr);
-    frames_options_ = options, next_frame_ = -1;
+  if (!frames_.frames || frames_.options != options) {
+    frames_ = {.options = options, .resting = model(job), .frames = nullptr, .next = -1};
+    const PreparedScene& scene = *frames_.resting;
+    frames_.frames =
+        std::make_unique<JobFrames>(job, std::move(method), sink_, scene.scene().animations.empty() ? &scene : nullptr);
   }
-  if (frame != next_frame_) frames_->seek(frame, has_history ? std::min(frame, max_warm_up) : 0);
+  JobFrames& frames = *frames_.frames;
+  if (frame != frames_.next) frames.seek(frame, has_history ? std::min(frame, max_warm_up) : 0);
   const Stopwatch watch;
-  JobImage image = frames_->next();
-  ms_ = watch.ms(), next_frame_ = frame + 1;
-  take(std::move(image.image), frames_->job(), frames_->prepared(), image.camera);
+  JobImage image = frames.next();
+  frames_.next = frame + 1;
+  return {
+      std::move(image.image.display), image.image.counts, watch.ms(), frames.job(), frames.prepared(), image.camera};
 }
 
 /// Renders a frame of the sequence, or a still image for -1.
@@ -262,37 +266,37 @@ Json::Object Session::render(const std::string& options, int frame) {
   complete_environments(environments_, job, {}, sink_);
   std::unique_ptr<Resolver> method = upscale::make_method(job.method);
   const bool has_history = method->has_history();
-  if (frame < 0)
-    render_still(std::move(job), std::move(method));
-  else
-    render_frame(job, std::move(method), options, frame);
-  return {{"ms", ms_},
-          {"width", image_.width()},
-          {"height", image_.height()},
+  check_request(job, request_of(job, *method));
+  drawn_ = frame < 0 ? render_still(std::move(job), std::move(method))
+                     : render_frame(job, std::move(method), options, frame);
+  return {{"ms", drawn_.ms},
+          {"width", drawn_.image.width()},
+          {"height", drawn_.image.height()},
           {"has_history", has_history},
-          {"shaded", counts_.shaded},
-          {"triangles", counts_.triangles}};
+          {"shaded", drawn_.counts.shaded},
+          {"triangles", drawn_.counts.triangles}};
 }
 
 Json::Array rgb_of(const Rgba8& c) { return {Json(int{c.r}), Json(int{c.g}), Json(int{c.b})}; }
 
 /// The samples that the method takes in one pixel of the image, in its first round, and their weighted mean.
 Json::Object Session::samples(int x, int y) const {
-  if (!scene_ || x < 0 || y < 0 || x >= image_.width() || y >= image_.height()) return {};
-  Json::Object out{{"pixel", rgb_of(image_(x, y))}};
+  const auto& [image, counts, ms, job, scene, camera] = drawn_;
+  if (!scene || x < 0 || y < 0 || x >= image.width() || y >= image.height()) return {};
+  Json::Object out{{"pixel", rgb_of(image(x, y))}};
   const auto without_samples = [&](const char* reason) {
     out.emplace_back("reason", reason);
     return out;
   };
-  const std::unique_ptr<Resolver> method = upscale::make_method(job_.method);
-  RenderOptions options = settings_of(job_, job_.output).options;
+  const std::unique_ptr<Resolver> method = upscale::make_method(job.method);
+  RenderOptions options = settings_of(job, job.output).options;
   Request request = method->request(
-      {.image = {options.width, options.height, options.crop}, .camera = camera_, .last_camera = camera_});
+      {.image = {options.width, options.height, options.crop}, .camera = camera, .last_camera = camera});
   if (request.draw) return without_samples("The method has its own rasterization: its result is no mean of samples.");
   if (method->has_history())
     return without_samples("The method averages frames, whose samples lie at other positions each time.");
   if (request.frame) return without_samples("The method renders fewer pixels than the image has.");
-  if (camera_.lens && camera_.lens->is_distorted())
+  if (camera.lens && camera.lens->is_distorted())
     return without_samples("The lens warps the image after its samples are taken.");
   if (request.content != Content::Colour) return without_samples("The first round of the method has no colours.");
   request.planes = {.samples = true};
@@ -300,7 +304,7 @@ Json::Object Session::samples(int x, int y) const {
   request.halo = 0;
   const Crop whole = options.crop.value_or(Crop{0, 0, options.width, options.height});
   options.crop = Crop{whole.x + x, whole.y + y, 1, 1};
-  const Frame frame = zoneplate::render(*scene_, camera_, request, options);
+  const Frame frame = zoneplate::render(*scene, camera, request, options);
 
   const auto count = static_cast<int>(request.samples.size());
   LinearImage colors(count, 1), means(count, 1);
