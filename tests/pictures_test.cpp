@@ -182,8 +182,8 @@ TEST(Pictures, ShadowsHaveTheirBits) {
 
 TEST(Pictures, CropsOfShadowsHaveTheirBits) {
   for (const int spacing : {1, 4}) {
-    Shot shot = shadowed_shot({.method = ShadowMethod::Soft, .samples = 9, .spacing = spacing});
-    shot.options.occlusion.spacing = spacing;
+    Shot shot = shadowed_shot({.method = ShadowMethod::Soft, .samples = 16, .spacing = spacing});
+    shot.options.occlusion = {.samples = 16, .spacing = spacing};
     const Frame whole = shot.frame("msaa:n=4");
     shot.options.crop = Crop{37, 10, 50, 41};
     const Frame part = shot.frame("msaa:n=4");

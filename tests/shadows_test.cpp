@@ -322,14 +322,35 @@ TEST(Shadows, SharedRaysAreNearerToTheReference) {
   }
 }
 
+// Neither where there are few of them, nor for one of two queries.
+TEST(Shadows, RaysAreSharedOnlyWhereAsked) {
+  Scene scene = floor_scene(4);
+  add_part(scene, white(), low_sphere({0, 0.5f, 0}, 0.5f, 64, 32));
+  for (Material& m : scene.materials) m.model = ShadingModel::MetallicRoughness, m.metallic = 0;
+  scene.environment.color = {0.5f, 0.5f, 0.5f};
+  scene.lights = {sun_from({0.5f, 1, 0.2f})};
+  const auto image = [&](int samples, int of_lights, int of_occlusion) {
+    RenderOptions options;
+    options.shadows = {.method = ShadowMethod::Soft, .samples = samples, .angle = 0.1f, .spacing = of_lights};
+    options.occlusion = {.samples = samples, .distance = 2, .spacing = of_occlusion};
+    return frame_of(scene, options).color;
+  };
+  EXPECT_TRUE(image(15, 8, 8) == image(15, 1, 1));
+  EXPECT_FALSE(image(16, 8, 1) == image(16, 1, 1));
+  EXPECT_FALSE(image(16, 1, 8) == image(16, 1, 1));
+  // Without lights, those that would be shared have no part in the image.
+  scene.lights.clear();
+  EXPECT_TRUE(image(16, 8, 1) == image(16, 1, 1));
+}
+
 TEST(ShadowsBits, AreTheSameForAllThreadsAndInstructionSets) {
   Scene scene = floating_sphere();
   RenderOptions options;
-  options.shadows = {.method = ShadowMethod::Soft, .samples = 8, .angle = 0.2f};
-  options.occlusion = {.samples = 4};
+  options.shadows = {.method = ShadowMethod::Soft, .angle = 0.2f};
   options.ground = GroundKind::Shadow;
   scene.environment.color = {0.2f, 0.2f, 0.3f};
   for (const int spacing : {1, 8}) {
+    options.shadows.samples = spacing == 1 ? 8 : 16, options.occlusion.samples = spacing == 1 ? 4 : 16;
     options.shadows.spacing = options.occlusion.spacing = spacing;
     const Frame first = with_isa(Isa::Scalar, [&] { return frame_of(scene, options); });
     for (const Isa isa : supported_isas())

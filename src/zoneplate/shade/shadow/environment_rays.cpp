@@ -50,15 +50,14 @@ EnvironmentRays::EnvironmentRays(const EnvironmentView& environment) : kernels_(
   }
 }
 
-EnvironmentRays::Hemisphere::Hemisphere(const EnvironmentRays& rays, float3 normal, int count)
+EnvironmentRays::Hemisphere::Hemisphere(const EnvironmentRays& rays, float3 normal)
     : kernels_(rays.kernels_), frame_{Basis(normal).first, Basis(normal).second, normal} {
   kernels_.look_up(rays.light_.data(), rays.middle_, frame_, light_);
-  float all = 0;
-  for (const float sum : light_.sum) all += sum;
-  step_ = all / static_cast<float>(count);
+  for (const float sum : light_.sum) all_ += sum;
 }
 
-void EnvironmentRays::Hemisphere::begin(std::uint32_t seed) {
+void EnvironmentRays::Hemisphere::begin(std::uint32_t seed, int count) {
+  step_ = all_ / static_cast<float>(count);
   turn_ = hash(seed, 0, 2);
   target_ = step_ * unit_float(hash(seed, 0, 1));
   before_ = 0, ring_ = 0;

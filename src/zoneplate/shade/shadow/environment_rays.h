@@ -35,14 +35,14 @@ class EnvironmentRays {
     using Directions = float[3][HemispherePlaces::capacity];
 
     /// Requires  the normal has unit length.
-    Hemisphere(const EnvironmentRays& rays, float3 normal, int count);
+    Hemisphere(const EnvironmentRays& rays, float3 normal);
 
     bool is_about(float3 normal) const { return frame_[2] == normal; }
     /// Whether light arrives at all.
-    bool is_lit() const { return step_ > 0; }
-    /// Begins the directions of a receiver.
-    void begin(std::uint32_t seed);
-    /// The next ones of `count` directions, of unit length. Requires: light arrives, they have begun, and their number
+    bool is_lit() const { return all_ > 0; }
+    /// Begins the `count` directions of a receiver.
+    void begin(std::uint32_t seed, int count);
+    /// The next ones of the directions, of unit length. Requires: light arrives, they have begun, and their number
     /// is at most HemispherePlaces::capacity.
     void next(int number, Directions& directions);
 
@@ -50,8 +50,9 @@ class EnvironmentRays {
     const HemisphereKernels& kernels_;
     float3 frame_[3];
     HemisphereLight light_;
-    float step_ = 0, target_ = 0, before_ = 0;  ///< of the whole sum; the sum of the rings before the current one
-    std::uint32_t turn_ = 0;                    ///< in units of 2^-32 of a whole one
+    float all_ = 0, step_ = 0, target_ = 0;  ///< the sum of all rings, and of it
+    float before_ = 0;                       ///< the sum of the rings before the current one
+    std::uint32_t turn_ = 0;                 ///< in units of 2^-32 of a whole one
     int ring_ = 0;
   };
 

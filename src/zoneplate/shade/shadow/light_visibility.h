@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "zoneplate/raster/types/batch.h"
@@ -13,7 +14,8 @@ struct Receivers {
   int count = 0;
   /// Light from below the horizon passes through the surfaces; else of_light may give 0 for it.
   bool is_transmissive = false;
-  bool is_ground = false;  ///< on the plane under the scene
+  bool is_ground = false;      ///< on the plane under the scene
+  bool has_half_rays = false;  ///< the numbers of rays are halved
 
   /// On the triangle, or outside of it where interpolated normals describe a convex surface.
   alignas(64) float position[3][capacity];
@@ -28,6 +30,12 @@ struct Receivers {
   /// the triangle; zero where LightVisibility::needs_footprint is false.
   alignas(64) float dx[3][capacity], dy[3][capacity];
 };
+
+/// The square of the sine of the angle between the normals of receiver i.
+inline float bend_of(const Receivers& r, int i) {
+  const float cosine = r.face[0][i] * r.normal[0][i] + r.face[1][i] * r.normal[1][i] + r.face[2][i] * r.normal[2][i];
+  return std::max(1 - cosine * cosine, 0.0f);
+}
 
 /// A pixel, from the top-left corner of the image; it may lie outside of the image.
 struct PixelPosition {

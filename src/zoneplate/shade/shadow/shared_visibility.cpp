@@ -31,10 +31,13 @@ SharedVisibility::Query SharedVisibility::make_query(int spacing, int samples) c
   Query query;
   // Fewer rays cost less than what is interpolated: 4 of eight lights took 0.23 s by themselves, and 0.89 s shared.
   constexpr int fewest = 16;
-  if (samples < fewest) return query;
-  for (int step = spacing; step > 1; step /= 2)
+  if (samples < fewest || spacing == 1) return query;
+  const auto add = [&](int step, int rays) {
     for (Grids* const grids : {&query.surfaces, &query.ground})
-      grids->push_back(std::make_unique<VisibilityGrid>(step, image_.width, image_.height, samples));
+      grids->push_back(std::make_unique<VisibilityGrid>(step, image_.width, image_.height, rays));
+  };
+  for (int step = spacing; step > 2; step /= 2) add(step, samples);
+  add(1, (samples + 1) / 2);
   return query;
 }
 
@@ -53,9 +56,10 @@ void SharedVisibility::of_environment(const Receivers& receivers, float* visible
         visible);
 }
 
-void SharedVisibility::evaluate(bool is_ground, std::span<const PixelPosition> pixels, const Rays& rays,
-                                VisibilityGrid::Value* values) const {
+void SharedVisibility::evaluate(bool is_ground, bool has_half_rays, std::span<const PixelPosition> pixels,
+                                const Rays& rays, VisibilityGrid::Value* values) const {
   Receivers seen{}, lit{};
+  lit.has_half_rays = has_half_rays;
   std::array<bool, FragmentBatch::capacity> found{};
   (is_ground ? image_.ground : image_.surfaces)(pixels, seen, {found.data(), pixels.size()});
   std::array<std::size_t, FragmentBatch::capacity> from;
@@ -65,6 +69,7 @@ void SharedVisibility::evaluate(bool is_ground, std::span<const PixelPosition> p
     if (!found[k]) continue;
     values[k] = {{seen.position[0][k], seen.position[1][k], seen.position[2][k]},
                  {seen.normal[0][k], seen.normal[1][k], seen.normal[2][k]},
+                 bend_of(seen, i),
                  VisibilityGrid::Value::unlit,
                  seen.surface[k]};
     if (!rays.is_lit(seen, i)) continue;
@@ -83,10 +88,10 @@ void SharedVisibility::share(const Query& query, const Receivers& receivers, con
     visible[i] = 0;
     if (rays.is_lit(receivers, i)) open[count++] = i;
   }
-  const auto evaluated = [&](std::span<const PixelPosition> pixels, VisibilityGrid::Value* values) {
-    evaluate(receivers.is_ground, pixels, rays, values);
-  };
   for (const auto& grid : receivers.is_ground ? query.ground : query.surfaces) {
+    const auto evaluated = [&](std::span<const PixelPosition> pixels, VisibilityGrid::Value* values) {
+      evaluate(receivers.is_ground, !grid->has_gaps(), pixels, rays, values);
+    };
     float found[Receivers::capacity];
     grid->interpolate(receivers, {open.data(), count}, evaluated, found);
     std::size_t left = 0;

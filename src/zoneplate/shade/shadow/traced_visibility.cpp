@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <span>
 #include <utility>
 
 #include "zoneplate/math/elementary.h"
@@ -24,6 +25,8 @@ Ray make_ray(float3 origin, float3 direction, float end) {
 
 /// Rays that are traced together.
 constexpr int chunk = HemispherePlaces::capacity;
+
+int number_of(int rays, bool has_half_rays) { return has_half_rays ? (rays + 1) / 2 : rays; }
 
 /// 1 - cos of the angle, without cancellation.
 float height_of(float sine) { return sine * sine / (1 + std::sqrt(std::max(0.0f, 1 - sine * sine))); }
@@ -51,6 +54,7 @@ TracedVisibility::TracedVisibility(const Bvh& bvh, const OpacityOfHits& opacity,
       occlusion_(occlusion),
       lattice_(shadows.method == ShadowMethod::Soft ? shadows.samples : 0),
       hemisphere_(occlusion.samples),
+      half_hemisphere_(number_of(occlusion.samples, true)),
       kernels_(RayKernels::of()) {
   for (std::size_t k = 0; k < lights_.size(); ++k) {
     if (lights_[k].kind != LightKind::Directional) continue;
@@ -71,26 +75,51 @@ TracedVisibility::SeenLight TracedVisibility::see(std::size_t k, float3 from) co
   return {normalize(path, {0, 0, 1}), distance, height_of(sine)};
 }
 
-/// The mean over rays ray(0), ray(1), ... of what each of them sees. The first quarter of the rays are the only ones
-/// where all of these see the same.
+/// The mean over rays ray(i, 0), ray(i, 1), ... of what each of them sees, for receivers i. The first quarter of all
+/// rays, also where half of them are traced, are the only ones where all of these see the same. Rays of successive
+/// receivers are traced together.
 template <class MakeRay>
-float TracedVisibility::mean_visibility(const MakeRay& ray) const {
-  Ray rays[chunk];
-  float visible[chunk];
-  float sum = 0, least = 1, greatest = 0;
-  const int samples = shadows_.samples, probes = std::max(1, samples / 4);
-  for (int first = 0; first < samples;) {
-    const int count = std::min(chunk, (first < probes ? probes : samples) - first);
-    for (int i = 0; i < count; ++i) rays[i] = ray(static_cast<std::uint32_t>(first + i));
-    kernels_.visibility(bvh_, rays, static_cast<std::size_t>(count), opacity_, visible);
-    for (int i = 0; i < count; ++i) {
-      sum += visible[i];
-      least = std::min(least, visible[i]), greatest = std::max(greatest, visible[i]);
+void TracedVisibility::find_means(std::span<const int> which, bool has_half_rays, const MakeRay& ray,
+                                  float* visible) const {
+  struct Sum {
+    float all = 0, least = 1, greatest = 0;
+    bool is_even() const { return least == greatest && (least == 0 || least == 1); }
+  };
+  Sum sums[Receivers::capacity];
+  const auto trace = [&](std::span<const int> some, int first, int end) {
+    Ray rays[chunk];
+    int from[chunk];
+    float seen[chunk];
+    int count = 0;
+    const auto add = [&] {
+      kernels_.visibility(bvh_, rays, static_cast<std::size_t>(count), opacity_, seen);
+      for (int n = 0; n < count; ++n) {
+        Sum& sum = sums[from[n]];
+        sum.all += seen[n];
+        sum.least = std::min(sum.least, seen[n]), sum.greatest = std::max(sum.greatest, seen[n]);
+      }
+      count = 0;
+    };
+    for (const int i : some) {
+      const auto of_receiver = ray(i);
+      for (int s = first; s < end; ++s) {
+        from[count] = i, rays[count++] = of_receiver(static_cast<std::uint32_t>(s));
+        if (count == chunk) add();
+      }
     }
-    first += count;
-    if (first == probes && least == greatest && (least == 0 || least == 1)) return least;
+    add();
+  };
+  const int samples = number_of(shadows_.samples, has_half_rays);
+  const int probes = std::max(1, shadows_.samples / 4);
+  trace(which, 0, probes);
+  int uneven[Receivers::capacity];
+  std::size_t count = 0;
+  for (const int i : which) {
+    if (!sums[i].is_even()) uneven[count++] = i;
+    visible[i] = sums[i].least;
   }
-  return sum / static_cast<float>(samples);
+  trace({uneven, count}, probes, samples);
+  for (std::size_t n = 0; n < count; ++n) visible[uneven[n]] = sums[uneven[n]].all / static_cast<float>(samples);
 }
 
 bool TracedVisibility::is_lit(int k, const Receivers& receivers, int i) const {
@@ -101,35 +130,43 @@ bool TracedVisibility::is_lit(int k, const Receivers& receivers, int i) const {
 void TracedVisibility::of_light(int k, const Receivers& receivers, float* visible) const {
   if (shadows_.method == ShadowMethod::None) return std::fill_n(visible, receivers.count, 1.0f), void();
   const Light& light = lights_[static_cast<std::size_t>(k)];
-  Ray rays[Receivers::capacity];
   int lit[Receivers::capacity];
+  float3 origins[Receivers::capacity];
+  SeenLight seen[Receivers::capacity];
   int count = 0;
   for (int i = 0; i < receivers.count; ++i) {
-    float3 origin = origin_of(receivers, i, 1);
-    const SeenLight seen = see(static_cast<std::size_t>(k), origin);
+    origins[i] = origin_of(receivers, i, 1);
+    seen[i] = see(static_cast<std::size_t>(k), origins[i]);
     visible[i] = 0;
-    if (!(dot(at(receivers.normal, i), seen.direction) > 0)) {
+    if (!(dot(at(receivers.normal, i), seen[i].direction) > 0)) {
       if (!receivers.is_transmissive) continue;
-      origin = origin_of(receivers, i, -1);
+      origins[i] = origin_of(receivers, i, -1);
     }
-    if (shadows_.method == ShadowMethod::Hard) {
-      const bool is_far = light.kind == LightKind::Directional;
-      rays[count] =
-          is_far ? make_ray(origin, seen.direction, seen.distance) : make_ray(origin, light.position - origin, 1);
-      lit[count++] = i;
-      continue;
-    }
-    const ShiftedDisc disc(lattice_, receivers.seed[i], static_cast<std::uint32_t>(k) + 1);
-    const DirectionsAbout directions(seen.direction);
-    const float3 dx = at(receivers.dx, i), dy = at(receivers.dy, i);
-    visible[i] = mean_visibility([&](std::uint32_t s) {
-      const ShiftedDisc::Point p = disc(s);
-      return make_ray(origin + dx * p.x + dy * p.y, directions.of_cone(p, seen.height), seen.distance);
-    });
+    lit[count++] = i;
   }
-  float seen[Receivers::capacity];
-  kernels_.visibility(bvh_, rays, static_cast<std::size_t>(count), opacity_, seen);
-  for (int i = 0; i < count; ++i) visible[lit[i]] = seen[i];
+  const std::span<const int> which{lit, static_cast<std::size_t>(count)};
+  if (shadows_.method == ShadowMethod::Hard) {
+    Ray rays[Receivers::capacity];
+    float found[Receivers::capacity];
+    const bool is_far = light.kind == LightKind::Directional;
+    for (std::size_t n = 0; n < which.size(); ++n) {
+      const int i = which[n];
+      rays[n] = is_far ? make_ray(origins[i], seen[i].direction, seen[i].distance)
+                       : make_ray(origins[i], light.position - origins[i], 1);
+    }
+    kernels_.visibility(bvh_, rays, which.size(), opacity_, found);
+    for (std::size_t n = 0; n < which.size(); ++n) visible[which[n]] = found[n];
+    return;
+  }
+  const auto ray = [&](int i) {
+    return [&, i, disc = ShiftedDisc(lattice_, receivers.seed[i], static_cast<std::uint32_t>(k) + 1),
+            directions = DirectionsAbout(seen[i].direction)](std::uint32_t s) {
+      const ShiftedDisc::Point p = disc(s);
+      return make_ray(origins[i] + at(receivers.dx, i) * p.x + at(receivers.dy, i) * p.y,
+                      directions.of_cone(p, seen[i].height), seen[i].distance);
+    };
+  };
+  find_means(which, receivers.has_half_rays, ray, visible);
 }
 
 /// The mean over directions of a density proportional to the cosine.
@@ -140,26 +177,27 @@ float TracedVisibility::of_uniform_light(const Receivers& receivers, int i, floa
     for (int s = 0; s < count; ++s) rays[s] = make_ray(origin, directions.of_cosine(points[s]), occlusion_.distance);
     kernels_.visibility_below(bvh_, top, rays, static_cast<std::size_t>(count), opacity_, visible);
   };
-  return hemisphere_.mean(receivers.seed[i], std::ref(see));
+  return (receivers.has_half_rays ? half_hemisphere_ : hemisphere_).mean(receivers.seed[i], std::ref(see));
 }
 
 /// The mean over equal parts of the environment's irradiance.
-float TracedVisibility::of_rays(EnvironmentRays::Hemisphere& light, std::uint32_t seed, float3 origin,
+float TracedVisibility::of_rays(EnvironmentRays::Hemisphere& light, const Receivers& receivers, int i, float3 origin,
                                 const BvhTop& top) const {
   Ray rays[chunk];
   float seen[chunk];
   if (!light.is_lit() || top.count == 0) return 1;
-  light.begin(seed);
+  const int samples = number_of(occlusion_.samples, receivers.has_half_rays);
+  light.begin(receivers.seed[i], samples);
   float sum = 0;
-  for (int first = 0; first < occlusion_.samples; first += chunk) {
-    const int count = std::min(chunk, occlusion_.samples - first);
+  for (int first = 0; first < samples; first += chunk) {
+    const int count = std::min(chunk, samples - first);
     EnvironmentRays::Hemisphere::Directions d;
     light.next(count, d);
     for (int s = 0; s < count; ++s) rays[s] = make_ray(origin, {d[0][s], d[1][s], d[2][s]}, occlusion_.distance);
     kernels_.visibility_below(bvh_, top, rays, static_cast<std::size_t>(count), opacity_, seen);
     for (int s = 0; s < count; ++s) sum += seen[s];
   }
-  return sum / static_cast<float>(occlusion_.samples);
+  return sum / static_cast<float>(samples);
 }
 
 void TracedVisibility::of_environment(const Receivers& receivers, float* visible) const {
@@ -175,8 +213,8 @@ void TracedVisibility::of_environment(const Receivers& receivers, float* visible
       continue;
     }
     // The neighbours on a plane have the same normal.
-    if (!light || !light->is_about(normal)) light.emplace(*environment_, normal, occlusion_.samples);
-    visible[i] = of_rays(*light, receivers.seed[i], origin, top);
+    if (!light || !light->is_about(normal)) light.emplace(*environment_, normal);
+    visible[i] = of_rays(*light, receivers, i, origin, top);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "zoneplate/ray/trace.h"
@@ -20,8 +21,9 @@ namespace zoneplate {
 ///
 /// A light with an extent is a sphere (point, spot) or a distant disc (directional), seen from the receiver as a cone
 /// of directions; its part that is visible is the mean over rays of a uniform density in solid angle. The first quarter
-/// of the rays to a light decides alone where none or all of them are blocked. The rays begin all over the part of the
-/// pixel that the triangle covers, which filters the edge of a shadow that is sharper than a pixel.
+/// of all rays to a light, also where half of them are traced, decides alone where none or all of them are blocked. The
+/// rays begin all over the part of the pixel that the triangle covers, which filters the edge of a shadow that is
+/// sharper than a pixel.
 /// Exact     the same bits for any number of threads and any instruction set: the rays depend on the receiver's position
 ///           in the image, the light and the options only.
 class TracedVisibility : public LightVisibility {
@@ -50,9 +52,10 @@ class TracedVisibility : public LightVisibility {
   };
   SeenLight see(std::size_t k, float3 from) const;
   template <class MakeRay>
-  float mean_visibility(const MakeRay& ray) const;
+  void find_means(std::span<const int> which, bool has_half_rays, const MakeRay& ray, float* visible) const;
   float of_uniform_light(const Receivers& receivers, int i, float3 origin, const BvhTop& top) const;
-  float of_rays(EnvironmentRays::Hemisphere& light, std::uint32_t seed, float3 origin, const BvhTop& top) const;
+  float of_rays(EnvironmentRays::Hemisphere& light, const Receivers& receivers, int i, float3 origin,
+                const BvhTop& top) const;
 
   BvhView bvh_;
   Box bounds_;  ///< of all casters
@@ -64,7 +67,7 @@ class TracedVisibility : public LightVisibility {
   OcclusionOptions occlusion_;
   std::optional<EnvironmentRays> environment_;  ///< none: light from all sides alike
   DiscLattice lattice_;                         ///< of rays to lights
-  AdaptiveDisc hemisphere_;                     ///< of rays to light from all sides
+  AdaptiveDisc hemisphere_, half_hemisphere_;   ///< of rays to light from all sides
   const RayKernels& kernels_;
 };
 

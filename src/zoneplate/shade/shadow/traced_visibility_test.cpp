@@ -273,5 +273,76 @@ TEST(TracedVisibilityBits, AreTheSameForAllInstructionSets) {
   }
 }
 
+/// The receivers `from` and on of those at points of a plane.
+Receivers receivers_at(const PlanePoints& plane, int from, int count, bool is_half) {
+  Receivers r{};
+  r.count = count, r.has_half_rays = is_half;
+  for (int i = 0; i < count; ++i) {
+    const float3 p = plane.points[static_cast<std::size_t>(from + i)];
+    r.position[0][i] = p.x, r.position[1][i] = p.y, r.position[2][i] = p.z;
+    r.face[1][i] = r.normal[1][i] = 1, r.margin[i] = 1e-6f;
+    r.seed[i] = hash(static_cast<std::uint32_t>(from + i), 7);
+  }
+  return r;
+}
+
+// Rays of several receivers are traced together.
+TEST(TracedVisibilityBits, DoNotDependOnTheOtherReceivers) {
+  const TestMesh sphere = standing_sphere(40);
+  const Bvh bvh(std::vector{sphere.caster()});
+  Light light = sun_from({1, 1.5f, -0.4f});
+  light.radius = 0.2f;
+  const PlanePoints plane(15, 3);
+  for (const int samples : {1, 5, 64, 100})
+    for (const bool is_half : {false, true}) {
+      const TracedVisibility visibility(bvh, {}, {light}, {.method = ShadowMethod::Soft, .samples = samples}, {});
+      float together[Receivers::capacity], alone[Receivers::capacity];
+      visibility.of_light(0, receivers_at(plane, 0, 225, is_half), together);
+      for (int i = 0; i < 225; ++i) {
+        visibility.of_light(0, receivers_at(plane, i, 1, is_half), alone);
+        ASSERT_EQ(alone[0], together[i]) << samples << ' ' << is_half;
+      }
+    }
+}
+
+// Fewer rays have the same mean and a greater error.
+TEST(TracedVisibility, HalfOfTheRaysHaveNoBias) {
+  const TestMesh sphere = standing_sphere(40);
+  const Bvh bvh(std::vector{sphere.caster()});
+  Light light = sun_from({1, 1.5f, -0.4f});
+  light.radius = 0.2f;
+  Plane<float4> half(64, 32);
+  for (int y = 0; y < 32; ++y)
+    for (int x = 0; x < 32; ++x) half(x, y) = {1, 1, 1, 1};
+  const PreparedEnvironment one_side = prepare_equirectangular(TexelImage(std::move(half)));
+  const EnvironmentView view = one_side.view({.color = {1, 1, 1}}, {0, 1, 0});
+  const PlanePoints plane(15, 2);
+  for (const EnvironmentView* environment : {static_cast<const EnvironmentView*>(nullptr), &view})
+    for (const bool is_occlusion : {false, true}) {
+      const auto seen = [&](int samples, bool is_half) {
+        const TracedVisibility visibility(bvh, {}, {light}, {.method = ShadowMethod::Soft, .samples = samples},
+                                          {.samples = samples, .distance = 1e6f}, environment);
+        std::vector<float> out(Receivers::capacity);
+        const Receivers receivers = receivers_at(plane, 0, 225, is_half);
+        is_occlusion ? visibility.of_environment(receivers, out.data()) : visibility.of_light(0, receivers, out.data());
+        out.resize(225);
+        return out;
+      };
+      const std::vector<float> reference = seen(4096, false);
+      double last = 0;
+      for (const bool is_half : {false, true}) {
+        const std::vector<float> found = seen(64, is_half);
+        double sum = 0, squares = 0;
+        for (std::size_t i = 0; i < found.size(); ++i)
+          sum += found[i] - reference[i], squares += std::pow(found[i] - reference[i], 2);
+        EXPECT_LT(std::abs(sum) / 225, 0.005) << is_half;
+        const double error = std::sqrt(squares / 225);
+        EXPECT_GT(error, last) << is_half;
+        EXPECT_LT(error, 0.06) << is_half;
+        last = error;
+      }
+    }
+}
+
 }  // namespace
 }  // namespace zoneplate

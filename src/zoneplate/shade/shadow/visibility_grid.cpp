@@ -29,6 +29,7 @@ struct VisibilityGrid::Point {
   std::array<std::atomic<std::int32_t>, 2> pixel;
   std::atomic<float> visible = Value::nothing;
   std::array<std::atomic<float>, 3> position, normal;
+  std::atomic<float> bend;
   std::atomic<std::uint32_t> surface;
 
   void store(const Value& v, PixelPosition at) {
@@ -39,6 +40,7 @@ struct VisibilityGrid::Point {
       to[2].store(from.z, std::memory_order_relaxed);
     };
     put(position, v.position), put(normal, v.normal);
+    bend.store(v.bend, std::memory_order_relaxed);
     surface.store(v.surface, std::memory_order_relaxed);
     visible.store(v.visible, std::memory_order_relaxed);
     is_known.store(true, std::memory_order_release);
@@ -46,15 +48,16 @@ struct VisibilityGrid::Point {
 };
 
 struct VisibilityGrid::Block {
-  std::array<Point, std::size_t{block_side} * block_side * GridNeighbours::max_per_cell> points;
+  std::vector<Point> points;
 };
 
 VisibilityGrid::VisibilityGrid(int step, int w, int h, int rays)
     : step_(step),
+      rise_(step > 1 ? 1 : 0),
       per_cell_(step > 2 ? GridNeighbours::max_per_cell : 1),
-      noise_(evenness / static_cast<float>(rays)),
+      density_{evenness / static_cast<float>(rays), step > 1},
       kernels_(GridFitKernels::of()) {
-  const int det = step * step + 1;
+  const int det = step * step + rise_;
   // Those about the cells of positions in the image, which are half a pixel beyond the outer pixels' centres.
   first_i_ = -2, first_j_ = quotient(-w - step, det) - 1;
   const int last_i = (step * w + h) / det + width, last_j = step * h / det + width;
@@ -71,8 +74,8 @@ VisibilityGrid::~VisibilityGrid() {
 
 VisibilityGrid::Cell VisibilityGrid::cell_of(const Receivers& receivers, int k) const {
   constexpr int unit = 256;
-  const int x = receivers.x[k] - unit / 2, y = receivers.y[k] - unit / 2, whole = unit * (step_ * step_ + 1);
-  const int along = step_ * x + y, down = step_ * y - x;
+  const int x = receivers.x[k] - unit / 2, y = receivers.y[k] - unit / 2, whole = unit * (step_ * step_ + rise_);
+  const int along = step_ * x + rise_ * y, down = step_ * y - rise_ * x;
   const int i = quotient(along, whole), j = quotient(down, whole);
   const float scale = 1 / static_cast<float>(whole);
   return {i, j, static_cast<float>(along - i * whole) * scale, static_cast<float>(down - j * whole) * scale, k};
@@ -85,8 +88,8 @@ PixelPosition VisibilityGrid::pixel_of(int i, int j, int n) const {
         hash(static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j), static_cast<std::uint32_t>(2 * n + axis));
     return from + static_cast<int>(random % static_cast<std::uint32_t>(to - from));
   };
-  return {step_ * i - j + place(step_ * n / per_cell_, step_ * (n + 1) / per_cell_, 0) - step_ / 2,
-          i + step_ * j + place(0, step_, 1) - step_ / 2};
+  return {step_ * i - rise_ * j + place(step_ * n / per_cell_, step_ * (n + 1) / per_cell_, 0) - step_ / 2,
+          rise_ * i + step_ * j + place(0, step_, 1) - step_ / 2};
 }
 
 /// The first thread that needs a block makes it.
@@ -97,11 +100,12 @@ VisibilityGrid::Point& VisibilityGrid::point(int i, int j, int n) {
       blocks_[std::size_t{row / block_side} * static_cast<std::size_t>(row_) + column / block_side];
   Block* found = block.load(std::memory_order_acquire);
   if (found == nullptr) {
-    auto made = growing("sharing of visibility", [] { return std::make_unique<Block>(); });
+    auto made = growing("sharing of visibility", [&] {
+      return std::make_unique<Block>(Block{std::vector<Point>(std::size_t{block_side} * block_side * per_cell())});
+    });
     if (block.compare_exchange_strong(found, made.get(), std::memory_order_acq_rel)) found = made.release();
   }
-  return found->points[(row % block_side * block_side + column % block_side) * GridNeighbours::max_per_cell +
-                       static_cast<unsigned>(n)];
+  return found->points[(row % block_side * block_side + column % block_side) * per_cell() + static_cast<unsigned>(n)];
 }
 
 /// The cells are in order.
@@ -144,20 +148,21 @@ void VisibilityGrid::evaluate_missing(std::span<const Cell> cells, const Evaluat
 
 GridNeighbours VisibilityGrid::neighbours_of(const Cell& cell) {
   GridNeighbours out;
-  const float scale = 1 / static_cast<float>(step_ * step_ + 1);
+  const float scale = 1 / static_cast<float>(step_ * step_ + rise_);
   int& k = out.count;
   for (int j = cell.j - 1; j < cell.j - 1 + width; ++j)
     for (int i = cell.i - 1; i < cell.i - 1 + width; ++i)
       for (int n = 0; n < per_cell_; ++n, ++k) {
         const Point& p = point(i, j, n);
         const int x = p.pixel[0].load(std::memory_order_relaxed), y = p.pixel[1].load(std::memory_order_relaxed);
-        out.x[k] = static_cast<float>(step_ * x + y) * scale - static_cast<float>(cell.i);
-        out.y[k] = static_cast<float>(step_ * y - x) * scale - static_cast<float>(cell.j);
+        out.x[k] = static_cast<float>(step_ * x + rise_ * y) * scale - static_cast<float>(cell.i);
+        out.y[k] = static_cast<float>(step_ * y - rise_ * x) * scale - static_cast<float>(cell.j);
         out.surface[k] = static_cast<std::int32_t>(p.surface.load(std::memory_order_relaxed));
         for (std::size_t c = 0; c < 3; ++c) {
           out.position[c][k] = p.position[c].load(std::memory_order_relaxed);
           out.normal[c][k] = p.normal[c].load(std::memory_order_relaxed);
         }
+        out.bend[k] = p.bend.load(std::memory_order_relaxed);
         out.visible[k] = p.visible.load(std::memory_order_relaxed);
       }
   return out;
@@ -194,10 +199,11 @@ void VisibilityGrid::interpolate(const Receivers& receivers, std::span<const int
       of_cell.u[n] = same[n].u, of_cell.v[n] = same[n].v;
       for (std::size_t c = 0; c < 3; ++c)
         of_cell.position[c][n] = receivers.position[c][k], of_cell.normal[c][n] = receivers.normal[c][k];
+      of_cell.bend[n] = bend_of(receivers, k);
       of_cell.surface[n] = static_cast<std::int32_t>(receivers.surface[k]);
     }
     float fitted[GridReceivers::capacity];
-    kernels_.fit(near, of_cell, noise_, fitted);
+    kernels_.fit(near, of_cell, density_, fitted);
     for (std::size_t n = 0; n < same.size(); ++n) visible[same[n].receiver] = fitted[n];
   }
 }

@@ -17,15 +17,15 @@ namespace zoneplate {
 /// The visibility of one light at some pixels of the image, from which that of the fragments between is interpolated.
 ///
 /// Two pixels lie in every cell of a square lattice whose rows rise one pixel in `step`, or one where `step` is 2, each
-/// at a place that a hash of the cell's indices chooses, so that shadows of one period cannot lie between them. A pixel
-/// is evaluated when the first fragment near it asks, for the surface that its centre shows, whoever asks: what a
-/// fragment gets depends on its position, its surface and the scene only.
+/// at a place that a hash of the cell's indices chooses, so that shadows of one period cannot lie between them. Where
+/// `step` is 1, they are all pixels. A pixel is evaluated when the first fragment near it asks, for the surface that
+/// its centre shows, whoever asks: what a fragment gets depends on its position, its surface and the scene only.
 ///
 /// A fragment uses the pixels of the 4 × 4 nearest cells that lie on its surface: of the same instance, with a normal
-/// that differs by less than 11.5 degrees, and in each other's tangent planes as far as those of a smooth surface are,
+/// that differs by less than 18.2 degrees, and in each other's tangent planes as far as those of a smooth surface are,
 /// which points of two parallel surfaces are not. A plane is fitted to their values, weighted by a cubic B-spline, and
-/// gives the fragment's value if they lie close to it, and if none of the others lies close above the surface, whose
-/// shadow may begin between them.
+/// gives the fragment's value if they lie close to it. Where pixels lie between them, none of the others may lie close
+/// above the surface: its shadow may begin there.
 ///
 /// Exact     the same for any number of threads, instruction set and crop.
 /// Source    Ward, Rubinstein and Clear, A Ray Tracing Solution for Diffuse Interreflection, SIGGRAPH 1988, with moving
@@ -36,6 +36,7 @@ class VisibilityGrid {
   /// What a pixel shows, and the part of the light that reaches it.
   struct Value {
     float3 position, normal;
+    float bend = 0;  ///< as GridNeighbours::bend
     float visible = nothing;
     std::uint32_t surface = 0;  ///< as Receivers::surface
     static constexpr float nothing = GridNeighbours::nothing, unlit = GridNeighbours::unlit;
@@ -48,6 +49,9 @@ class VisibilityGrid {
   ~VisibilityGrid();
   VisibilityGrid(const VisibilityGrid&) = delete;
   VisibilityGrid& operator=(const VisibilityGrid&) = delete;
+
+  /// Whether it does not have all pixels.
+  bool has_gaps() const { return density_.has_gaps; }
 
   /// Stores the interpolated values at these receivers, Value::nothing where the points around one do not determine it.
   /// Points that are not known yet are evaluated. Any thread may call it at any time.
@@ -64,14 +68,15 @@ class VisibilityGrid {
     int receiver;
     bool is_that_of(const Cell& other) const { return i == other.i && j == other.j; }
   };
+  std::size_t per_cell() const { return static_cast<std::size_t>(per_cell_); }
   Cell cell_of(const Receivers& receivers, int i) const;
   PixelPosition pixel_of(int i, int j, int n) const;
   Point& point(int i, int j, int n);
   void evaluate_missing(std::span<const Cell> cells, const Evaluate& evaluate);
   GridNeighbours neighbours_of(const Cell& cell);
 
-  int step_, per_cell_;          ///< pixels between the lattice's points; pixels of a cell
-  float noise_;                  ///< the variance of a value of 1/2 by its rays, times 4
+  int step_, rise_, per_cell_;  ///< pixels between the lattice's points; the rise of its rows; pixels of a cell
+  GridDensity density_;
   int first_i_, first_j_, row_;  ///< of the blocks: the least indices of cells, and the blocks of a row
   std::vector<std::atomic<Block*>> blocks_;
   const GridFitKernels& kernels_;

@@ -23,7 +23,7 @@ using Surface = std::function<Value(float x, float y)>;
 
 /// A plane across the view with this visibility.
 Surface plane_with(std::function<float(float x, float y)> visible) {
-  return [=](float x, float y) { return Value{{x, y, 0}, {0, 0, 1}, visible(x, y)}; };
+  return [=](float x, float y) { return Value{{x, y, 0}, {0, 0, 1}, 0, visible(x, y)}; };
 }
 
 struct Asked {
@@ -49,6 +49,7 @@ Asked ask(VisibilityGrid& grid, const Surface& surface, const std::vector<float2
       r.x[i] = static_cast<std::int32_t>(256 * p.x), r.y[i] = static_cast<std::int32_t>(256 * p.y);
       r.position[0][i] = shown.position.x, r.position[1][i] = shown.position.y, r.position[2][i] = shown.position.z;
       r.surface[i] = shown.surface;
+      r.face[0][i] = shown.normal.x, r.face[1][i] = shown.normal.y, r.face[2][i] = shown.normal.z;
       r.normal[0][i] = shown.normal.x, r.normal[1][i] = shown.normal.y, r.normal[2][i] = shown.normal.z;
     }
     std::vector<int> which(static_cast<std::size_t>(r.count));
@@ -72,7 +73,7 @@ std::vector<float2> random_places(std::uint32_t count) {
 
 TEST(VisibilityGrid, ReproducesWhatIsLinear) {
   const auto visible = [](float x, float y) { return 0.2f + 0.004f * x + 0.003f * y; };
-  for (const int step : {2, 4, 8}) {
+  for (const int step : {1, 2, 4, 8}) {
     VisibilityGrid grid(step, side, side, rays);
     const std::vector<float2> places = random_places(2000);
     const Asked asked = ask(grid, plane_with(visible), places);
@@ -123,31 +124,58 @@ TEST(VisibilityGrid, LeavesEdgesToRays) {
 // Two planes meet, or lie behind each other: neither takes values of the other.
 TEST(VisibilityGrid, KeepsSurfacesApart) {
   const Surface corner = [](float x, float y) {
-    return x < 48 ? Value{{x, y, 0}, {0, 0, 1}, 0.25f} : Value{{48, y, 48 - x}, {-1, 0, 0}, 0.75f};
+    return x < 48 ? Value{{x, y, 0}, {0, 0, 1}, 0, 0.25f} : Value{{48, y, 48 - x}, {-1, 0, 0}, 0, 0.75f};
   };
   const Surface stairs = [](float x, float y) {
-    return x < 48 ? Value{{x, y, 0}, {0, 0, 1}, 0.25f} : Value{{x, y, -9}, {0, 0, 1}, 0.75f};
+    return x < 48 ? Value{{x, y, 0}, {0, 0, 1}, 0, 0.25f} : Value{{x, y, -9}, {0, 0, 1}, 0, 0.75f};
   };
   const Surface sheets = [](float x, float y) {  // a gap of a pixel
-    return x < 48 ? Value{{x, y, 0}, {0, 0, 1}, 0.25f} : Value{{x, y, -1}, {0, 0, 1}, 0.75f};
+    return x < 48 ? Value{{x, y, 0}, {0, 0, 1}, 0, 0.25f} : Value{{x, y, -1}, {0, 0, 1}, 0, 0.75f};
   };
   const Surface instances = [](float x, float y) {
-    return x < 48 ? Value{{x, y, 0}, {0, 0, 1}, 0.25f, 3} : Value{{x, y, 0}, {0, 0, 1}, 0.75f, 4};
+    return x < 48 ? Value{{x, y, 0}, {0, 0, 1}, 0, 0.25f, 3} : Value{{x, y, 0}, {0, 0, 1}, 0, 0.75f, 4};
   };
-  for (const Surface& surface : {corner, stairs, sheets, instances}) {
-    VisibilityGrid grid(4, side, side, rays);
-    const std::vector<float2> places = random_places(4000);
-    const Asked asked = ask(grid, surface, places);
-    int beside = 0;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-      if (asked.values[i] == Value::nothing) {
-        ASSERT_LT(std::abs(places[i].x - 48), 10);
-        continue;
+  for (const int step : {1, 4})
+    for (const Surface& surface : {corner, stairs, sheets, instances}) {
+      VisibilityGrid grid(step, side, side, rays);
+      const std::vector<float2> places = random_places(4000);
+      const Asked asked = ask(grid, surface, places);
+      int beside = 0;
+      for (std::size_t i = 0; i < places.size(); ++i) {
+        if (asked.values[i] == Value::nothing) {
+          ASSERT_LT(std::abs(places[i].x - 48), 10);
+          continue;
+        }
+        ASSERT_NEAR(asked.values[i], places[i].x < 48 ? 0.25f : 0.75f, 0.01f);
+        beside += std::abs(places[i].x - 48) < static_cast<float>(step);
       }
-      ASSERT_NEAR(asked.values[i], places[i].x < 48 ? 0.25f : 0.75f, 0.01f);
-      beside += std::abs(places[i].x - 48) < 4;
+      EXPECT_GT(beside, step == 1 ? 50 : 100);
     }
-    EXPECT_GT(beside, 100);
+}
+
+// Spheres of any size on the screen, to their outline.
+TEST(VisibilityGrid, FollowsCurvedSurfaces) {
+  for (const float radius : {10.0f, 20.0f, 40.0f}) {
+    const Surface sphere = [=](float x, float y) {
+      const float3 n{(x - 48) / radius, (y - 48) / radius, 0};
+      const float rest = 1 - dot(n, n);
+      if (rest <= 0) return Value{};
+      const float3 normal{n.x, n.y, std::sqrt(rest)};
+      return Value{normal * radius, normal, 0, 0.6f + 0.3f * normal.x + 0.1f * normal.z};
+    };
+    VisibilityGrid grid(1, side, side, rays);
+    std::vector<float2> places;
+    for (const float2 p : random_places(6000))
+      if (sphere(p.x, p.y).visible >= 0) places.push_back(p);
+    const Asked asked = ask(grid, sphere, places);
+    int unknown = 0;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      if (asked.values[i] == Value::nothing)
+        ++unknown;
+      else
+        ASSERT_NEAR(asked.values[i], sphere(places[i].x, places[i].y).visible, 0.03f) << radius;
+    }
+    EXPECT_LT(unknown, static_cast<int>(places.size()) / 8) << radius;
   }
 }
 
@@ -174,7 +202,7 @@ TEST(VisibilityGrid, DoesNotLosePeriodicShadows) {
 
 // Samples lie anywhere in the outer pixels of images of any size.
 TEST(VisibilityGrid, ReachesTheBordersOfEverySize) {
-  for (const int step : {2, 3, 4, 8, 64})
+  for (const int step : {1, 2, 3, 4, 8, 64})
     for (int width = 1; width <= 70; ++width) {
       const int height = 1 + (width * 37) % 70;
       VisibilityGrid grid(step, width, height, rays);
@@ -200,6 +228,12 @@ TEST(VisibilityGridBits, DoNotDependOnTheOrder) {
   Asked reversed = ask(other, surface, places, 7);
   std::reverse(reversed.values.begin(), reversed.values.end());
   EXPECT_EQ(asked.values, reversed.values);
+
+  // All pixels, with those beside the image, once.
+  VisibilityGrid all(1, side, side, rays);
+  const std::size_t pixels = ask(all, surface, places).evaluated.size();
+  EXPECT_GT(pixels, side * side * 9 / 10u);
+  EXPECT_LE(pixels, (side + 4) * (side + 4));
 
   // Two pixels of a cell of 17 are evaluated, once.
   EXPECT_EQ(asked.evaluated.size(), reversed.evaluated.size());
