@@ -2,7 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
+#include "zoneplate/math/box.h"
 #include "zoneplate/scene/scene.h"
 
 #pragma GCC visibility push(default)
@@ -38,6 +40,12 @@ View facing_front(const Scene& scene, const View& view, float aspect);
 /// Errors    ErrorKind::Usage for an index outside the scene's cameras, a position equal to the focal point, or a lens with
 ///           an orthographic camera.
 Camera choose_camera(const Scene& scene, const View& view, float aspect);
+
+/// The directions in which the farthest vertices of a scene with these bounds decide its camera: choose_camera of the
+/// scene is that of points with the same bounds and the same farthest ones, in the same order.
+///
+/// Requires  a view of no camera of the scene, and double-sided surfaces.
+std::vector<float3> view_directions(const Box& bounds, const View& view, float aspect);
 
 /// The same view with near and far planes that also enclose the part of a scene in front of the camera. Planes that do
 /// so already stay as they are. An orthographic camera moves back until all of the scene is in front of it.

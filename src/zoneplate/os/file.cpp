@@ -175,6 +175,24 @@ FileBytes::FileBytes(int fd, const std::string& path, std::uint64_t limit) {
   bytes_ = read_all(fd, path, limit);
 }
 
+FileBytes FileBytes::reclaimable(const std::string& path) {
+  const Descriptor file(open_to_read(path));
+  struct stat status {};
+  if (file.fd() < 0 || ::fstat(file.fd(), &status) != 0) throw read_error(path, cause_of(errno));
+  check_kind(path, status);
+  check_is_fetched(file.fd(), path, status);
+  FileBytes out;
+  if (!S_ISREG(status.st_mode) || status.st_size <= 0) throw read_error(path, "not a file with contents");
+  const auto size = static_cast<std::uint64_t>(status.st_size);
+  // A mapping that is only read is no data of the process (RLIMIT_DATA).
+  void* place = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.fd(), 0);
+  if (place == MAP_FAILED) throw read_error(path, cause_of(errno));
+  out.bytes_ = {static_cast<const std::uint8_t*>(place), size};
+  out.mapped_ = true;
+  enter_mapping(place, size);
+  return out;
+}
+
 void read_parts(const std::string& path, const std::function<bool(std::span<const std::uint8_t>)>& take) {
   const bool is_stdin = path == "-";
   const Descriptor file(is_stdin ? -1 : open_to_read(path));
@@ -199,12 +217,15 @@ FileBytes::~FileBytes() {
   }
 }
 
-void FileBytes::forget(const void* part, std::size_t size) const {
+void FileBytes::advise(const void* part, std::size_t size, int advice) const {
   constexpr std::uintptr_t page = 4096;
   const auto begin = (reinterpret_cast<std::uintptr_t>(part) + page - 1) / page * page;
   const auto end = (reinterpret_cast<std::uintptr_t>(part) + size) / page * page;
-  if (mapped_ && begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, MADV_DONTNEED);
+  if (mapped_ && begin < end) ::madvise(reinterpret_cast<void*>(begin), end - begin, advice);
 }
+
+void FileBytes::forget(const void* part, std::size_t size) const { advise(part, size, MADV_DONTNEED); }
+void FileBytes::read_ahead(const void* part, std::size_t size) const { advise(part, size, MADV_WILLNEED); }
 
 FileBytes::FileBytes(FileBytes&& other) noexcept
     : bytes_(std::exchange(other.bytes_, {})), mapped_(std::exchange(other.mapped_, false)) {}

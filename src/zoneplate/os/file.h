@@ -21,6 +21,9 @@ namespace zoneplate {
 class FileBytes {
  public:
   explicit FileBytes(const std::string& path, std::uint64_t limit = ~std::uint64_t{0});
+  /// The contents of a file that may be larger than memory: its pages are not memory of the process, since the system
+  /// may reclaim each of them at any time. Only regular files are accepted.
+  static FileBytes reclaimable(const std::string& path);
   /// The contents of an open file, which errors call `path`; the descriptor may then be closed.
   FileBytes(int descriptor, const std::string& path, std::uint64_t limit);
   ~FileBytes();
@@ -33,8 +36,13 @@ class FileBytes {
 
   /// Lets the system reclaim the memory of a part, which is loaded again at the next access; only for mapped files.
   void forget(const void* part, std::size_t size) const;
+  /// Lets the system begin to load a part that is read soon; only for mapped files.
+  void read_ahead(const void* part, std::size_t size) const;
 
  private:
+  FileBytes() = default;
+  void advise(const void* part, std::size_t size, int advice) const;
+
   std::span<const std::uint8_t> bytes_;
   bool mapped_ = false;
 };

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/os/memory_limit.h"
 
 namespace zoneplate {
 namespace {
@@ -98,6 +99,34 @@ TEST_F(File, HasTheSameBytesAfterItForgotThem) {
   file.forget(file.bytes().data() + 5000, 20000);
   file.forget(file.bytes().data(), 10);
   EXPECT_EQ(Bytes(file.bytes().begin(), file.bytes().end()), made(100001));
+}
+
+TEST_F(File, ReclaimablePagesAreNoMemoryOfTheProcess) {
+  save_bytes(path("a.bin"), made(1 << 24));
+  const auto size_under_limit = [&](auto open) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+      limit_memory(1 << 22);
+      try {
+        const FileBytes file = open(path("a.bin"));
+        ::_exit(std::accumulate(file.bytes().begin(), file.bytes().end(), 0u) > 0 ? 0 : 2);
+      } catch (...) {
+        ::_exit(1);
+      }
+    }
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    return WEXITSTATUS(status);
+  };
+  EXPECT_EQ(size_under_limit([](const std::string& name) { return FileBytes::reclaimable(name); }), 0);
+  EXPECT_EQ(size_under_limit([](const std::string& name) { return FileBytes(name); }), 1);
+  const FileBytes file = FileBytes::reclaimable(path("a.bin"));
+  file.read_ahead(file.bytes().data(), 1 << 20);
+  file.forget(file.bytes().data(), file.bytes().size());
+  EXPECT_EQ(Bytes(file.bytes().begin(), file.bytes().end()), made(1 << 24));
+  error_of(ErrorKind::Input, [&] { FileBytes::reclaimable(path("missing")); });
+  save_bytes(path("empty"), {});
+  error_of(ErrorKind::Input, [&] { FileBytes::reclaimable(path("empty")); });
 }
 
 TEST_F(File, MovesWithItsBytes) {

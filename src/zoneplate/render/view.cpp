@@ -113,6 +113,12 @@ float angle_around_axis(const Lens& lens, float aspect) {
   return 2 * atan2(static_cast<float>(slope), 1.0f);
 }
 
+View without_lens(View view, float aspect) {
+  view.view_angle = angle_around_axis(*view.lens, aspect);
+  view.lens.reset();
+  return view;
+}
+
 Camera base_camera(const Scene& scene, const View& view, float aspect) {
   if (!view.index) {
     const Camera camera = fit_camera(scene, aspect, fit_of(view));
@@ -134,12 +140,13 @@ View facing_front(const Scene& scene, const View& view, float aspect) {
   return turned_to_front(scene, view, aspect);
 }
 
+std::vector<float3> view_directions(const Box& bounds, const View& view, float aspect) {
+  return fit_directions(bounds, aspect, fit_of(view.lens ? without_lens(view, aspect) : view));
+}
+
 Camera choose_camera(const Scene& scene, const View& view, float aspect) {
   if (view.lens) {
-    View without = view;
-    without.lens.reset();
-    without.view_angle = angle_around_axis(*view.lens, aspect);
-    Camera camera = choose_camera(scene, without, aspect);
+    Camera camera = choose_camera(scene, without_lens(view, aspect), aspect);
     if (camera.is_orthographic)
       throw Error(ErrorKind::Usage, "a lens has a perspective camera, not an orthographic one");
     camera.lens = view.lens;

@@ -103,6 +103,11 @@ void add_instance(const Placed& placed, const Directions& directions, Farthest& 
 
 }  // namespace
 
+std::vector<float3> fit_directions(const Box& bounds, float picture_aspect, const AutoFit& fit) {
+  const Directions directions = view_directions(fit_camera(bounds, picture_aspect, fit), picture_aspect, fit.margin);
+  return {directions.begin(), directions.end()};
+}
+
 Camera fit_camera(const Scene& scene, float picture_aspect, const AutoFit& fit) {
   UsedVertices used(scene);
   const Camera rough = fit_camera(used.bounds(), picture_aspect, fit);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "zoneplate/scene/scene.h"
 
@@ -14,6 +15,9 @@ namespace zoneplate {
 /// Exact     the tightest side touches the margin, as for all vertices; the other one is centred within 2% of the
 ///           image.
 Camera fit_camera(const Scene& scene, float picture_aspect, const AutoFit& fit);
+
+/// The directions in which the farthest vertices decide `fit_camera` of a scene with these bounds.
+std::vector<float3> fit_directions(const Box& bounds, float picture_aspect, const AutoFit& fit);
 
 /// Whether a camera sees nothing but back faces of single-sided triangles, which are not drawn.
 bool sees_backs_alone(const Scene& scene, const Camera& camera);

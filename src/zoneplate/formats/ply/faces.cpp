@@ -25,11 +25,6 @@ std::optional<std::size_t> find(const PlyElement& element, std::string_view name
   return std::nullopt;
 }
 
-std::optional<std::size_t> find_indices(const PlyElement& element) {
-  const auto found = find(element, "vertex_indices", true);
-  return found ? found : find(element, "vertex_index", true);
-}
-
 std::size_t need_indices(const PlyElement& element, const ImportBudget& budget) {
   if (const auto found = find_indices(element)) return *found;
   throw Error(ErrorKind::Input, fmt::format("{}: element {}: has no list vertex_indices", budget.file(), element.name));
@@ -190,6 +185,11 @@ const std::uint8_t* first_plain_triangle(const PlyRows& rows) {
 }
 
 }  // namespace
+
+std::optional<std::size_t> find_indices(const PlyElement& element) {
+  const auto found = find(element, "vertex_indices", true);
+  return found ? found : find(element, "vertex_index", true);
+}
 
 bool are_plain_triangles(const PlyRows& rows) { return first_plain_triangle(rows) != nullptr; }
 

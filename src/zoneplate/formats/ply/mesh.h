@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <optional>
+
 #include "zoneplate/formats/ply/rows.h"
 #include "zoneplate/scene/mesh.h"
 
@@ -9,19 +12,31 @@ namespace zoneplate {
 /// Whether the vertices are Gaussian splats: their colours are coefficients of spherical harmonics, f_dc_0 to f_dc_2.
 bool are_splats(const PlyElement& vertices);
 
+/// The unit vector along a normal of the file; zero for one without a direction.
+float3 ply_normal(float3 stored);
+
 /// A mesh without indices, and the Scene::origin that its positions are relative to.
 struct PlyVertices {
   Mesh mesh;
   double3 origin;
 };
 
-/// Reads the vertices of a PLY file: positions and the other attributes that are present.
+/// The properties of vertices that are read; for positions, x, y and z.
+struct PlyColumns {
+  std::optional<std::array<std::size_t, 3>> position, normal, color;
+  std::optional<std::array<std::size_t, 2>> uv;
+  std::optional<std::size_t> alpha;
+};
+PlyColumns find_columns(const PlyElement& vertices);
+
+/// Reads the vertices of a PLY file: positions and the other attributes that are present. `origin`: that of the whole
+/// file, if these are some of its vertices.
 ///
 /// Colours are sRGB codes: integers over their whole range, floats in [0, 1], or either in [0, 255] (one_of); those of
 /// splats are that of their constant harmonic, and splats have no normals. The origin of texture coordinates in the
 /// file is at the bottom left.
 /// Errors    ErrorKind::Input: no x, y or z, or more vertices than 32-bit indices can address.
-PlyVertices read_ply_vertices(const PlyRows& rows, ImportBudget& budget);
+PlyVertices read_ply_vertices(const PlyRows& rows, ImportBudget& budget, std::optional<double3> origin = {});
 
 /// Reads the positions again, relative to the origin that is returned, if those of the vertices that the mesh uses lie
 /// far from 0 and others do not; returns 0 otherwise.
@@ -51,6 +66,9 @@ struct PlyFaces {
 
 /// Whether all faces are triangles of 32-bit indices in native byte order without other attributes, as in most files.
 bool are_plain_triangles(const PlyRows& faces);
+
+/// The property of faces that lists their vertices.
+std::optional<std::size_t> find_indices(const PlyElement& faces);
 
 /// Reads the indices of such faces on a fast path; empty if one refers to a vertex that does not exist.
 ///

@@ -160,18 +160,17 @@ void read_splat_colors(const PlyRows& rows, const Columns& harmonics, std::vecto
 /// Normalizes normals; those without a direction become zero.
 void normalize_all(std::vector<float3>& normals) {
   parallel_ranges(normals.size(), PlyRows::block, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const float3 n = normals[i];
-      const double x = n.x, y = n.y, z = n.z, length = std::sqrt(x * x + y * y + z * z);
-      normals[i] =
-          length > 0 && std::isfinite(length)
-              ? float3{static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)}
-              : float3{0, 0, 0};
-    }
+    for (std::size_t i = begin; i < end; ++i) normals[i] = ply_normal(normals[i]);
   });
 }
 
 }  // namespace
+
+float3 ply_normal(float3 stored) {
+  const double x = stored.x, y = stored.y, z = stored.z, length = std::sqrt(x * x + y * y + z * z);
+  if (!(length > 0 && std::isfinite(length))) return {0, 0, 0};
+  return {static_cast<float>(x / length), static_cast<float>(y / length), static_cast<float>(z / length)};
+}
 
 bool are_splats(const PlyElement& vertices) {
   return find_harmonics(vertices) && find(vertices, {"opacity"}) && find(vertices, {"scale_0"}) &&
@@ -186,40 +185,46 @@ double3 center_far_vertices(const PlyRows& rows, Mesh& mesh) {
   return origin;
 }
 
-PlyVertices read_ply_vertices(const PlyRows& rows, ImportBudget& budget) {
+PlyColumns find_columns(const PlyElement& e) {
+  PlyColumns out{.position = find_position(e)};
+  // The normals of splats are zero.
+  if (!are_splats(e)) out.normal = find_all<3>(e, {Names{"nx"}, {"ny"}, {"nz"}});
+  out.uv = find_all<2>(
+      e, {Names{"s", "u", "texture_u", "texture_s", "texcoord_u"}, {"t", "v", "texture_v", "texture_t", "texcoord_v"}});
+  out.color = find_all<3>(
+      e, {Names{"red", "r", "diffuse_red"}, {"green", "g", "diffuse_green"}, {"blue", "b", "diffuse_blue"}});
+  out.alpha = find(e, {"alpha", "a", "diffuse_alpha"});
+  return out;
+}
+
+PlyVertices read_ply_vertices(const PlyRows& rows, ImportBudget& budget, std::optional<double3> whole_origin) {
   const PlyElement& e = *rows.element;
-  const auto position = find_position(e);
-  if (!position) throw Error(ErrorKind::Input, budget.file() + ": element vertex: has no x, y and z");
+  const PlyColumns has = find_columns(e);
+  if (!has.position) throw Error(ErrorKind::Input, budget.file() + ": element vertex: has no x, y and z");
   if (e.count >= 0xffffffffu) throw Error(ErrorKind::Input, budget.file() + ": more than 2^32 vertices");
   const bool has_splats = are_splats(e);
-  // The normals of splats are zero.
-  const auto normal = has_splats ? std::nullopt : find_all<3>(e, {Names{"nx"}, {"ny"}, {"nz"}});
-  const auto uv = find_all<2>(
-      e, {Names{"s", "u", "texture_u", "texture_s", "texcoord_u"}, {"t", "v", "texture_v", "texture_t", "texcoord_v"}});
-  const auto color = find_all<3>(
-      e, {Names{"red", "r", "diffuse_red"}, {"green", "g", "diffuse_green"}, {"blue", "b", "diffuse_blue"}});
-  const auto alpha = find(e, {"alpha", "a", "diffuse_alpha"});
 
   const std::size_t n = rows.count();
-  budget.take(n * (sizeof(float3) + (normal ? sizeof(float3) : 0) + (uv ? sizeof(float2) : 0) +
-                   (color || has_splats ? sizeof(float4) : 0)));
+  budget.take(n * (sizeof(float3) + (has.normal ? sizeof(float3) : 0) + (has.uv ? sizeof(float2) : 0) +
+                   (has.color || has_splats ? sizeof(float4) : 0)));
   Mesh mesh;
   parallel_for(4, [&](std::size_t i) {
     const auto make = [n](auto& values) { reserve_large(values, n), values.resize(n); };
     if (i == 0) make(mesh.position);
-    if (i == 1 && normal) make(mesh.normal);
-    if (i == 2 && (color || has_splats)) make(mesh.color);
-    if (i == 3 && uv) make(mesh.uv0);
+    if (i == 1 && has.normal) make(mesh.normal);
+    if (i == 2 && (has.color || has_splats)) make(mesh.color);
+    if (i == 3 && has.uv) make(mesh.uv0);
   });
-  const double3 origin = choose_origin(rows, *position);
-  read_places(rows, *position, origin, mesh.position);
-  if (normal) read_columns(rows, *normal, mesh.normal), normalize_all(mesh.normal);
-  if (uv) read_columns(rows, *uv, mesh.uv0);
+  const double3 origin = whole_origin ? *whole_origin : choose_origin(rows, *has.position);
+  read_places(rows, *has.position, origin, mesh.position);
+  if (has.normal) read_columns(rows, *has.normal, mesh.normal), normalize_all(mesh.normal);
+  if (has.uv) read_columns(rows, *has.uv, mesh.uv0);
   for (float2& t : mesh.uv0) t.y = 1 - t.y;
-  if (color) {
-    const std::array<std::size_t, 4> all{(*color)[0], (*color)[1], (*color)[2], alpha.value_or((*color)[0])};
+  if (has.color) {
+    const auto& [red, green, blue] = *has.color;
+    const std::array<std::size_t, 4> all{red, green, blue, has.alpha.value_or(red)};
     read_columns(rows, all, mesh.color);
-    decode_colors(e, all, alpha.has_value(), mesh.color);
+    decode_colors(e, all, has.alpha.has_value(), mesh.color);
   }
   if (has_splats) read_splat_colors(rows, *find_harmonics(e), mesh.color);
   return {std::move(mesh), origin};

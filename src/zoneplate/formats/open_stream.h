@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "zoneplate/formats/import/file_stream.h"
+#include "zoneplate/formats/load.h"
+
+namespace zoneplate {
+
+/// Opens a file whose scene might not fit into LoadLimits::memory, to read its triangles in parts: null if it surely
+/// fits, and for formats that are not read in parts, all but binary STL and PLY of triangles.
+///
+/// Errors    those of load_scene about its header.
+std::unique_ptr<FileStream> open_large_file(const std::string& name, const LoadOptions& options);
+
+}  // namespace zoneplate

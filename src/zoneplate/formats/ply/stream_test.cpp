@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/formats/ply/stream.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/formats/import/damage_for_test.h"
+#include "zoneplate/formats/ply/ply.h"
+#include "zoneplate/math/random.h"
+
+namespace zoneplate {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+struct FileKind {
+  const char* name;
+  bool has_doubles = false, has_normals = false, is_turned = false, has_colors = false, has_flags = false;
+};
+
+constexpr std::uint32_t side = 70, vertex_count = (side + 1) * (side + 1), face_count = 2 * side * side;
+
+template <class T>
+void put(T value, Bytes& out) {
+  const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&value);
+  out.insert(out.end(), bytes, bytes + sizeof value);
+}
+
+/// Terrain, smooth with a rough part, whose faces are in a scattered order.
+Bytes terrain(const FileKind& kind, std::uint8_t alpha = 255) {
+  std::string head = "ply\nformat binary_little_endian 1.0\n";
+  head += fmt::format("element vertex {}\n", vertex_count);
+  for (const char* axis : {"x", "y", "z"})
+    head += fmt::format("property {} {}\n", kind.has_doubles ? "double" : "float", axis);
+  if (kind.has_normals) head += "property float nx\nproperty float ny\nproperty float nz\n";
+  if (kind.has_colors) head += "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n";
+  head += fmt::format("element face {}\n", face_count);
+  if (kind.has_flags) head += "property ushort flags\n";
+  head += "property list uchar int vertex_indices\nend_header\n";
+  Bytes out(head.begin(), head.end());
+  for (std::uint32_t i = 0; i < vertex_count; ++i) {
+    const std::uint32_t x = i % (side + 1), z = i / (side + 1);
+    const float rough = x > 20 && x < 50 ? 1.5f : 0.1f;
+    const float3 p{static_cast<float>(x), rough * unit_float(hash(i)), static_cast<float>(z)};
+    for (const float c : {p.x, p.y, p.z})
+      if (kind.has_doubles)
+        put(static_cast<double>(c) + 1e-9, out);
+      else
+        put(c, out);
+    if (kind.has_normals)
+      for (const float c : {0.1f * unit_float(hash(i, 1)), kind.is_turned ? -2.0f : 2.0f, 0.0f}) put(c, out);
+    if (kind.has_colors)
+      for (const std::uint32_t c : {x, z, x + z}) put(static_cast<std::uint8_t>(c), out);
+    if (kind.has_colors) put(alpha, out);
+  }
+  for (std::uint32_t k = 0; k < side * side; ++k) {
+    const std::uint32_t square = k * 1009 % (side * side), a = square / side * (side + 1) + square % side;
+    for (const auto& face : {std::array{a, a + side + 1, a + 1}, std::array{a + 1, a + side + 1, a + side + 2}}) {
+      if (kind.has_flags) put(std::uint16_t{7}, out);
+      put(std::uint8_t{3}, out);
+      for (const std::uint32_t v : face) put(v, out);
+    }
+  }
+  return out;
+}
+
+void examine(FileStream& stream) {
+  std::vector<float3> corners(3 * stream.count());
+  stream.read(0, stream.count(), corners.data());
+  parallel_ranges(stream.count(), 1000,
+                  [&](std::size_t begin, std::size_t end) { stream.examine(begin, end - begin, &corners[3 * begin]); });
+}
+
+TEST(PlyStream, HasTheMeshOfTheLoader) {
+  for (const FileKind& kind : {FileKind{"plain"}, FileKind{.name = "doubles", .has_doubles = true},
+                               FileKind{.name = "normals", .has_normals = true},
+                               FileKind{.name = "turned", .has_normals = true, .is_turned = true},
+                               FileKind{.name = "colors", .has_colors = true, .has_flags = true}}) {
+    SCOPED_TRACE(kind.name);
+    const MemoryFile file;
+    const std::string path = file.write(terrain(kind));
+    const Scene whole = load_ply(path);
+    const Mesh& mesh = whole.meshes.at(0);
+    const std::unique_ptr<FileStream> stream = open_ply_stream(path, {});
+    ASSERT_TRUE(stream);
+    ASSERT_EQ(stream->count(), face_count);
+    stream->check();
+    examine(*stream);
+    std::vector<float3> corners(3 * face_count);
+    stream->read(0, face_count, corners.data());
+    std::vector<std::uint32_t> some;
+    for (std::uint32_t t = 0; t < face_count; ++t)
+      if (unit_float(hash(t, 5)) < 0.1f) some.push_back(t);
+    const Mesh part = stream->mesh(some);
+    ASSERT_EQ(part.primitives(), some.size());
+    std::size_t turned = 0;
+    for (std::size_t i = 0; i < 3 * some.size(); ++i) {
+      const std::uint32_t v = mesh.index[3 * some[i / 3] + i % 3], w = part.index[i];
+      ASSERT_EQ(part.position[w], mesh.position[v]) << i;
+      ASSERT_EQ(part.normal[w], mesh.normal[v]) << i;
+      if (kind.has_colors) {
+        ASSERT_EQ(part.color[w], mesh.color[v]) << i;
+      }
+      if (corners[3 * some[i / 3] + i % 3] != mesh.position[v]) ++turned;
+    }
+    EXPECT_EQ(turned > 0, kind.is_turned);
+    EXPECT_EQ(part.color.empty(), mesh.color.empty());
+    const Scene head = stream->head();
+    EXPECT_EQ(head.materials[0].base_color, whole.materials[0].base_color);
+    EXPECT_EQ(head.materials[0].alpha_mode, whole.materials[0].alpha_mode);
+  }
+}
+
+TEST(PlyStream, RefusesWhatDependsOnTheWhole) {
+  const MemoryFile file;
+  const FileKind colors{.name = "colors", .has_colors = true};
+  EXPECT_NO_THROW(open_ply_stream(file.write(terrain(colors)), {})->check());
+  EXPECT_THROW(open_ply_stream(file.write(terrain(colors, 254)), {})->check(), Error);
+
+  Bytes lacks = terrain({.name = "normals", .has_normals = true});
+  const std::size_t header = lacks.size() - face_count * 13 - vertex_count * 24;
+  std::memset(&lacks[header + 24 * 100 + 12], 0, 12);
+  const std::unique_ptr<FileStream> stream = open_ply_stream(file.write(lacks), {});
+  examine(*stream);
+  EXPECT_THROW(stream->head(), Error);
+}
+
+TEST(PlyStream, FacesThatAreNoTrianglesHaveNoCorners) {
+  const Bytes good = terrain({"plain"});
+  const std::size_t last = good.size() - 13;
+  for (const std::size_t at : {last, last + 4}) {  // the number of corners, the high byte of an index
+    Bytes bad = good;
+    bad[at] = 200;
+    const MemoryFile file;
+    const std::unique_ptr<FileStream> stream = open_ply_stream(file.write(bad), {});
+    std::vector<float3> corners(3);
+    stream->read(face_count - 2, 1, corners.data());
+    EXPECT_TRUE(is_finite(corners[0]));
+    stream->read(face_count - 1, 1, corners.data());
+    EXPECT_FALSE(is_finite(corners[0]));
+  }
+}
+
+TEST(PlyStream, IsMadeOfPlainTrianglesAlone) {
+  const MemoryFile file;
+  for (const char* body : {"format ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+                           "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n3 0 0 0\n",
+                           "format binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+                           "property float z\nend_header\n0123456789ab"}) {
+    const std::string text = std::string("ply\n") + body;
+    EXPECT_EQ(open_ply_stream(file.write({text.begin(), text.end()}), {}), nullptr);
+  }
+}
+
+}  // namespace
+}  // namespace zoneplate

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/scene/stream/stream_outline.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/scene/geometry/origin.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr float3 axes[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+constexpr std::size_t step = 512 * StreamOutline::block;  ///< triangles after which the system may reclaim them
+
+/// The corner that lies farthest along a direction, and its number in the stream.
+struct Farthest {
+  float reach = -std::numeric_limits<float>::infinity();
+  std::size_t corner = 0;
+  float3 point{};
+
+  void add(float along, std::size_t number, float3 p) {
+    if (along > reach || (along == reach && number < corner)) reach = along, corner = number, point = p;
+  }
+};
+
+/// A bound of the extent of a box along a direction, computed in floats.
+double most_along(const Box& box, float3 d) {
+  const auto most = [](double a, double low, double high) { return std::max(a * low, a * high); };
+  const auto amount = [](double a, double low, double high) {
+    return std::abs(a) * std::max(std::abs(low), std::abs(high));
+  };
+  const double sum =
+      most(d.x, box.low.x, box.high.x) + most(d.y, box.low.y, box.high.y) + most(d.z, box.low.z, box.high.z);
+  const double magnitude =
+      amount(d.x, box.low.x, box.high.x) + amount(d.y, box.low.y, box.high.y) + amount(d.z, box.low.z, box.high.z);
+  // Three products and two sums in floats, each with an error of 2^-24 of the sum of magnitudes.
+  constexpr double rounding = 0x1p-20, least = 1e-36;
+  return sum + rounding * magnitude + least;
+}
+
+std::vector<float3>& corners_for(std::size_t count, std::vector<float3>& corners) {
+  corners.resize(3 * count);
+  return corners;
+}
+
+}  // namespace
+
+StreamOutline::StreamOutline(TriangleStream& stream, const std::string& file,
+                             const std::function<void(double)>& progress)
+    : stream_(stream), boxes_((stream.count() + block - 1) / block) {
+  std::atomic<bool> is_finite_all = true;
+  PerThread<std::vector<float3>> corners;
+  for (std::size_t first = 0; first < stream.count(); first += step) {
+    const std::size_t count = std::min(step, stream.count() - first);
+    stream.read_ahead(first + count, std::min(step, stream.count() - first - count));
+    parallel_ranges(count, block, [&](std::size_t begin, std::size_t end) {
+      std::vector<float3>& own = corners_for(end - begin, corners.local());
+      stream.read(first + begin, end - begin, own.data());
+      stream.examine(first + begin, end - begin, own.data());
+      Box box;
+      float sum = 0;  // 0, or NaN if a coordinate is not finite
+      for (const float3 p : own) {
+        box.add(p);
+        sum += (p.x - p.x) + (p.y - p.y) + (p.z - p.z);
+      }
+      if (!(sum == 0)) is_finite_all = false;
+      boxes_[(first + begin) / block] = box;
+    });
+    stream.forget();
+    if (progress) progress(static_cast<double>(first + count) / static_cast<double>(stream.count()));
+  }
+  const auto refuse = [&](const char* what) {
+    throw Error(ErrorKind::Input, file + ": " + what + ", and needs more memory than --max-memory allows");
+  };
+  if (!is_finite_all) refuse("has triangles with a corner that is missing or not finite");
+  for (const Box& box : boxes_) bounds_.add(box);
+  OriginChoice choice;
+  choice.add(bounds_.low), choice.add(bounds_.high);
+  if (!choice.is_near()) refuse("lies far from the origin of its coordinates");
+}
+
+std::vector<float3> StreamOutline::farthest(std::span<const float3> directions) const {
+  std::vector<float3> all(std::begin(axes), std::end(axes));
+  all.insert(all.end(), directions.begin(), directions.end());
+  std::vector<Farthest> found(all.size());
+  std::mutex mutex;
+  const auto visit = [&](const std::vector<std::size_t>& blocks) {
+    PerThread<std::vector<float3>> corners;
+    const auto add = [&](std::size_t number) {
+      const std::size_t first = number * block, count = std::min(block, stream_.count() - first);
+      std::vector<float3>& own = corners_for(count, corners.local());
+      stream_.read(first, count, own.data());
+      std::vector<Farthest> of_block(all.size());
+      for (std::size_t d = 0; d < all.size(); ++d)
+        for (std::size_t c = 0; c < own.size(); ++c) of_block[d].add(dot(all[d], own[c]), 3 * first + c, own[c]);
+      const std::lock_guard lock(mutex);
+      for (std::size_t d = 0; d < all.size(); ++d)
+        found[d].add(of_block[d].reach, of_block[d].corner, of_block[d].point);
+    };
+    for (std::size_t first = 0; first < blocks.size(); first += step / block) {
+      parallel_for(std::min(step / block, blocks.size() - first), [&](std::size_t i) { add(blocks[first + i]); });
+      stream_.forget();
+    }
+  };
+
+  // First the block whose box reaches farthest in each direction, then those whose boxes reach beyond its corners.
+  std::vector<std::size_t> likely, possible;
+  for (const float3 d : all) {
+    const auto is_less = [&](const Box& p, const Box& q) { return most_along(p, d) < most_along(q, d); };
+    likely.push_back(
+        static_cast<std::size_t>(std::max_element(boxes_.begin(), boxes_.end(), is_less) - boxes_.begin()));
+  }
+  std::ranges::sort(likely);
+  likely.erase(std::unique(likely.begin(), likely.end()), likely.end());
+  visit(likely);
+  for (std::size_t b = 0; b < boxes_.size(); ++b)
+    for (std::size_t d = 0; d < all.size(); ++d)
+      if (most_along(boxes_[b], all[d]) >= static_cast<double>(found[d].reach)) {
+        possible.push_back(b);
+        break;
+      }
+  visit(possible);
+
+  std::ranges::sort(found, [](const Farthest& p, const Farthest& q) { return p.corner < q.corner; });
+  std::vector<float3> points;
+  for (const Farthest& f : found) points.push_back(f.point);
+  return points;
+}
+
+}  // namespace zoneplate
