@@ -132,6 +132,7 @@ void render_tile(std::size_t tile, TileBuffers& b) {
     b.times.output += b.watch.lap_ms();
     return;
   }
+  if (setup.target.keeps_nearer && setup.bins.is_empty(tile)) return;
   begin_tile(tile, b.job);
   if (setup.target.stores_visibility_alone()) {
     render_visibility(b);

@@ -109,8 +109,14 @@ void write_visibility(const TileJob& job, const TileVisibility& visibility) {
         const auto pixel = static_cast<std::uint32_t>(y * tile_size + x);
         const std::size_t at = sample * sample_stride + pixel;
         const std::int32_t id = visibility.id[at];
-        (*target.sample_triangle)[sample](job.target_x(pixel), job.target_y(pixel)) =
-            id == no_primitive ? Target::no_id : static_cast<std::uint32_t>(id);
+        std::uint32_t& triangle = (*target.sample_triangle)[sample](job.target_x(pixel), job.target_y(pixel));
+        if (target.keeps_nearer) {
+          const bool is_nearer =
+              triangle == Target::no_id ||
+              visibility.depth[at] > (*target.sample_depth)[sample](job.target_x(pixel), job.target_y(pixel));
+          if (id == no_primitive || !is_nearer) continue;
+        }
+        triangle = id == no_primitive ? Target::no_id : static_cast<std::uint32_t>(id);
         if (target.sample_depth)
           (*target.sample_depth)[sample](job.target_x(pixel), job.target_y(pixel)) = visibility.depth[at];
       }

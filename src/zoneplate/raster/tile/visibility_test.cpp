@@ -43,5 +43,26 @@ TEST(VisibilityStage, WritesOwnersAndDepthsWithoutShading) {
   EXPECT_EQ(b.batcher.shaded(), 0u);
 }
 
+TEST(VisibilityStage, KeepsTheNearerTriangleOfSeveralCalls) {
+  std::vector<Plane<std::uint32_t>> ids(1, Plane<std::uint32_t>(tile_size, tile_size, Target::no_id));
+  std::vector<Plane<float>> depths(1, Plane<float>(tile_size, tile_size, 0.0f));
+  Target target;
+  target.sample_triangle = &ids;
+  target.sample_depth = &depths;
+  target.keeps_nearer = true;
+  ids[0](1, 0) = 7, depths[0](1, 0) = 0.75f;
+  ids[0](2, 0) = 8, depths[0](2, 0) = 0.5f;  // as near: the first one stays
+  ids[0](3, 0) = 9, depths[0](3, 0) = 0.25f;
+  const TileScene scene({full_tile(0.25f, {})}, standard_pattern(1), {}, target);
+  TileBuffers b(*scene.setup);
+  begin_with_visibility(b, [](int, int x, int) { return x < 4 ? 0 : no_primitive; });
+  write_visibility(b.job, b.visibility);
+  const auto row = ids[0].row(0);
+  EXPECT_EQ(std::vector<std::uint32_t>(row.begin(), row.begin() + 5),
+            (std::vector<std::uint32_t>{0, 7, 8, 0, Target::no_id}));
+  EXPECT_EQ(depths[0](1, 0), 0.75f);
+  EXPECT_EQ(depths[0](3, 0), 0.5f);
+}
+
 }  // namespace
 }  // namespace zoneplate

@@ -52,6 +52,9 @@ struct Target {
   std::vector<LinearImage>* sample_color = nullptr;   ///< by sample
   std::vector<Plane<float>>* sample_depth = nullptr;  ///< only together with `sample_triangle`
   std::vector<Plane<std::uint32_t>>* sample_triangle = nullptr;
+  /// Where visibility alone is stored: a sample keeps the triangle that an earlier call has stored, unless one of this
+  /// call is nearer. The triangles of several calls, in ascending order of their ids, then have the planes of one call.
+  bool keeps_nearer = false;
 
   /// Whether there are data planes by pixel.
   bool stores_data() const {

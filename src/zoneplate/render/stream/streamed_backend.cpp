@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/render/stream/streamed_backend.h"
+
+#include <algorithm>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "zoneplate/base/clock.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/out_of_memory.h"
+#include "zoneplate/base/parallel.h"
+#include "zoneplate/raster/tile/rasterize.h"
+#include "zoneplate/render/draw_list.h"
+#include "zoneplate/render/prepared_scene.h"
+#include "zoneplate/shade/surface/layered_plan.h"
+
+namespace zoneplate {
+namespace {
+
+constexpr std::size_t most_samples = 64;  ///< that are rasterized together
+constexpr double share_of_search = 0.8;   ///< of the time of a frame
+constexpr int rows_of_strip = 8;
+
+using Triangles = std::vector<std::uint32_t>;  ///< in ascending order
+
+/// Shades nothing: only visibility is stored.
+class NoShader : public FragmentShader {
+ public:
+  void shade(const FragmentBatch&, OutputMask, FragmentOutputs&) const override {}
+  float alpha(const FragmentBatch&, float*) const override { return 1; }
+};
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw Error(ErrorKind::Usage, what + " the whole scene in memory, for which --max-memory is too small");
+}
+
+void sort_unique(Triangles& triangles) {
+  std::ranges::sort(triangles);
+  triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
+}
+
+/// Step 1: the triangle of each sample of a part of the image.
+std::vector<Plane<std::uint32_t>> find_visible(const TriangleStream& stream, std::size_t part, const Camera& camera,
+                                               const Request& request, const RenderOptions& options, const Crop& crop) {
+  const Scene head = stream.head();
+  const float4x4 clip_from_world = camera.clip_from_camera(aspect_of(options)) * inverse(camera.world_from_camera);
+  std::vector<Plane<std::uint32_t>> ids(request.samples.size(),
+                                        Plane<std::uint32_t>(crop.width, crop.height, Target::no_id));
+  std::vector<Plane<float>> depths(request.samples.size(), Plane<float>(crop.width, crop.height, 0.0f));
+  Target target;
+  target.viewport = {options.width, options.height};
+  target.x = crop.x, target.y = crop.y, target.width = crop.width, target.height = crop.height;
+  target.samples = request.samples;
+  target.sample_triangle = &ids, target.sample_depth = &depths;
+  target.keeps_nearer = true;
+  const RasterRules rules{
+      .edge_rule = options.edge_rule, .visibility = options.visibility, .capacity = options.capacity};
+
+  // The triangles before a part have ids, but are not drawn again.
+  std::vector<Draw> draws(2, make_draws(head, clip_from_world, options).draws.front());
+  part = std::min(part, stream.count());
+  std::vector<float3> corners(3 * part);
+  std::vector<std::uint32_t> index(3 * part);
+  std::iota(index.begin(), index.end(), 0u);
+  RasterMemory memory;
+  constexpr std::size_t grain = 1 << 12;
+  for (std::size_t first = 0; first < stream.count(); first += part) {
+    const std::size_t count = std::min(part, stream.count() - first);
+    parallel_ranges(count, grain, [&](std::size_t begin, std::size_t end) {
+      stream.read(first + begin, end - begin, &corners[3 * begin]);
+    });
+    stream.forget();
+    stream.read_ahead(first + count, std::min(part, stream.count() - first - count));
+    draws[0].elsewhere = static_cast<std::uint32_t>(first);
+    draws[1].position = std::span(corners).first(3 * count);
+    draws[1].index = std::span(index).first(3 * count);
+    rasterize(draws, NoShader(), rules, target, &memory);
+    if (options.progress)
+      options.progress(share_of_search * static_cast<double>(first + count) / static_cast<double>(stream.count()));
+  }
+  return ids;
+}
+
+/// The triangles of some rows.
+Triangles triangles_in(const std::vector<Plane<std::uint32_t>>& ids, int top, int bottom) {
+  Triangles out;
+  for (const Plane<std::uint32_t>& plane : ids)
+    for (int y = top; y < bottom; ++y)
+      for (const std::uint32_t id : plane.row(y))
+        if (id != Target::no_id && (out.empty() || out.back() != id)) out.push_back(id);
+  sort_unique(out);
+  return out;
+}
+
+struct Band {
+  int top, bottom;
+  Triangles triangles;
+};
+
+/// Bands with at most `most` triangles each, or one strip.
+std::vector<Band> make_bands(const std::vector<Plane<std::uint32_t>>& ids, std::size_t most) {
+  const int height = ids.front().height();
+  std::vector<Triangles> strips(static_cast<std::size_t>((height + rows_of_strip - 1) / rows_of_strip));
+  parallel_for(strips.size(), [&](std::size_t i) {
+    const int top = static_cast<int>(i) * rows_of_strip;
+    strips[i] = triangles_in(ids, top, std::min(top + rows_of_strip, height));
+  });
+  std::vector<Band> bands;
+  for (std::size_t i = 0; i < strips.size(); ++i) {
+    if (bands.empty() || bands.back().triangles.size() + strips[i].size() > most)
+      bands.push_back({.top = static_cast<int>(i) * rows_of_strip, .bottom = 0, .triangles = {}});
+    Band& band = bands.back();
+    band.bottom = std::min(static_cast<int>(i + 1) * rows_of_strip, height);
+    band.triangles.insert(band.triangles.end(), strips[i].begin(), strips[i].end());
+    strips[i] = {};
+  }
+  for (Band& band : bands) sort_unique(band.triangles);
+  return bands;
+}
+
+template <class T>
+void paste(const Plane<T>& band, int top, int height, Plane<T>& whole) {
+  if (band.empty()) return;
+  if (whole.empty()) whole = Plane<T>(band.width(), height);
+  for (int y = 0; y < band.height(); ++y) std::ranges::copy(band.row(y), whole.row(top + y).begin());
+}
+
+/// Copies the planes of a band to those of its frame.
+void paste(Frame& band, int top, int height, Frame& whole) {
+  const auto one = [&](auto& from, auto& to) { paste(from, top, height, to); };
+  const auto all = [&](auto& from, auto& to) {
+    to.resize(from.size());
+    for (std::size_t i = 0; i < from.size(); ++i) one(from[i], to[i]);
+  };
+  Frame::for_surface_planes(band, whole, one);
+  one(band.color, whole.color), one(band.display8, whole.display8), one(band.coverage, whole.coverage);
+  one(band.edge_distance, whole.edge_distance);
+  all(band.sample_color, whole.sample_color), all(band.sample_depth, whole.sample_depth);
+  all(band.sample_triangle, whole.sample_triangle), all(band.sample_geometry, whole.sample_geometry);
+}
+
+void add(const RenderCounts& own, RenderCounts& sum) {
+  sum.prepare_ms += own.prepare_ms, sum.geometry_ms += own.geometry_ms, sum.tiles_ms += own.tiles_ms;
+  sum.stages += own.stages;
+  sum.triangles_set_up += own.triangles_set_up, sum.shaded += own.shaded, sum.geometric += own.geometric;
+}
+
+class StreamedBackend : public Backend {
+ public:
+  StreamedBackend(std::shared_ptr<const TriangleStream> stream, StreamCapacity capacity)
+      : stream_(std::move(stream)), capacity_(capacity), cpu_(make_cpu_backend()) {}
+
+  Frame render(const PreparedScene& head, const Camera& camera, const Request& request, const RenderOptions& options,
+               RenderCounts* counts) override {
+    check_streamed(request, options);
+    if (std::ranges::any_of(head.scene().materials, is_transmissive)) refuse("surfaces that transmit light need");
+    const Crop crop = options.crop.value_or(Crop{0, 0, options.width, options.height});
+    RenderCounts sum;
+    const Stopwatch search;
+    std::vector<Band> bands = growing("visible triangles", [&] {
+      return make_bands(find_visible(*stream_, capacity_.part, camera, request, options, crop), capacity_.visible);
+    });
+    sum.prepare_ms = search.ms();
+    Frame frame;
+    frame.x = crop.x, frame.y = crop.y;
+    for (std::size_t i = 0; i < bands.size(); ++i) {
+      RenderCounts own;
+      Frame band = render_band(head, bands[i], camera, request, options, crop, own);
+      add(own, sum);
+      paste(band, bands[i].top, crop.height, frame);
+      bands[i].triangles = {};
+      if (options.progress)
+        options.progress(share_of_search +
+                         (1 - share_of_search) * static_cast<double>(i + 1) / static_cast<double>(bands.size()));
+    }
+    sum.triangles = stream_->count(), sum.vertices = 3 * stream_->count();
+    if (counts) *counts = sum;
+    return frame;
+  }
+
+ private:
+  /// Step 2.
+  Frame render_band(const PreparedScene& head, const Band& band, const Camera& camera, const Request& request,
+                    RenderOptions options, const Crop& crop, RenderCounts& counts) {
+    Scene scene = head.scene();
+    Mesh mesh = growing("visible triangles", [&] { return stream_->mesh(band.triangles); });
+    mesh.name = scene.meshes[0].name, mesh.material = scene.meshes[0].material;
+    scene.meshes[0] = std::move(mesh);
+    options.crop = Crop{crop.x, crop.y + band.top, crop.width, band.bottom - band.top};
+    options.progress = {};
+    Request own = request;
+    if (!request.pixel_mask.empty()) {
+      own.pixel_mask = Plane<std::uint8_t>(crop.width, options.crop->height);
+      for (int y = band.top; y < band.bottom; ++y)
+        std::ranges::copy(request.pixel_mask.row(y), own.pixel_mask.row(y - band.top).begin());
+    }
+    Frame frame =
+        cpu_->render(PreparedScene(std::move(scene), head).lit(head.lighting()), camera, own, options, &counts);
+    const auto number = [&](Plane<std::uint32_t>& ids) {
+      for (std::uint32_t& id : ids.values())
+        if (id != Frame::no_id) id = band.triangles[id];
+    };
+    number(frame.primitive_id);
+    for (Plane<std::uint32_t>& ids : frame.sample_triangle) number(ids);
+    return frame;
+  }
+
+  std::shared_ptr<const TriangleStream> stream_;
+  StreamCapacity capacity_;
+  std::unique_ptr<Backend> cpu_;
+};
+
+}  // namespace
+
+void check_streamed(const Request& request, const RenderOptions& options) {
+  if (has_visibility(options)) refuse("shadows and ambient occlusion need");
+  if (options.edges.kind != EdgeKind::None) refuse("lines along edges need");
+  if (options.visibility == Visibility::Painter) refuse("the painter's algorithm needs");
+  if (request.draw || request.settling_frames > 1) refuse("the antialiasing method needs");
+  if (request.planes.was_visible || options.last || options.next)
+    refuse("the history of the antialiasing method needs");
+  if (request.samples.size() > most_samples) refuse("more than 64 samples per pixel need");
+}
+
+std::unique_ptr<Backend> make_streamed_backend(std::shared_ptr<const TriangleStream> stream, StreamCapacity capacity) {
+  return std::make_unique<StreamedBackend>(std::move(stream), capacity);
+}
+
+}  // namespace zoneplate
