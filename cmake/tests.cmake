@@ -53,6 +53,11 @@ add_test(NAME killed_batch CONFIGURATIONS Long
          COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=KilledBatch.DISABLED_IsResumedAHundredTimes)
 set_tests_properties(killed_batch PROPERTIES TIMEOUT 3600 FAIL_REGULAR_EXPRESSION "Running 0 tests")
 
+# Ten million triangles read in parts, and in memory.
+add_test(NAME out_of_core CONFIGURATIONS Long
+         COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=OutOfCoreProgram.DISABLED_*)
+set_tests_properties(out_of_core PROPERTIES TIMEOUT 3600 FAIL_REGULAR_EXPRESSION "Running 0 tests")
+
 # The tables of docs/environment.md.
 add_test(NAME environment_error CONFIGURATIONS Long
          COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=EnvironmentError.*)

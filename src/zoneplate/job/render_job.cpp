@@ -7,6 +7,7 @@
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/job/import_time.h"
+#include "zoneplate/job/render_streamed.h"
 #include "zoneplate/job/resolve.h"
 #include "zoneplate/job/sequence.h"
 #include "zoneplate/os/file.h"
@@ -95,6 +96,12 @@ Summary RenderJobs::run(Job job, JobSink& out) {
   out.progress("read", 0);
   const Environments::Store store = [&](std::uint64_t key, auto bytes) { out.environment(key, bytes); };
   complete_environments(environments_, job, store, out);
+  if (std::unique_ptr<FileStream> file = open_streamed(job, request_of(job, *method))) {
+    scene_.reset();
+    render_streamed(std::move(job), std::move(method), std::move(file), out, summary);
+    summary.times.emplace_back("total", total_watch.ms());
+    return summary;
+  }
   if (job.sequence.is_sequence()) {
     render_sequence(job, std::move(method), out, summary);
     summary.times = {{"total", total_watch.ms()}};

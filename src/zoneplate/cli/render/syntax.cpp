@@ -123,8 +123,11 @@ std::vector<Option> run_options(RenderArgs& a) {
       {"--no-cache", "",
        "Neither read nor write filtered environments in $XDG_CACHE_HOME/zoneplate or ~/.cache/zoneplate", group, false,
        [&](auto&) { a.cache.clear(); }}};
-  for (Option& option : limit_options(a.load.limits, a.max_seconds, a.is_sandboxed, group, "an item"))
+  for (Option& option : limit_options(a.load.limits, a.max_seconds, a.is_sandboxed, group, "an item")) {
+    if (names_of(option).front() == "--max-memory")
+      option.meaning += ". A binary PLY or STL file that needs more is drawn in parts";
     options.push_back(std::move(option));
+  }
   return options;
 }
 

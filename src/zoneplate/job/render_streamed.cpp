@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "zoneplate/job/render_streamed.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "zoneplate/base/clock.h"
+#include "zoneplate/base/error.h"
+#include "zoneplate/base/size_text.h"
+#include "zoneplate/formats/open_stream.h"
+#include "zoneplate/job/import_time.h"
+#include "zoneplate/job/render_job.h"
+#include "zoneplate/render/stream/streamed_backend.h"
+#include "zoneplate/render/view.h"
+#include "zoneplate/scene/stream/stream_outline.h"
+
+namespace zoneplate {
+namespace {
+
+/// Refuses what depends on all vertices. What else does, depends on the request: see make_streamed_backend.
+void check_options(const Job& job) {
+  const auto refuse = [&](const std::string& option) {
+    throw Error(ErrorKind::Usage, fmt::format("{}: {} needs the whole scene in memory, for which --max-memory is too "
+                                              "small",
+                                              job.input, option));
+  };
+  if (job.sequence.is_sequence()) refuse("a sequence");
+  if (job.meters_exposure) refuse("--exposure auto");
+  if (!job.solid_texture.empty()) refuse("--solid-texture");
+  if (!job.section.planes.empty()) refuse("--section");
+  if (job.displacement) refuse("--displacement");
+  if (!job.default_material.files().empty()) refuse("a texture");
+  if (job.options.ground == GroundKind::Shadow) refuse("a ground of shadows");
+  for (const Aov* aov : job.aovs)
+    if (aov->plane == &Planes::sample_triangles) refuse(fmt::format("--aov {}", aov->name));
+}
+
+/// The farthest corners of a stream as points of a scene, whose camera is that of the stream.
+Scene scene_of_points(const Scene& head, std::vector<float3> points) {
+  Scene scene = head;
+  Mesh& mesh = scene.meshes[0];
+  mesh.topology = Topology::Points;
+  mesh.index.resize(points.size());
+  std::iota(mesh.index.begin(), mesh.index.end(), 0u);
+  mesh.position = std::move(points);
+  return scene;
+}
+
+Camera camera_of(const Job& job, const Scene& head, const StreamOutline& outline) {
+  View view = job.view;
+  view.up = job.up.value_or(head.up);
+  view.lens = job.lens.lens(job.options.width, job.options.height);
+  const float aspect = static_cast<float>(job.options.width) / static_cast<float>(job.options.height);
+  const std::vector<float3> directions = view_directions(outline.bounds(), view, aspect);
+  return choose_camera(scene_of_points(head, outline.farthest(directions)), view, aspect);
+}
+
+/// An eighth of the memory for the parts that are searched, and a quarter for the visible triangles.
+StreamCapacity capacity_of(std::uint64_t memory) {
+  // Corners, indices and screen vertices of a triangle, and its samples in bins; then its vertices, those of the
+  // triangles around it of which its normals are made, and what the renderer derives from them.
+  constexpr std::uint64_t of_part = 350, of_visible = 500, least = 1 << 12;
+  constexpr StreamCapacity most;
+  return {.part = std::clamp<std::uint64_t>(memory / 8 / of_part, least, most.part),
+          .visible = std::clamp<std::uint64_t>(memory / 4 / of_visible, least, most.visible)};
+}
+
+}  // namespace
+
+std::unique_ptr<FileStream> open_streamed(const Job& job, const Request& request) {
+  std::unique_ptr<FileStream> stream = open_large_file(job.input, job.load);
+  if (!stream) return nullptr;
+  try {
+    check_options(job);
+    check_streamed(request, job.options);
+    stream->check();
+  } catch (const Error&) {
+    if (stream->bytes_in_memory() > job.load.limits.memory) throw;
+    return nullptr;
+  }
+  return stream;
+}
+
+void render_streamed(Job job, std::unique_ptr<Resolver> method, std::unique_ptr<FileStream> file, JobSink& out,
+                     Summary& summary) {
+  const Stopwatch reading;
+  const std::shared_ptr<FileStream> stream = std::move(file);
+  StillView view;
+  Scene head;
+  within_import_time(job.input, job.load.limits, [&] {
+    const StreamOutline outline(*stream, job.input, out.progress_of("read", 0, 0.1));
+    head = stream->head();
+    view.camera = camera_of(job, head, outline);
+  });
+  summary.times.emplace_back("read", reading.ms());
+  out.has_read();
+  head.warnings.push_back(
+      fmt::format("{}: its {} triangles may take {} in memory, more than --max-memory allows: they are drawn in parts "
+                  "from the file",
+                  job.input, stream->count(), size_text(stream->bytes_in_memory())));
+  convert_materials(job, head);
+  const PreparedScene prepared(std::move(head), job.mips);
+  view.backend = make_streamed_backend(stream, capacity_of(job.load.limits.memory));
+  DrawnStill still = draw_still(std::move(job), std::move(method), prepared, std::move(view), out, summary);
+  stream->check_whole();
+  send_still(std::move(still), prepared.scene(), false, out, summary);
+}
+
+}  // namespace zoneplate
