@@ -17,6 +17,9 @@
 #include "zoneplate/formats/gltf/maker_for_test.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/formats/obj/mtl.h"
+#include "zoneplate/formats/ply/stream.h"
+#include "zoneplate/formats/stl/stream.h"
+#include "zoneplate/scene/stream/stream_outline.h"
 #include "zoneplate/scene/validate.h"
 
 namespace zoneplate {
@@ -52,6 +55,20 @@ Bytes glb_of(const Bytes& bytes) {
   return GltfMaker::glb({bytes.begin(), zero}, {zero == bytes.end() ? zero : zero + 1, bytes.end()});
 }
 
+/// Reads some triangles of a file that may be read in parts.
+void read_parts_of(const std::string& file) {
+  const std::unique_ptr<FileStream> stream =
+      format == "ply" ? open_ply_stream(file, limits) : open_stl_stream(file, limits);
+  if (!stream) return;
+  stream->check();
+  const StreamOutline outline(*stream, file, {});
+  Scene scene = stream->head();
+  std::vector<std::uint32_t> some;
+  for (std::size_t t = 0; t < stream->count(); t += 3) some.push_back(static_cast<std::uint32_t>(t));
+  scene.meshes[0] = stream->mesh(some);
+  check(scene);
+}
+
 void read(const Bytes& bytes) {
   if (format == "gltf") {
     GltfModel model(file_of(glb_of(bytes)), limits);
@@ -64,7 +81,12 @@ void read(const Bytes& bytes) {
     parse_mtl({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "file", scene.warnings);
     check(scene);
   } else {
-    check(load_scene(file_of(bytes), {.limits = limits, .format = std::string(format)}));
+    const std::string file = file_of(bytes);
+    if (format == "ply" || format == "stl") try {
+        read_parts_of(file);
+      } catch (const Error&) {  // the loader may read it
+      }
+    check(load_scene(file, {.limits = limits, .format = std::string(format)}));
   }
 }
 

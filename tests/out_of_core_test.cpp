@@ -225,7 +225,7 @@ TEST_F(OutOfCoreProgram, AJobHasTheSameFilesWithLittleMemory) {
   waves.save_ply(place / "waves.ply");
   waves.save_stl(place / "waves.stl");
   for (const char* name : {"waves.ply", "waves.stl"})
-    for (const int view : {0, 1, 2, 3}) {
+    for (const int view : {0, 1, 2, 3, 4}) {
       SCOPED_TRACE(fmt::format("{} {}", name, view));
       Job job;
       job.input = (place / name).string(), job.output = view == 3 ? "out.exr" : "out.png";
@@ -234,6 +234,7 @@ TEST_F(OutOfCoreProgram, AJobHasTheSameFilesWithLittleMemory) {
       job.aovs = parse_aovs("depth,normal,primitive-id,object-id");
       if (view == 1) job.view.azimuth = 2.0f, job.view.is_orthographic = true;
       if (view == 2) job.view.position = double3{0, 2, 2.5}, job.options.crop = Crop{10, 10, 30, 20};
+      if (view == 4) job.view.position = double3{0, 2, 9}, job.view.focal_point = double3{0, 2, 20};  // nothing is seen
       if (view == 3) job.shading_model = ShadingModel::MetallicRoughness, job.default_material.roughness = 0.3f;
       const auto [expected, is_whole_streamed] = files_of(job, std::uint64_t{1} << 30);
       const auto [found, is_streamed] = files_of(job, 1'200'000);

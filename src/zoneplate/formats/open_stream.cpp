@@ -11,7 +11,8 @@ namespace zoneplate {
 
 std::unique_ptr<FileStream> open_large_file(const std::string& name, const LoadOptions& options) {
   const bool has_format = !options.format.empty();
-  if (name == "-" || (!has_format && is_builtin_scene(name))) return nullptr;
+  // A file that a child process has to read is not mapped here.
+  if (name == "-" || options.is_sandboxed || (!has_format && is_builtin_scene(name))) return nullptr;
   const std::string extension =
       lower_case(has_format ? options.format : std::filesystem::path(name).extension().string());
   const bool is_stl = extension.ends_with("stl"), is_ply = extension.ends_with("ply");

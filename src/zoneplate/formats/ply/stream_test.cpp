@@ -6,12 +6,14 @@
 
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/formats/import/damage_for_test.h"
 #include "zoneplate/formats/ply/ply.h"
 #include "zoneplate/math/random.h"
+#include "zoneplate/scene/stream/stream_outline.h"
 
 namespace zoneplate {
 namespace {
@@ -23,7 +25,10 @@ struct FileKind {
   bool has_doubles = false, has_normals = false, is_turned = false, has_colors = false, has_flags = false;
 };
 
-constexpr std::uint32_t side = 70, vertex_count = (side + 1) * (side + 1), face_count = 2 * side * side;
+constexpr std::uint32_t large = 70;
+constexpr std::uint32_t vertices_of(std::uint32_t side) { return (side + 1) * (side + 1); }
+constexpr std::uint32_t faces_of(std::uint32_t side) { return 2 * side * side; }
+constexpr std::uint32_t vertex_count = vertices_of(large), face_count = faces_of(large);
 
 template <class T>
 void put(T value, Bytes& out) {
@@ -32,18 +37,18 @@ void put(T value, Bytes& out) {
 }
 
 /// Terrain, smooth with a rough part, whose faces are in a scattered order.
-Bytes terrain(const FileKind& kind, std::uint8_t alpha = 255) {
+Bytes terrain(const FileKind& kind, std::uint8_t alpha = 255, std::uint32_t side = large) {
   std::string head = "ply\nformat binary_little_endian 1.0\n";
-  head += fmt::format("element vertex {}\n", vertex_count);
+  head += fmt::format("element vertex {}\n", vertices_of(side));
   for (const char* axis : {"x", "y", "z"})
     head += fmt::format("property {} {}\n", kind.has_doubles ? "double" : "float", axis);
   if (kind.has_normals) head += "property float nx\nproperty float ny\nproperty float nz\n";
   if (kind.has_colors) head += "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n";
-  head += fmt::format("element face {}\n", face_count);
+  head += fmt::format("element face {}\n", faces_of(side));
   if (kind.has_flags) head += "property ushort flags\n";
   head += "property list uchar int vertex_indices\nend_header\n";
   Bytes out(head.begin(), head.end());
-  for (std::uint32_t i = 0; i < vertex_count; ++i) {
+  for (std::uint32_t i = 0; i < vertices_of(side); ++i) {
     const std::uint32_t x = i % (side + 1), z = i / (side + 1);
     const float rough = x > 20 && x < 50 ? 1.5f : 0.1f;
     const float3 p{static_cast<float>(x), rough * unit_float(hash(i)), static_cast<float>(z)};
@@ -155,6 +160,53 @@ TEST(PlyStream, IsMadeOfPlainTrianglesAlone) {
     const std::string text = std::string("ply\n") + body;
     EXPECT_EQ(open_ply_stream(file.write({text.begin(), text.end()}), {}), nullptr);
   }
+}
+
+TEST(PlyStream, AgreesWithTheLoaderAboutDamagedFiles) {
+  int agreed = 0, refused = 0;
+  for (std::uint32_t seed = 0; seed < 1500; ++seed) {
+    const FileKind kind{.name = "damaged",
+                        .has_doubles = seed % 5 == 0,
+                        .has_normals = seed % 3 == 0,
+                        .has_colors = seed % 4 == 0,
+                        .has_flags = seed % 7 == 0};
+    Bytes bytes = terrain(kind, 255, 8);
+    for (std::uint32_t k = 0; k <= seed % 3; ++k)
+      bytes[hash(seed, k) % bytes.size()] = static_cast<std::uint8_t>(hash(seed, k, 1));
+    const MemoryFile file;
+    const std::string path = file.write(bytes);
+    Mesh part;
+    std::size_t count = 0;
+    try {
+      const std::unique_ptr<FileStream> stream = open_ply_stream(path, {});
+      if (!stream) continue;
+      stream->check();
+      const StreamOutline outline(*stream, path, {});
+      static_cast<void>(stream->head());
+      count = stream->count();
+      std::vector<std::uint32_t> all(count);
+      std::iota(all.begin(), all.end(), 0u);
+      part = stream->mesh(all);
+    } catch (const Error&) {
+      ++refused;
+      continue;
+    }
+    ++agreed;
+    const Scene whole = load_ply(path);
+    const Mesh& mesh = whole.meshes.at(0);
+    ASSERT_EQ(mesh.primitives(), count) << seed;
+    ASSERT_EQ(whole.materials[0].alpha_mode, AlphaMode::Opaque) << seed;
+    ASSERT_EQ(whole.origin, double3{}) << seed;
+    for (std::size_t i = 0; i < mesh.index.size(); ++i) {
+      ASSERT_EQ(part.position[part.index[i]], mesh.position[mesh.index[i]]) << seed;
+      ASSERT_EQ(part.normal[part.index[i]], mesh.normal[mesh.index[i]]) << seed;
+      if (!mesh.color.empty()) {
+        ASSERT_EQ(part.color[part.index[i]], mesh.color[mesh.index[i]]) << seed;
+      }
+    }
+  }
+  EXPECT_GT(agreed, 300);
+  EXPECT_GT(refused, 50);
 }
 
 }  // namespace
