@@ -18,7 +18,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr std::size_t most_samples = 64;  ///< that are rasterized together
+constexpr std::size_t max_samples = 64;  ///< that are rasterized together
 constexpr double share_of_search = 0.8;   ///< of the time of a frame
 constexpr int rows_of_strip = 8;
 
@@ -220,7 +220,7 @@ void check_streamed(const Request& request, const RenderOptions& options) {
   if (request.draw || request.settling_frames > 1) refuse("the antialiasing method needs");
   if (request.planes.was_visible || options.last || options.next)
     refuse("the history of the antialiasing method needs");
-  if (request.samples.size() > most_samples) refuse("more than 64 samples per pixel need");
+  if (request.samples.size() > max_samples) refuse("more than 64 samples per pixel need");
 }
 
 std::unique_ptr<Backend> make_streamed_backend(std::shared_ptr<const TriangleStream> stream, StreamCapacity capacity) {

@@ -29,7 +29,7 @@ struct Farthest {
 };
 
 /// A bound of the extent of a box along a direction, computed in floats.
-double most_along(const Box& box, float3 d) {
+double max_along(const Box& box, float3 d) {
   const auto most = [](double a, double low, double high) { return std::max(a * low, a * high); };
   const auto amount = [](double a, double low, double high) {
     return std::abs(a) * std::max(std::abs(low), std::abs(high));
@@ -111,7 +111,7 @@ std::vector<float3> StreamOutline::farthest(std::span<const float3> directions) 
   // First the block whose box reaches farthest in each direction, then those whose boxes reach beyond its corners.
   std::vector<std::size_t> likely, possible;
   for (const float3 d : all) {
-    const auto is_less = [&](const Box& p, const Box& q) { return most_along(p, d) < most_along(q, d); };
+    const auto is_less = [&](const Box& p, const Box& q) { return max_along(p, d) < max_along(q, d); };
     likely.push_back(
         static_cast<std::size_t>(std::max_element(boxes_.begin(), boxes_.end(), is_less) - boxes_.begin()));
   }
@@ -120,7 +120,7 @@ std::vector<float3> StreamOutline::farthest(std::span<const float3> directions) 
   visit(likely);
   for (std::size_t b = 0; b < boxes_.size(); ++b)
     for (std::size_t d = 0; d < all.size(); ++d)
-      if (most_along(boxes_[b], all[d]) >= static_cast<double>(found[d].reach)) {
+      if (max_along(boxes_[b], all[d]) >= static_cast<double>(found[d].reach)) {
         possible.push_back(b);
         break;
       }
