@@ -19,7 +19,7 @@ namespace zoneplate {
 namespace {
 
 constexpr std::size_t max_samples = 64;  ///< that are rasterized together
-constexpr double share_of_search = 0.8;   ///< of the time of a frame
+constexpr double share_of_search = 0.8;  ///< of the time of a frame
 constexpr int rows_of_strip = 8;
 
 using Triangles = std::vector<std::uint32_t>;  ///< in ascending order

@@ -10,6 +10,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/scene/geometry/origin.h"
+#include "zoneplate/scene/sanitize.h"
 
 namespace zoneplate {
 namespace {
@@ -62,13 +63,9 @@ StreamOutline::StreamOutline(TriangleStream& stream, const std::string& file,
       std::vector<float3>& own = corners_for(end - begin, corners.local());
       stream.read(first + begin, end - begin, own.data());
       stream.examine(first + begin, end - begin, own.data());
+      if (!are_finite({&own.front().x, 3 * own.size()})) is_finite_all = false;
       Box box;
-      float sum = 0;  // 0, or NaN if a coordinate is not finite
-      for (const float3 p : own) {
-        box.add(p);
-        sum += (p.x - p.x) + (p.y - p.y) + (p.z - p.z);
-      }
-      if (!(sum == 0)) is_finite_all = false;
+      for (const float3 p : own) box.add(p);
       boxes_[(first + begin) / block] = box;
     });
     stream.forget();
