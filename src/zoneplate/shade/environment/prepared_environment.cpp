@@ -264,8 +264,7 @@ PreparedEnvironment::PreparedEnvironment(const CubeImage& cube, const std::funct
              first(0));
   for (std::size_t i = 0; i < 3 * points.size(); ++i) first(0)[i] = (first(0)[i] + separate[i]) * (1 / 1.125f);
 
-  for (const float3& c : cube.texels)
-    max_ = {std::max(max_.x, c.x), std::max(max_.y, c.y), std::max(max_.z, c.z)};
+  for (const float3& c : cube.texels) max_ = {std::max(max_.x, c.x), std::max(max_.y, c.y), std::max(max_.z, c.z)};
 }
 
 namespace {

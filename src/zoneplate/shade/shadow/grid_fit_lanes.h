@@ -8,8 +8,7 @@
 /// The interpolation of shade/shadow/grid_fit.h over the lane types of math/lanes.h, whose lanes are receivers.
 namespace zoneplate::stages {
 
-/// Of the normals of points of one surface. Part of a picture of a hundred spheres, RMS to 4,096 rays: 0.0038 by this
-/// value, 0.0040 by 0.97, 0.0042 by 0.9.
+/// Of the normals of points of one surface: 18 degrees. A hundred spheres have more error by 0.97 and by 0.9.
 inline constexpr float min_cosine = 0.95f;
 /// The greatest sine of the angle between the line of two points and the plane across the sum of their normals: this at
 /// least, the sine of the angle between the normals, and those of the angles to their triangles' normals. It is 0 on a
