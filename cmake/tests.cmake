@@ -3,11 +3,14 @@
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
+# Of what takes time in the tests themselves.
+set(laborious_options $<$<NOT:$<CONFIG:Debug>>:-O1> $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+
 # Writes the inputs of tests/appetite_test.cpp; a program of its own, to be run by hand too.
 file(GLOB appetite_sources CONFIGURE_DEPENDS fuzz/appetite*.cpp)
 add_executable(fuzz_appetite ${appetite_sources})
 target_link_libraries(fuzz_appetite PRIVATE zoneplate_flags ${fmt} z)
-target_compile_options(fuzz_appetite PRIVATE ${built_quickly})
+target_compile_options(fuzz_appetite PRIVATE ${laborious_options})
 compile_folders_together(fuzz_appetite)
 
 add_executable(zoneplate_tests ${test_sources} ${whole_tests})
@@ -21,7 +24,7 @@ set(laborious shade/environment/prepared_environment shade/surface/shading shade
     raster/geometry/small_triangles signal/fourier/fourier formats/gltf/damage antialias/post/smaa/smaa sdf/shape)
 list(TRANSFORM laborious REPLACE "(.+)" "src/zoneplate/\\1_test.cpp")
 list(APPEND laborious tests/motion_test.cpp tests/environment_error_test.cpp tests/layers_test.cpp tests/words_test.cpp)
-set_source_files_properties(${laborious} PROPERTIES SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "${built_quickly}")
+set_source_files_properties(${laborious} PROPERTIES SKIP_PRECOMPILE_HEADERS ON COMPILE_OPTIONS "${laborious_options}")
 add_paths_for_tests("$<TARGET_FILE:zoneplate_program>" "$<TARGET_FILE:fuzz_appetite>")
 add_dependencies(zoneplate_tests zoneplate_program fuzz_appetite)
 compile_folders_together(zoneplate_tests)
@@ -34,7 +37,7 @@ find_library(embree_library embree3)
 find_path(embree_headers embree3/rtcore.h)
 if(embree_library AND embree_headers)
   set_source_files_properties(src/zoneplate/ray/embree_test.cpp PROPERTIES SKIP_PRECOMPILE_HEADERS ON
-                              COMPILE_OPTIONS "${built_quickly}" COMPILE_DEFINITIONS ZONEPLATE_EMBREE)
+                              COMPILE_OPTIONS "${laborious_options}" COMPILE_DEFINITIONS ZONEPLATE_EMBREE)
   target_link_libraries(zoneplate_tests PRIVATE ${embree_library})
   add_test(NAME ten_million_rays CONFIGURATIONS Long
            COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=Embree.DISABLED_AgreesAboutTenMillionRays)
