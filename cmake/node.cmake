@@ -17,7 +17,7 @@ set_source_files_properties(src/zoneplate/shade/environment/prepare_studio.cpp P
 
 sources_of(package_sources capi codec formats job metrics)
 sources_of(left_out formats/assimp formats/font)
-list(REMOVE_ITEM package_sources ${left_out} src/zoneplate/formats/gltf/draco.cpp src/zoneplate/codec/system/in_child.cpp)
+list(REMOVE_ITEM package_sources ${left_out} ${streams} src/zoneplate/formats/gltf/draco.cpp src/zoneplate/codec/system/in_child.cpp)
 list(APPEND package_sources src/zoneplate/os/cache_folder.cpp src/zoneplate/os/memory_limit.cpp
             src/zoneplate/report/json.cpp src/zoneplate/report/scene_contents.cpp)
 make_table(package_sources metrics metrics metrics/metrics.h Metric zoneplate::metrics metrics "")

@@ -8,11 +8,14 @@ foreach(header zstd.h zlib.h zconf.h)
   file(CREATE_LINK /usr/include/${header} ${CMAKE_CURRENT_BINARY_DIR}/headers/${header} SYMBOLIC)
 endforeach()
 
+# A module has no memory beside that of its files, so that reading these in parts saves none.
+set(streams formats/open_stream formats/ply/stream formats/stl/stream job/render_streamed)
+list(TRANSFORM streams REPLACE "(.+)" "src/zoneplate/\\1.cpp")
 # The readers of models, and the job. files.cpp and ../no_system.cpp take the place of the sources that need libraries or
 # child processes.
 sources_of(readers formats/gltf formats/import formats/json formats/obj formats/ply formats/stl codec/ktx2 job)
 list(REMOVE_ITEM readers src/zoneplate/formats/gltf/draco.cpp src/zoneplate/formats/import/image_file.cpp
-                         src/zoneplate/formats/import/scene_bytes.cpp src/zoneplate/job/import_time.cpp)
+                         src/zoneplate/formats/import/scene_bytes.cpp src/zoneplate/job/import_time.cpp ${streams})
 list(APPEND readers src/zoneplate/codec/hdr.cpp src/zoneplate/codec/save.cpp src/zoneplate/codec/bitmap/tga.cpp
             src/zoneplate/formats/load.cpp src/zoneplate/os/cache_folder.cpp src/zoneplate/os/memory_limit.cpp
             src/zoneplate/report/json.cpp)

@@ -8,6 +8,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/formats/assimp/assimp.h"
 #include "zoneplate/formats/gltf/draco.h"
+#include "zoneplate/job/render_streamed.h"
 #include "zoneplate/os/file.h"
 #include "zoneplate/os/limited_child.h"
 #include "zoneplate/os/mapped_file_guard.h"
@@ -47,6 +48,11 @@ LimitedChild::LimitedChild(std::string place, Limits, const std::function<void(C
 }
 LimitedChild::~LimitedChild() = default;
 void LimitedChild::read(void*, std::size_t) {}
+
+std::unique_ptr<FileStream> open_streamed(const Job&, const Request&) { return nullptr; }
+void render_streamed(Job job, std::unique_ptr<Resolver>, std::unique_ptr<FileStream>, JobSink&, Summary&) {
+  refuse(job.input, "files are read in parts by");
+}
 
 RasterCounts rasterize_parts(std::span<const Draw>, const FragmentShader&, const RasterRules&, const Target&,
                              RasterMemory&, Ranks&, HeldPixels&, PartTimes&) {

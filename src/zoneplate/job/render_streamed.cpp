@@ -64,8 +64,11 @@ StreamCapacity capacity_of(std::uint64_t memory) {
   // triangles around it of which its normals are made, and what the renderer derives from them.
   constexpr std::uint64_t of_part = 350, of_visible = 500, least = 1 << 12;
   constexpr StreamCapacity most;
-  return {.part = std::clamp<std::uint64_t>(memory / 8 / of_part, least, most.part),
-          .visible = std::clamp<std::uint64_t>(memory / 4 / of_visible, least, most.visible)};
+  const auto triangles = [&](std::uint64_t bytes, std::uint64_t of_each, std::size_t limit) {
+    return static_cast<std::size_t>(std::clamp<std::uint64_t>(bytes / of_each, least, limit));
+  };
+  return {.part = triangles(memory / 8, of_part, most.part),
+          .visible = triangles(memory / 4, of_visible, most.visible)};
 }
 
 }  // namespace
