@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <span>
 #include <string>
 
+#include "planes_for_test.h"
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
@@ -29,18 +29,11 @@ constexpr int counts_of_ranks[] = {1, 2, 3, 5, 8};
 constexpr Partition partitions[] = {Partition::Node, Partition::Index, Partition::Interleaved};
 constexpr const char* partition_names[] = {"node", "index", "interleaved"};
 
-constexpr Planes all_data{.depth = true,
-                          .normal = true,
-                          .albedo = true,
-                          .uv = true,
-                          .object_id = true,
-                          .material_id = true,
-                          .primitive_id = true,
-                          .coverage = true,
-                          .position = true,
-                          .mip_level = true,
-                          .anisotropy = true,
-                          .sample_triangles = true};
+constexpr Planes all_data = [] {
+  Planes planes = surface_planes;
+  planes.mip_level = planes.anisotropy = planes.sample_triangles = true;
+  return planes;
+}();
 
 /// A chequer whose odd squares are transparent.
 TextureImage chequer() {
@@ -146,12 +139,6 @@ struct Case {
 
 RenderSettings settings_for(ImageForm form, Planes planes = {}) {
   return {.options = {.width = image_width, .height = image_height}, .planes = planes, .form = form};
-}
-
-template <class T>
-bool has_same_bytes(const Plane<T>& a, const Plane<T>& b) {
-  return a.width() == b.width() && a.height() == b.height() &&
-         std::ranges::equal(std::as_bytes(a.values()), std::as_bytes(b.values()));
 }
 
 void expect_same(RenderedImage& a, RenderedImage& b) {

@@ -69,11 +69,8 @@ int columns_for(const ContactSheet& sheet, const BatchItem& cell, std::size_t co
 }  // namespace
 
 void use_studio(BatchItem& render) {
-  Environments environments;
-  environments.complete(render, [&](std::uint64_t key, std::span<const std::uint8_t> bytes) {
-    store_environment(render.cache, key, bytes);
-  });
-  render.lighting.studio = [studio = render.lighting.studio()] { return studio; };
+  render.lighting.studio = prepared_studio(render.cache);
+  if (render.is_in_studio) render.lighting.environment->map = render.lighting.studio();
 }
 
 SheetCell render_cell(const BatchItem& render, const std::string& name,

@@ -24,10 +24,7 @@ std::unique_ptr<FileStream> open_large_file(const std::string& name, const LoadO
   std::unique_ptr<FileStream> stream =
       is_stl ? open_stl_stream(name, options.limits) : open_ply_stream(name, options.limits);
   if (!stream) return nullptr;
-  // The samples of small triangles in the bins of the renderer.
-  constexpr std::uint64_t max_in_bins = 128;
-  const bool fits = stream->bytes_in_memory() + max_in_bins * stream->count() <= options.limits.memory;
-  return fits ? nullptr : std::move(stream);
+  return stream->bytes_to_draw() <= options.limits.memory ? nullptr : std::move(stream);
 }
 
 }  // namespace zoneplate

@@ -22,10 +22,8 @@ namespace {
 
 /// Refuses what depends on all vertices. What else does, depends on the request: see make_streamed_backend.
 void check_options(const Job& job) {
-  const auto refuse = [&](const std::string& option) {
-    throw Error(ErrorKind::Usage, fmt::format("{}: {} needs the whole scene in memory, for which --max-memory is too "
-                                              "small",
-                                              job.input, option));
+  const auto refuse = [](const std::string& option) {
+    throw Error(ErrorKind::Usage, option + " needs the whole scene in memory");
   };
   if (job.sequence.is_sequence()) refuse("a sequence");
   if (job.meters_exposure) refuse("--exposure auto");
@@ -36,6 +34,16 @@ void check_options(const Job& job) {
   if (job.options.ground == GroundKind::Shadow) refuse("a ground of shadows");
   for (const Aov* aov : job.aovs)
     if (aov->plane == &Planes::sample_triangles) refuse(fmt::format("--aov {}", aov->name));
+}
+
+/// Refuses what depends on all vertices, and says of which file and why they are not in memory.
+void check_is_streamable(const Job& job, const Request& request) {
+  try {
+    check_options(job);
+    check_streamed(request, job.options);
+  } catch (const Error& error) {
+    throw Error(error.kind(), fmt::format("{}: {}, for which --max-memory is too small", job.input, error.what()));
+  }
 }
 
 /// The farthest corners of a stream as points of a scene, whose camera is that of the stream.
@@ -77,8 +85,7 @@ std::unique_ptr<FileStream> open_streamed(const Job& job, const Request& request
   std::unique_ptr<FileStream> stream = open_large_file(job.input, job.load);
   if (!stream) return nullptr;
   try {
-    check_options(job);
-    check_streamed(request, job.options);
+    check_is_streamable(job, request);
     stream->check();
   } catch (const Error&) {
     if (stream->bytes_in_memory() > job.load.limits.memory) throw;
@@ -103,7 +110,7 @@ void render_streamed(Job job, std::unique_ptr<Resolver> method, std::unique_ptr<
   head.warnings.push_back(
       fmt::format("{}: its {} triangles may take {} in memory, more than --max-memory allows: they are drawn in parts "
                   "from the file",
-                  job.input, stream->count(), size_text(stream->bytes_in_memory())));
+                  job.input, stream->count(), size_text(stream->bytes_to_draw())));
   convert_materials(job, head);
   const PreparedScene prepared(std::move(head), job.mips);
   view.backend = make_streamed_backend(stream, capacity_of(job.load.limits.memory));

@@ -144,6 +144,15 @@ int open_to_read(const std::string& path) {
   return open_retrying(path.c_str(), O_RDONLY | (is_open_descriptor(path) ? 0 : O_NONBLOCK));
 }
 
+/// The status of an input that was opened, `fd` >= 0, and is a file, or what a user may have given in place of one.
+struct stat checked_status(int fd, const std::string& path) {
+  struct stat status {};
+  if (fd < 0 || ::fstat(fd, &status) != 0) throw read_error(path, cause_of(errno));
+  check_kind(path, status);
+  check_is_fetched(fd, path, status);
+  return status;
+}
+
 }  // namespace
 
 FileBytes::FileBytes(const std::string& path, std::uint64_t limit) {
@@ -153,10 +162,7 @@ FileBytes::FileBytes(const std::string& path, std::uint64_t limit) {
 }
 
 FileBytes::FileBytes(int fd, const std::string& path, std::uint64_t limit) {
-  struct stat status {};
-  if (fd < 0 || ::fstat(fd, &status) != 0) throw read_error(path, cause_of(errno));
-  check_kind(path, status);
-  check_is_fetched(fd, path, status);
+  const struct stat status = checked_status(fd, path);
 
   // A file of known size is mapped; other inputs are read.
   if (S_ISREG(status.st_mode) && status.st_size > 0 && path != "-") {
@@ -177,16 +183,13 @@ FileBytes::FileBytes(int fd, const std::string& path, std::uint64_t limit) {
 
 FileBytes FileBytes::reclaimable(const std::string& path) {
   const Descriptor file(open_to_read(path));
-  struct stat status {};
-  if (file.fd() < 0 || ::fstat(file.fd(), &status) != 0) throw read_error(path, cause_of(errno));
-  check_kind(path, status);
-  check_is_fetched(file.fd(), path, status);
-  FileBytes out;
+  const struct stat status = checked_status(file.fd(), path);
   if (!S_ISREG(status.st_mode) || status.st_size <= 0) throw read_error(path, "not a file with contents");
   const auto size = static_cast<std::uint64_t>(status.st_size);
   // A mapping that is only read is no data of the process (RLIMIT_DATA).
   void* place = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.fd(), 0);
   if (place == MAP_FAILED) throw read_error(path, cause_of(errno));
+  FileBytes out;
   out.bytes_ = {static_cast<const std::uint8_t*>(place), size};
   out.mapped_ = true;
   enter_mapping(place, size);
@@ -197,10 +200,7 @@ void read_parts(const std::string& path, const std::function<bool(std::span<cons
   const bool is_stdin = path == "-";
   const Descriptor file(is_stdin ? -1 : open_to_read(path));
   const int fd = is_stdin ? STDIN_FILENO : file.fd();
-  struct stat status {};
-  if (fd < 0 || ::fstat(fd, &status) != 0) throw read_error(path, cause_of(errno));
-  check_kind(path, status);
-  check_is_fetched(fd, path, status);
+  static_cast<void>(checked_status(fd, path));
   std::vector<std::uint8_t> part(std::size_t{1} << 20);
   for (bool wants_more = true; wants_more;) {
     const std::size_t size = read_some(fd, part.data(), part.size(), path);

@@ -19,8 +19,13 @@ class FileStream : public TriangleStream {
   FileStream(const std::string& path, const LoadLimits& limits)
       : path_(path), limits_(limits), file_(FileBytes::reclaimable(path)) {}
 
-  /// The least memory, in bytes, that loading the file by load_scene and drawing it would take.
+  /// The least memory, in bytes, that load_scene takes for the file, and the renderer for its vertices.
   virtual std::uint64_t bytes_in_memory() const = 0;
+  /// The same with what the renderer may take for the samples of small triangles.
+  std::uint64_t bytes_to_draw() const {
+    constexpr std::uint64_t max_in_bins = 128;
+    return bytes_in_memory() + max_in_bins * count();
+  }
 
   /// Errors    ErrorKind::Input naming what the file has that cannot be read in parts.
   virtual void check() const {}

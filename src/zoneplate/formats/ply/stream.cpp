@@ -124,13 +124,11 @@ class PlyStream : public FileStream {
       : FileStream(path, limits), header_(parse_ply_header(file().bytes(), path)) {
     const std::optional<PlainElements> found = find_plain(header_, file().bytes().subspan(header_.size));
     if (!found) return;
-    is_plain_ = true;
-    vertices_ = found->vertices, faces_ = found->faces;
-    index_at_ = found->index_at, count_at_ = found->count_at, count_type_ = found->count_type;
-    first_row_ = first_ply_row(vertices_);
-    has_ = find_columns(*vertices_.element);
-    reach_ = std::vector<VertexReach>((faces_.count() + grain - 1) / grain);
-    positions_ = floats_in_a_row(vertices_, *has_.position);
+    is_plain_ = true, rows_ = *found;
+    first_row_ = first_ply_row(rows_.vertices);
+    has_ = find_columns(*rows_.vertices.element);
+    reach_ = std::vector<VertexReach>((rows_.faces.count() + grain - 1) / grain);
+    positions_ = floats_in_a_row(rows_.vertices, *has_.position);
     for (const std::string& warning : header_.warnings) budget().warn_of_flaw(head_.warnings, warning);
     head_.objects.push_back(std::filesystem::path(path).stem().string());
     head_.instances.push_back({});
@@ -140,19 +138,19 @@ class PlyStream : public FileStream {
   }
 
   bool is_plain() const { return is_plain_; }
-  std::size_t count() const override { return faces_.count(); }
+  std::size_t count() const override { return rows_.faces.count(); }
 
   std::uint64_t bytes_in_memory() const override {
     // The attributes of vertices and the indices, and what load_ply reserves for smooth normals; then the interleaved
     // vertices and the screen vertices of the renderer.
     const std::uint64_t vertex = 12 + (has_.normal ? 12 : 0) + (has_.color ? 16 : 0) + (has_.uv ? 8 : 0);
-    const std::uint64_t smooth = has_.normal ? 0 : vertices_.count() * 28 + faces_.count() * 3 * 68;
-    const std::uint64_t drawn = vertices_.count() * (12 + 32 + 16);
-    return vertices_.count() * vertex + faces_.count() * 12 + std::max(smooth, drawn);
+    const std::uint64_t smooth = has_.normal ? 0 : rows_.vertices.count() * 28 + rows_.faces.count() * 3 * 68;
+    const std::uint64_t drawn = rows_.vertices.count() * (12 + 32 + 16);
+    return rows_.vertices.count() * vertex + rows_.faces.count() * 12 + std::max(smooth, drawn);
   }
 
   void check() const override {
-    const PlyElement& e = *vertices_.element;
+    const PlyElement& e = *rows_.vertices.element;
     if (!header_.textures.empty() && has_.uv) refuse("has textures");
     if (are_splats(e)) refuse("has Gaussian splats");
     if (!has_.color) return;
@@ -162,9 +160,9 @@ class PlyStream : public FileStream {
     if (!has_.alpha) return;
     const std::uint8_t* const alpha = first_row_[*has_.alpha].at;
     std::atomic<bool> are_opaque = true;
-    parallel_ranges(vertices_.count(), grain, [&](std::size_t begin, std::size_t end) {
+    parallel_ranges(rows_.vertices.count(), grain, [&](std::size_t begin, std::size_t end) {
       for (std::size_t v = begin; v < end; ++v)
-        if (alpha[v * vertices_.stride] != 255) are_opaque = false;
+        if (alpha[v * rows_.vertices.stride] != 255) are_opaque = false;
     });
     forget();
     if (!are_opaque) refuse("has vertices that are not opaque");
@@ -172,7 +170,7 @@ class PlyStream : public FileStream {
 
   void read(std::size_t first, std::size_t count, float3* corners) const override {
     for (std::size_t f = first; f < first + count; ++f)
-      for (const std::uint32_t v : indices_of(f)) *corners++ = v < vertices_.count() ? position(v) : nowhere;
+      for (const std::uint32_t v : indices_of(f)) *corners++ = v < rows_.vertices.count() ? position(v) : nowhere;
   }
 
   void examine(std::size_t first, std::size_t count, const float3* corners) override {
@@ -185,7 +183,7 @@ class PlyStream : public FileStream {
   }
 
   void read_ahead(std::size_t first, std::size_t count) const override {
-    file().read_ahead(face(first), count * faces_.stride);
+    file().read_ahead(face(first), count * rows_.faces.stride);
   }
 
   Scene head() const override {
@@ -195,7 +193,7 @@ class PlyStream : public FileStream {
 
   Mesh mesh(std::span<const std::uint32_t> triangles) const override {
     std::vector<std::uint32_t> vertex(3 * triangles.size());
-    in_steps(triangles.size(), [&](std::size_t i) { std::ranges::copy(indices_of(triangles[i]), &vertex[3 * i]); });
+    in_steps(triangles.size(), [&](std::size_t i) { std::ranges::copy(vertices_of(triangles[i]), &vertex[3 * i]); });
     Mesh out = attributes_of(vertex);
     drop_not_finite(out);
     out.index.resize(vertex.size());
@@ -220,7 +218,7 @@ class PlyStream : public FileStream {
     std::int64_t against = 0;
     for (std::size_t f = begin; f < end; ++f, corners += 3) {
       const std::array<std::uint32_t, 3> vertex = indices_of(f);
-      if (std::ranges::any_of(vertex, [&](std::uint32_t v) { return v >= vertices_.count(); })) continue;
+      if (std::ranges::any_of(vertex, [&](std::uint32_t v) { return v >= rows_.vertices.count(); })) continue;
       for (const std::uint32_t v : vertex) low = std::min(low, v), high = std::max(high, v);
       if (!has_.normal) continue;
       const float3 normals[3] = {normal(vertex[0]), normal(vertex[1]), normal(vertex[2])};
@@ -231,23 +229,33 @@ class PlyStream : public FileStream {
     against_ += against;
   }
 
-  const std::uint8_t* face(std::size_t f) const { return faces_.data + f * faces_.stride; }
+  const std::uint8_t* face(std::size_t f) const { return rows_.faces.data + f * rows_.faces.stride; }
 
   /// The vertices of a face; ones that do not exist if it is no triangle.
   std::array<std::uint32_t, 3> indices_of(std::size_t f) const {
     const std::uint8_t* const row = face(f);
     std::array<std::uint32_t, 3> out;
-    std::memcpy(out.data(), row + index_at_, sizeof out);
-    const bool is_triangle = count_type_ == PlyType::Uint8
-                                 ? row[count_at_] == 3
-                                 : read_ply_value(row + count_at_, count_type_, PlyOrder::Little) == 3;
+    std::memcpy(out.data(), row + rows_.index_at, sizeof out);
+    const bool is_triangle = rows_.count_type == PlyType::Uint8
+                                 ? row[rows_.count_at] == 3
+                                 : read_ply_value(row + rows_.count_at, rows_.count_type, PlyOrder::Little) == 3;
     if (!is_triangle) out.fill(0xffffffffu);
     return out;
   }
 
+  /// The vertices of a face whose corners `read` has given, which are finite.
+  ///
+  /// Errors    ErrorKind::Input if another program has changed the file since.
+  std::array<std::uint32_t, 3> vertices_of(std::size_t f) const {
+    const std::array<std::uint32_t, 3> out = indices_of(f);
+    if (std::ranges::any_of(out, [&](std::uint32_t v) { return v >= rows_.vertices.count(); })) throw_changed();
+    return out;
+  }
+  [[noreturn]] void throw_changed() const { throw Error(ErrorKind::Input, path() + ": was changed while it was read"); }
+
   float value(std::size_t v, std::size_t property) const {
-    return static_cast<float>(read_ply_value(first_row_[property].at + v * vertices_.stride,
-                                             vertices_.element->properties[property].type, PlyOrder::Little));
+    return static_cast<float>(read_ply_value(first_row_[property].at + v * rows_.vertices.stride,
+                                             rows_.vertices.element->properties[property].type, PlyOrder::Little));
   }
   float3 vector(std::size_t v, const std::array<std::size_t, 3>& p) const {
     return {value(v, p[0]), value(v, p[1]), value(v, p[2])};
@@ -255,24 +263,25 @@ class PlyStream : public FileStream {
   float3 position(std::size_t v) const {
     if (positions_ == nullptr) return vector(v, *has_.position);
     float3 p;
-    std::memcpy(&p, positions_ + v * vertices_.stride, sizeof p);
+    std::memcpy(&p, positions_ + v * rows_.vertices.stride, sizeof p);
     return p;
   }
   float3 normal(std::size_t v) const { return ply_normal(vector(v, *has_.normal)); }
 
   /// The attributes of these vertices, as those of a file that has no others.
   Mesh attributes_of(std::span<const std::uint32_t> vertex) const {
-    std::vector<std::uint8_t> bytes(vertex.size() * vertices_.stride);
+    std::vector<std::uint8_t> bytes(vertex.size() * rows_.vertices.stride);
     in_steps(vertex.size(), [&](std::size_t i) {
-      std::memcpy(&bytes[i * vertices_.stride], vertices_.data + vertex[i] * vertices_.stride, vertices_.stride);
+      std::memcpy(&bytes[i * rows_.vertices.stride], rows_.vertices.data + vertex[i] * rows_.vertices.stride,
+                  rows_.vertices.stride);
     });
-    PlyElement element = *vertices_.element;
+    PlyElement element = *rows_.vertices.element;
     element.count = vertex.size();
     const PlyRows rows{.element = &element,
                        .order = PlyOrder::Little,
                        .data = bytes.data(),
                        .size = bytes.size(),
-                       .stride = vertices_.stride,
+                       .stride = rows_.vertices.stride,
                        .starts = {}};
     ImportBudget limits = budget();
     return read_ply_vertices(rows, limits, double3{}).mesh;
@@ -286,9 +295,9 @@ class PlyStream : public FileStream {
       add_smooth_normals(triangles.subspan(first, std::min(some, triangles.size() - first)), first, out);
   }
   void add_smooth_normals(std::span<const std::uint32_t> triangles, std::size_t first, Mesh& out) const {
-    RankedSet own(vertices_.count()), all(vertices_.count());
+    RankedSet own(rows_.vertices.count()), all(rows_.vertices.count());
     in_steps(triangles.size(), [&](std::size_t i) {
-      for (const std::uint32_t v : indices_of(triangles[i])) own.insert(v);
+      for (const std::uint32_t v : vertices_of(triangles[i])) own.insert(v);
     });
     static_cast<void>(own.ascending());
     const std::vector<std::uint32_t> around = triangles_at(own);
@@ -296,7 +305,7 @@ class PlyStream : public FileStream {
     mesh.index.resize(3 * around.size());
     in_steps(around.size(), [&](std::size_t i) {
       std::size_t k = 3 * i;
-      for (const std::uint32_t v : indices_of(around[i])) all.insert(mesh.index[k++] = v);
+      for (const std::uint32_t v : vertices_of(around[i])) all.insert(mesh.index[k++] = v);
     });
     const std::vector<std::uint32_t> vertices = all.ascending();
     for (std::uint32_t& v : mesh.index) v = all.rank(v);
@@ -304,7 +313,8 @@ class PlyStream : public FileStream {
     in_steps(vertices.size(), [&](std::size_t i) { mesh.position[i] = position(vertices[i]); });
     make_smooth_normals(mesh);
     for (std::size_t i = 0, at = 0; i < triangles.size(); ++i) {
-      while (around[at] != triangles[i]) ++at;
+      while (at < around.size() && around[at] != triangles[i]) ++at;
+      if (at == around.size()) throw_changed();
       for (std::size_t k = 0; k < 3; ++k) out.normal[3 * (first + i) + k] = mesh.normal[mesh.index[3 * at + k]];
     }
   }
@@ -320,7 +330,7 @@ class PlyStream : public FileStream {
       parallel_for(std::min(step, blocks.size() - first), [&](std::size_t i) {
         const std::size_t begin = blocks[first + i] * grain;
         for (std::size_t f = begin; f < std::min(begin + grain, count()); ++f) {
-          const auto [a, b, c] = indices_of(f);
+          const auto [a, b, c] = vertices_of(f);
           if (vertices.has(a) || vertices.has(b) || vertices.has(c))
             found[first + i].push_back(static_cast<std::uint32_t>(f));
         }
@@ -334,9 +344,7 @@ class PlyStream : public FileStream {
 
   PlyHeader header_;
   bool is_plain_ = false;
-  PlyRows vertices_, faces_;
-  std::size_t index_at_ = 0, count_at_ = 0;  ///< in a face's row
-  PlyType count_type_ = PlyType::Uint8;
+  PlainElements rows_;
   PlyColumns has_;
   std::vector<PlyPlace> first_row_;
   const std::uint8_t* positions_ = nullptr;  ///< of the first vertex, if they are adjacent floats

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numeric>
@@ -79,6 +80,27 @@ void examine(FileStream& stream) {
   stream.read(0, stream.count(), corners.data());
   parallel_ranges(stream.count(), 1000,
                   [&](std::size_t begin, std::size_t end) { stream.examine(begin, end - begin, &corners[3 * begin]); });
+}
+
+// An index that another program changes after it has been examined does not lead out of the file's vertices.
+TEST(PlyStream, ReportsAFileThatIsChanged) {
+  const MemoryFile file;
+  Bytes bytes = terrain({"plain"});
+  const std::string path = file.write(bytes);
+  const std::unique_ptr<FileStream> stream = open_ply_stream(path, {});
+  ASSERT_TRUE(stream);
+  examine(*stream);
+  const std::uint32_t some[] = {0, face_count - 1};
+  EXPECT_EQ(stream->mesh(some).primitives(), 2u);
+  std::fill_n(bytes.end() - 4, 4, std::uint8_t{0x7f});
+  file.write(bytes);
+  try {
+    stream->mesh(some);
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::Input);
+    EXPECT_NE(std::string(error.what()).find("was changed while it was read"), std::string::npos) << error.what();
+  }
 }
 
 TEST(PlyStream, HasTheMeshOfTheLoader) {

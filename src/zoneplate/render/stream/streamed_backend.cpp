@@ -32,7 +32,7 @@ class NoShader : public FragmentShader {
 };
 
 [[noreturn]] void refuse(const std::string& what) {
-  throw Error(ErrorKind::Usage, what + " the whole scene in memory, for which --max-memory is too small");
+  throw Error(ErrorKind::Usage, what + " the whole scene in memory");
 }
 
 void sort_unique(Triangles& triangles) {
