@@ -6,6 +6,7 @@ import path from 'node:path';
 import { compare, info, list, renderFiles, ZoneplateError } from './index.js';
 import rows from './options.js';
 import { optionName, repeated } from './requests.js';
+import { saveFile } from './save.cjs';
 
 const elsewhere = 'the native program zoneplate has it';
 const fail = (message, code = 'usage') => { throw new ZoneplateError(message, code); };
@@ -55,7 +56,8 @@ const verbs = {
     for (const [name, data] of Object.entries(made)) {
       const place = file === '-' ? 1 : path.join(path.dirname(file), name);
       try {
-        fs.writeFileSync(place, data);
+        if (place === 1) fs.writeFileSync(place, data);
+        else saveFile(place, data);
       } catch (error) {
         fail(`${place}: ${error.message}`, 'output');
       }

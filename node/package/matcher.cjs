@@ -5,6 +5,7 @@ const fs = require('node:fs');
 const path = require('node:path');
 const { fileURLToPath } = require('node:url');
 const { compare, render } = require('./index.cjs');
+const { saveFile } = require('./save.cjs');
 
 const images = ['.png', '.apng', '.jpg', '.jpeg', '.webp', '.gif', '.bmp', '.tga', '.hdr', '.pfm'];
 const isImage = (name) => images.includes(path.extname(name instanceof URL ? name.pathname : name).toLowerCase());
@@ -31,7 +32,7 @@ async function toMatchRender(received, expected, { jnd, pixels, tolerance = 0, a
   const isUpdated = process.env.ZONEPLATE_UPDATE === '1' || this?.snapshotState?._updateSnapshot === 'all';
   const save = async (name) => {
     fs.mkdirSync(path.dirname(name), { recursive: true });
-    fs.writeFileSync(name, await fileOf(made));
+    saveFile(name, await fileOf(made));
   };
   if (golden && !fs.existsSync(golden) && !(isUpdated && !this?.isNot)) // a failure of `not`, too
     return { pass: Boolean(this?.isNot), message: () => `${expected}: no such image; ZONEPLATE_UPDATE=1, or --update, makes it` };
