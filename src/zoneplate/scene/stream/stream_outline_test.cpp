@@ -63,7 +63,7 @@ TEST(StreamOutline, FewPointsHaveTheCameraOfAll) {
         EXPECT_EQ(box.low, outline.bounds().low);
         EXPECT_EQ(box.high, of_few.high);
         const Camera expected = fit_camera(scene, 1.5f, fit), found = fit_camera(few, 1.5f, fit);
-        for (int c = 0; c < 4; ++c) {
+        for (std::size_t c = 0; c < 4; ++c) {
           const float4 p = expected.world_from_camera.column[c], q = found.world_from_camera.column[c];
           EXPECT_TRUE(p.x == q.x && p.y == q.y && p.z == q.z && p.w == q.w) << seed;
         }
