@@ -235,6 +235,9 @@ TEST_F(OutOfCoreProgram, AJobHasTheSameFilesWithLittleMemory) {
 }
 
 TEST_F(OutOfCoreProgram, DrawsAMillionTrianglesInAFractionOfTheirMemory) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer takes memory of its own";
+#endif
   const Waves waves(700, 800);
   waves.save_stl(place / "waves.stl");
   const auto render = [&](const std::string& options) {

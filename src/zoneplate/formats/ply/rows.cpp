@@ -319,7 +319,7 @@ std::vector<PlyPlace> first_ply_row(const PlyRows& rows) {
 }
 
 const std::uint8_t* floats_in_a_row(const PlyRows& rows, std::span<const std::size_t> properties) {
-  if (rows.stride == 0 || rows.order == PlyOrder::Big) return nullptr;
+  if (rows.size == 0 || rows.stride == 0 || rows.order == PlyOrder::Big) return nullptr;
   for (std::size_t c = 0; c < properties.size(); ++c)
     if (properties[c] != properties[0] + c || rows.element->properties[properties[c]].type != PlyType::Float)
       return nullptr;

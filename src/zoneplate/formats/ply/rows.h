@@ -65,7 +65,7 @@ void for_ply_rows(const PlyRows& rows, std::size_t begin, std::size_t end, const
 }
 
 /// The address of the first of these properties in the first row, if they are adjacent native floats and all rows have
-/// the same size, so that they can be copied; else null.
+/// the same size, so that they can be copied; else null, as where there are none.
 ///
 /// Requires  the properties are not lists.
 const std::uint8_t* floats_in_a_row(const PlyRows& rows, std::span<const std::size_t> properties);
