@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Speed of the shading kernels, with all that they read in the first cache: nanoseconds a group of eight points.
+// Speed of the shading kernels, with all that they read in the first cache: nanoseconds a group of eight fragments.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr int points = FragmentBatch::capacity;
+constexpr int fragments = FragmentBatch::capacity;
 
 template <class Work>
 void time_groups(benchmark::State& state, Work work) {
@@ -30,11 +30,11 @@ void time_groups(benchmark::State& state, Work work) {
                          benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
 }
 
-/// A block of 16 × 8 points that looks at a texture with 1.3 texels a pixel, so that two levels are mixed.
+/// A block of 16 × 8 fragments that looks at a texture with 1.3 texels a pixel, so that two levels are mixed.
 struct Looks {
   static constexpr int size = 256;
-  alignas(64) float u[points], v[points], dudx[points], dvdx[points], dudy[points], dvdy[points];
-  alignas(64) float values[4][points];
+  alignas(64) float u[fragments], v[fragments], dudx[fragments], dvdx[fragments], dudy[fragments], dvdy[fragments];
+  alignas(64) float values[4][fragments];
   float* const out[4] = {values[0], values[1], values[2], values[3]};
   Texture texture;
   Taps taps;
@@ -43,7 +43,7 @@ struct Looks {
   /// `stretch`: how much longer than wide a footprint is.
   explicit Looks(TexelMeaning meaning, float stretch = 1) : texture(noise(), meaning) {
     constexpr float step = 1.3f / size;
-    for (int i = 0; i < points; ++i) {
+    for (int i = 0; i < fragments; ++i) {
       u[i] = 0.1f + static_cast<float>(i % 8) * step, v[i] = 0.2f + static_cast<float>(i / 8) * step;
       dudx[i] = step * stretch, dvdx[i] = 0.1f * step, dudy[i] = -0.1f * step, dvdy[i] = step;
     }
@@ -62,34 +62,35 @@ struct Looks {
   }
 };
 
-void find_taps(benchmark::State& state) {
+void compute_taps(benchmark::State& state) {
   Looks l(TexelMeaning::Values);
-  time_groups(state, [&] { l.kernels.find_taps(l.texture.view(), {}, l.footprint(), l.taps, points); });
+  time_groups(state, [&] { l.kernels.compute_taps(l.texture.view(), {}, l.footprint(), l.taps, fragments); });
 }
 
 void mix_taps(benchmark::State& state, TexelMeaning meaning) {
   Looks l(meaning);
-  l.kernels.find_taps(l.texture.view(), {}, l.footprint(), l.taps, points);
-  time_groups(state, [&] { l.kernels.mix_taps(l.texture.view(), l.taps, l.out, points); });
+  l.kernels.compute_taps(l.texture.view(), {}, l.footprint(), l.taps, fragments);
+  time_groups(state, [&] { l.kernels.mix_taps(l.texture.view(), l.taps, l.out, fragments); });
 }
 
 void sample_anisotropic(benchmark::State& state) {
   Looks l(TexelMeaning::Values, static_cast<float>(state.range(0)));
   SamplerState filtering;
   filtering.anisotropy = static_cast<std::int32_t>(state.range(0));
-  time_groups(state, [&] { l.kernels.sample_anisotropic(l.texture.view(), filtering, l.footprint(), l.out, points); });
+  time_groups(state,
+              [&] { l.kernels.sample_anisotropic(l.texture.view(), filtering, l.footprint(), l.out, fragments); });
 }
 
 /// A filter with its own kernel, on footprints of 1.3 by 5.2 texels; `isa`: that of the kernel.
 void sample_area(benchmark::State& state, TextureFilter::Kind kind, Isa isa) {
   Looks l(TexelMeaning::Color, 4);
-  alignas(64) static float random[3][points];
+  alignas(64) static float random[3][fragments];
   for (std::uint32_t n = 0; n < 3; ++n)
-    for (std::uint32_t i = 0; i < points; ++i) random[n][i] = unit_float(hash(i, n));
+    for (std::uint32_t i = 0; i < fragments; ++i) random[n][i] = unit_float(hash(i, n));
   Footprint footprint = l.footprint();
   for (int n = 0; n < 3; ++n) footprint.random[n] = random[n];
   const SamplerState filtering = make_filtering({}, 1, {kind, 16});
-  with_isa(isa, [&] { time_groups(state, [&] { sample_area(l.texture, filtering, footprint, l.out, points); }); });
+  with_isa(isa, [&] { time_groups(state, [&] { sample_area(l.texture, filtering, footprint, l.out, fragments); }); });
 }
 
 /// The same for filters of FilteringKernels.
@@ -99,9 +100,9 @@ void sample_taps(benchmark::State& state, TextureFilter::Kind kind, Isa isa) {
   const FilteringKernels& kernels = FilteringKernels::of(isa);
   time_groups(state, [&] {
     if (filtering.anisotropy > 1)
-      return kernels.sample_anisotropic(l.texture.view(), filtering, l.footprint(), l.out, points);
-    kernels.find_taps(l.texture.view(), filtering, l.footprint(), l.taps, points);
-    kernels.mix_taps(l.texture.view(), l.taps, l.out, points);
+      return kernels.sample_anisotropic(l.texture.view(), filtering, l.footprint(), l.out, fragments);
+    kernels.compute_taps(l.texture.view(), filtering, l.footprint(), l.taps, fragments);
+    kernels.mix_taps(l.texture.view(), l.taps, l.out, fragments);
   });
 }
 
@@ -119,26 +120,26 @@ struct Surface {
   const InterpolateKernels& weights = InterpolateKernels::of();
 
   explicit Surface(bool has_rows) {
-    batch.count = at.count = points;
+    batch.count = at.count = fragments;
     placement.keeps_normals = 1;
     for (std::uint32_t k = 0; k < 3; ++k)
       for (std::uint32_t c = 0; c < 8; ++c) record[k][c] = unit_float(hash(k, c)) + 0.1f;
-    for (int i = 0; i < points; ++i) {
+    for (int i = 0; i < fragments; ++i) {
       batch.x[i] = 160000 + i % 8 * 256, batch.y[i] = 160000 + i / 8 * 256;
       batch.is_front[i] = 1, batch.instance[i] = 0;
       for (int k = 0; k < 3; ++k) screen_corners.vertex[k][i] = &screen[k], corners.record[k][i] = record[k];
     }
     std::fill(std::begin(batch.is_flat_run), std::end(batch.is_flat_run), has_rows);
-    batch.run_end[0] = points / FragmentBatch::group;
+    batch.run_end[0] = fragments / FragmentBatch::group;
     std::fill(std::begin(corners.one_instance), std::end(corners.one_instance), true);
-    find_weights();
+    compute_weights();
   }
-  void find_weights() { weights.interpolate(screen_corners, {1000, 1000}, 1.0f, batch); }
+  void compute_weights() { weights.interpolate(screen_corners, {1000, 1000}, 1.0f, batch); }
 };
 
-void find_weights(benchmark::State& state, bool has_rows) {
+void compute_weights(benchmark::State& state, bool has_rows) {
   Surface s(has_rows);
-  time_groups(state, [&] { s.find_weights(); });
+  time_groups(state, [&] { s.compute_weights(); });
 }
 
 void interpolate(benchmark::State& state, bool has_rows) {
@@ -163,14 +164,14 @@ void light_phong(benchmark::State& state) {
   time_groups(state, [&] { s.kernels.light_phong(interpolated, s.batch, s.at, s.shaded); });
 }
 
-BENCHMARK(find_taps);
+BENCHMARK(compute_taps);
 BENCHMARK_CAPTURE(mix_taps, codes_of_8_bits, TexelMeaning::Values);
 BENCHMARK_CAPTURE(mix_taps, codes_of_15_bits, TexelMeaning::Color);
 BENCHMARK(sample_anisotropic)->ArgName("probes")->Arg(2)->Arg(8);
-BENCHMARK_CAPTURE(find_weights, rows, true);
-BENCHMARK_CAPTURE(find_weights, points, false);
+BENCHMARK_CAPTURE(compute_weights, rows, true);
+BENCHMARK_CAPTURE(compute_weights, fragments, false);
 BENCHMARK_CAPTURE(interpolate, rows, true);
-BENCHMARK_CAPTURE(interpolate, points, false);
+BENCHMARK_CAPTURE(interpolate, fragments, false);
 BENCHMARK(light_phong);
 
 /// Every texture filter, by vectors and by its scalar twin.

@@ -94,6 +94,24 @@ TEST(Words, RetiredIdentifiersDoNotComeBack) {
   EXPECT_GT(files, 700);
 }
 
+// `find` is for what may return nothing; what fills in a value computes, evaluates, fetches or collects.
+TEST(Words, FunctionsWithoutAResultDoNotFind) {
+  const std::regex declaration("\\bvoid (\\w+::)*find_\\w+\\(");
+  int files = 0;
+  for (const char* folder : {"include", "src"}) {
+    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
+      if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") continue;
+      ++files;
+      std::ifstream stream(entry.path());
+      for (std::string line; std::getline(stream, line);) {
+        const bool finds = line.find("find_") != std::string::npos && std::regex_search(line, declaration);
+        EXPECT_FALSE(finds) << entry.path() << ": " << line;
+      }
+    }
+  }
+  EXPECT_GT(files, 600);
+}
+
 TEST(Words, RetiredPhrasesAreNotInComments) {
   const std::regex phrase(std::string("\\b(") + retired_phrases + ")\\b");
   int files = 0;

@@ -31,9 +31,9 @@ struct UpscaleGrid {
 class SpatialUpscaler {
  public:
   virtual ~SpatialUpscaler() = default;
-  /// An output pixel at x among the centres of the input reads columns ⌊x⌋ + 1 - reach() to ⌊x⌋ + reach(), and rows
+  /// An output pixel at x among the centres of the input reads columns ⌊x⌋ + 1 - radius() to ⌊x⌋ + radius(), and rows
   /// likewise; beyond the edges of the whole input, the pixels at the edge.
-  virtual int reach() const = 0;
+  virtual int radius() const = 0;
   /// Makes the output of a grid.
   ///
   /// Requires  the output is not smaller than the input; the image contains the pixels that the output reads.

@@ -282,11 +282,11 @@ RgbSpacePtr make_rgb_space(const ColorProfile& profile) {
   } else {
     return nullptr;
   }
-  find_if_standard(space);
+  recognize_standard(space);
   return std::make_shared<const RgbSpace>(std::move(space));
 }
 
-void find_if_standard(RgbSpace& space) {
+void recognize_standard(RgbSpace& space) {
   constexpr double near = 1e-3;
   bool has_same_primaries = space.grid.empty();
   for (std::size_t i = 0; i < 9 && has_same_primaries; ++i)

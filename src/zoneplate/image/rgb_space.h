@@ -70,7 +70,7 @@ Matrix3 rec709_from_d50(const std::array<double, 9>& xyz_of_rgb);
 RgbSpacePtr make_rgb_space(const ColorProfile& profile);
 
 /// Sets is_standard.
-void find_if_standard(RgbSpace& space);
+void recognize_standard(RgbSpace& space);
 
 /// True if equal values of both mean the same colours.
 bool is_same(const RgbSpacePtr& a, const RgbSpacePtr& b);

@@ -70,7 +70,7 @@ struct RayKernels : PerIsa<RayKernels> {
   /// Sets `top` to what rays of unit length from the origin may meet in a half ball: what lies below its plane or
   /// beyond its radius by more than rounding is left out, and nodes about the origin are divided. No nodes: they meet
   /// nothing.
-  void (*find_top)(const BvhView& bvh, const HalfBall& within, BvhTop& top);
+  void (*collect_top)(const BvhView& bvh, const HalfBall& within, BvhTop& top);
   /// The same as `visibility`, for rays from the origin of the half ball of `top` that end within its radius.
   void (*visibility_below)(const BvhView& bvh, const BvhTop& top, const Ray* rays, std::size_t count,
                            const OpacityOfHits& opacity, float* visibility);

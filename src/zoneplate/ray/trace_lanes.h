@@ -287,7 +287,7 @@ template <class G>
 }
 
 template <class F, class G>
-void find_top(const BvhView& bvh, const HalfBall& within, BvhTop& top) {
+void collect_top(const BvhView& bvh, const HalfBall& within, BvhTop& top) {
   const auto set_child = [&](int place, const BvhNode& from, int c) {
     BvhNode& to = top.nodes[place / BvhNode::width];
     const int i = place % BvhNode::width;
@@ -404,7 +404,7 @@ void nearest(const BvhView& bvh, const Ray* rays, std::size_t count, RayHit* hit
 template <class F, class G>
 constexpr RayKernels ray_kernels() {
   return {.visibility = &visibility<F, G>,
-          .find_top = &find_top<F, G>,
+          .collect_top = &collect_top<F, G>,
           .visibility_below = &visibility_below<F, G>,
           .nearest = &nearest<F, G>};
 }

@@ -184,7 +184,7 @@ TEST(Trace, RaysTogetherAreRaysAlone) { compare_with_single_rays(400000); }
 
 TEST(Trace, DISABLED_OneHundredMillionRaysTogetherAreRaysAlone) { compare_with_single_rays(34000000); }
 
-/// Compares rays over the surfaces of a mesh and of its neighbours by find_top with those by the whole tree.
+/// Compares rays over the surfaces of a mesh and of its neighbours by collect_top with those by the whole tree.
 void compare_with_whole_tree(std::uint32_t receivers) {
   const TestMesh sphere = bumpy_sphere(100), soup = triangle_soup(20000, 0.05f);
   ShadowCaster casters[] = {sphere.caster(), soup.caster()};
@@ -206,7 +206,7 @@ void compare_with_whole_tree(std::uint32_t receivers) {
     if (k % 3 == 2) normal = normalize(normal + float3{r.x - 0.5f, r.y - 0.5f, r.z - 0.5f}, normal);
     const float radius = k % 5 == 0 ? 1e6f : 0.1f + r.w;
     BvhTop top;
-    kernels.find_top(view_of(bvh), {{origin.x, origin.y, origin.z}, {normal.x, normal.y, normal.z}, radius}, top);
+    kernels.collect_top(view_of(bvh), {{origin.x, origin.y, origin.z}, {normal.x, normal.y, normal.z}, radius}, top);
     free += top.count == 0;
     std::vector<Ray> rays;
     for (std::uint32_t s = 0; s < 64; ++s) {
@@ -240,10 +240,10 @@ TEST(TraceBits, TopsAreTheSameForAllInstructionSets) {
     const float3 normal = normalize(float3{ray.direction[0], ray.direction[1], ray.direction[2]}, {0, 0, 1});
     const HalfBall within{{ray.origin[0], ray.origin[1], ray.origin[2]}, {normal.x, normal.y, normal.z}, 1.5f};
     BvhTop first;
-    RayKernels::scalar.find_top(view_of(bvh), within, first);
+    RayKernels::scalar.collect_top(view_of(bvh), within, first);
     for (const Isa isa : supported_isas()) {
       BvhTop top;
-      RayKernels::of(isa).find_top(view_of(bvh), within, top);
+      RayKernels::of(isa).collect_top(view_of(bvh), within, top);
       ASSERT_EQ(top.count, first.count);
       for (int i = 0; i < top.count; ++i)
         for (int c = 0; c < BvhNode::width; ++c) ASSERT_EQ(top.nodes[i].child[c], first.nodes[i].child[c]);

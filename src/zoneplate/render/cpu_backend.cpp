@@ -135,7 +135,7 @@ void make_planes(const Request& request, int w, int h, Frame& frame, Target& tar
 }
 
 /// The distance along the view axis that the projection maps to this reversed depth.
-void find_distances(const float4x4& clip_from_camera, Frame& frame) {
+void compute_distances(const float4x4& clip_from_camera, Frame& frame) {
   const double zz = clip_from_camera.column[2].z, zw = clip_from_camera.column[3].z;
   const double wz = clip_from_camera.column[2].w, ww = clip_from_camera.column[3].w;
   frame.depth = Plane<float>(frame.reversed_depth.width(), frame.reversed_depth.height());
@@ -264,7 +264,7 @@ RasterCounts draw_by(const Request& request, std::span<const Draw> draws, const 
 RasterCounts draw_uncoloured(const Scene& scene, const Camera& camera, const Request& request, std::vector<Draw>& draws,
                              const FragmentShader& surfaces, const RasterRules& rules, Target& target,
                              FrameRasterizer& rasterizer) {
-  const auto run = [&](const FragmentShader& points) { return rasterizer(draws, points, rules, target); };
+  const auto run = [&](const FragmentShader& shader) { return rasterizer(draws, shader, rules, target); };
   if (request.content == Content::Data) return run(surfaces);
   std::erase_if(draws, [](const Draw& draw) { return draw.alpha_mode == AlphaMode::Blend; });
   if (request.content == Content::EdgeDistances) return run(EdgeDistances(scene, draws, target.viewport, surfaces));
@@ -372,7 +372,7 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
   if (backdrop) view.backdrop = backdrop->view();
   // Transmissive surfaces refract all of the light behind them.
   view.component = options.light_component;
-  const SceneFragmentShader points(prepared, view, shadow_catcher);
+  const SceneFragmentShader shader(prepared, view, shadow_catcher);
   if (options.progress) rules.progress = &options.progress;
 
   Frame frame;
@@ -393,12 +393,12 @@ Frame CpuBackend::render(const PreparedScene& prepared, const Camera& scene_came
   std::uint64_t geometric = 0;
   FrameRasterizer rasterizer(parts_, memory_);
   const RasterCounts c =
-      !has_color     ? draw_uncoloured(scene, camera, request, draws.draws, points, rules, target, rasterizer)
-      : request.draw ? draw_by(request, draws.draws, points, rules, target, options, rasterizer, frame, geometric)
-                     : rasterizer(draws.draws, points, rules, target);
+      !has_color     ? draw_uncoloured(scene, camera, request, draws.draws, shader, rules, target, rasterizer)
+      : request.draw ? draw_by(request, draws.draws, shader, rules, target, options, rasterizer, frame, geometric)
+                     : rasterizer(draws.draws, shader, rules, target);
   if (request.content == Content::EdgeDistances)
     frame.edge_distance = edge_distances_of(std::exchange(frame.color, {}));
-  if (target.reversed_depth) find_distances(clip_from_camera, frame);
+  if (target.reversed_depth) compute_distances(clip_from_camera, frame);
   if (has_data && request.planes.any_point_plane()) {
     frame.instance = request.planes.object_id ? frame.object_id : std::move(frame.object_id);
     const Moment now{prepared.shared_scene(), camera};

@@ -139,7 +139,7 @@ class Arrangement {
         nodes_(tolerance_) {
     for (const Contour& contour : outline.contours)
       for (const Segment& s : contour) add_segment(s);
-    find_meetings();
+    compute_intersections();
     for (Divided& s : segments_) add_parts(s);
     merge_parts();
     count_ends();
@@ -171,7 +171,7 @@ class Arrangement {
     if (++cuts_ > max_cuts) throw Error(ErrorKind::Input, "an outline crosses itself more than 65536 times");
     s.cuts.push_back({t, node});
   }
-  void find_meetings();
+  void compute_intersections();
   void meet_at_end(Divided& s, Point end, int node);
   void cross_parts(Divided& a, const Segment& part_a, double a0, double a1, Divided& b, const Segment& part_b,
                    double b0, double b1);
@@ -213,7 +213,7 @@ class Arrangement {
   std::array<std::vector<std::size_t>, bands> columns_, rows_;  ///< the monotone parts in each band of x, and of y
 };
 
-void Arrangement::find_meetings() {
+void Arrangement::compute_intersections() {
   // Pairs whose bounds overlap along x, by a sweep.
   std::vector<std::size_t> order(segments_.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;

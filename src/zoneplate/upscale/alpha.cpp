@@ -55,7 +55,7 @@ DisplayImage continued_colors(const DisplayImage& image) {
     const float rest = 1 - c.a;
     return {c.r + rest * (mean.r - c.r), c.g + rest * (mean.g - c.g), c.b + rest * (mean.b - c.b), 1};
   });
-  for (int step = 1; step < continued_reach; ++step)
+  for (int step = 1; step < continued_radius; ++step)
     out = image_of(width, height, [&](int x, int y) { return out(x, y).a > 0 ? out(x, y) : mean_around(out, x, y); });
   for (Display& c : out.values()) c.a = 1;
   return out;
@@ -63,7 +63,7 @@ DisplayImage continued_colors(const DisplayImage& image) {
 
 }  // namespace
 
-void keep_visible_colors(DisplayImage& upscaled, const DisplayImage& image, const UpscaleGrid& grid, int reach) {
+void keep_visible_colors(DisplayImage& upscaled, const DisplayImage& image, const UpscaleGrid& grid, int radius) {
   const Crop made = grid.made();
   // Output pixel i of n is ((2 i + 1) m / n - 1) / 2 among the m pixels of the input: the pixel at or before it.
   const auto before = [](std::int64_t i, std::int64_t n, std::int64_t m) {
@@ -77,7 +77,7 @@ void keep_visible_colors(DisplayImage& upscaled, const DisplayImage& image, cons
       if (!(c.a > 0 && c.a < 1)) continue;
       const int u = before(made.x + x, grid.to.width, grid.width) - grid.x;
       antialias::ColorRange range;
-      for (int r = 1; r <= reach && range.empty(); ++r)
+      for (int r = 1; r <= radius && range.empty(); ++r)
         for (int j = v + 1 - r; j <= v + r; ++j)
           for (int i = u + 1 - r; i <= u + r; ++i)
             range.add(image(std::clamp(i, 0, image.width() - 1), std::clamp(j, 0, image.height() - 1)));
@@ -98,7 +98,7 @@ DisplayImage filter_with_alpha(const DisplayImage& image, const UpscaleGrid& gri
     c.a = alphas.values()[i].*alpha;
     if (!(c.a > 0)) c = {0, 0, 0, 0};
   }
-  keep_visible_colors(out, image, grid, continued_reach);
+  keep_visible_colors(out, image, grid, continued_radius);
   return out;
 }
 

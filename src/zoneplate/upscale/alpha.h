@@ -21,14 +21,14 @@ DisplayImage filter_with_alpha(const DisplayImage& image, const UpscaleGrid& gri
                                const std::function<DisplayImage(const DisplayImage&)>& filter, float Display::*alpha);
 
 /// Clamps the straight colours of upscaled pixels that are neither opaque nor entirely transparent to the range of the
-/// visible pixels in the smallest square of the input around them, of up to 2 reach × 2 reach pixels, that has any.
+/// visible pixels in the smallest square of the input around them, of up to 2 radius × 2 radius pixels, that has any.
 ///
 /// Where alpha is small, kernels with negative lobes divide by what is left of terms that cancel each other, and
 /// sharpening exceeds the colours beside an outline: both would be a coloured rim.
-void keep_visible_colors(DisplayImage& upscaled, const DisplayImage& image, const UpscaleGrid& grid, int reach);
+void keep_visible_colors(DisplayImage& upscaled, const DisplayImage& image, const UpscaleGrid& grid, int radius);
 
 /// The pixels around a pixel of which its continued colour is made: a filter of images with alpha reaches so much
 /// farther.
-constexpr int continued_reach = 4;
+constexpr int continued_radius = 4;
 
 }  // namespace zoneplate::upscale

@@ -17,13 +17,13 @@ namespace {
 struct Needed {
   int first, end;
 };
-Needed needed(int begin, int count, int to, int from, int reach) {
+Needed needed(int begin, int count, int to, int from, int radius) {
   // ⌊(o + ½) from / to - ½⌋ in whole numbers. Upscalers compute positions in floats, which may round to the next pixel.
   const auto place = [&](int o) {
     const std::int64_t twice = (2 * std::int64_t{o} + 1) * from - to;
     return static_cast<int>((twice + 2 * std::int64_t{to}) / (2 * std::int64_t{to})) - 1;
   };
-  return {std::max(0, place(begin) - reach), std::min(from, place(begin + count - 1) + reach + 2)};
+  return {std::max(0, place(begin) - radius), std::min(from, place(begin + count - 1) + radius + 2)};
 }
 
 class Upscaled : public Resolver {
@@ -38,9 +38,9 @@ class Upscaled : public Resolver {
     grid_.to = context.image;
     frame_ = own.image = frame_size(context.image, scale_);
     if (const std::optional<Crop>& crop = context.image.crop) {
-      const int reach = upscaler_->reach();
-      const Needed x = needed(crop->x, crop->width, context.image.width, frame_.width, reach);
-      const Needed y = needed(crop->y, crop->height, context.image.height, frame_.height, reach);
+      const int radius = upscaler_->radius();
+      const Needed x = needed(crop->x, crop->width, context.image.width, frame_.width, radius);
+      const Needed y = needed(crop->y, crop->height, context.image.height, frame_.height, radius);
       frame_.crop = own.image.crop = Crop{x.first, y.first, x.end - x.first, y.end - y.first};
     }
     grid_.width = frame_.width, grid_.height = frame_.height;

@@ -35,13 +35,13 @@ DisplayImage shapes(int width, int height, bool is_opaque) {
   return image;
 }
 
-/// Part `made` of an image upscaled to `to`, from the pixels of the image that the upscaler's reach names.
+/// Part `made` of an image upscaled to `to`, from the pixels of the image within the upscaler's radius.
 DisplayImage part(const SpatialUpscaler& upscaler, const DisplayImage& image, ImageExtent to, Crop made) {
-  const int reach = upscaler.reach() + 1;
+  const int radius = upscaler.radius() + 1;
   const auto range = [&](int begin, int count, int from, int to_size) {
     const double step = static_cast<double>(from) / to_size;
-    const int first = static_cast<int>(std::floor((begin + 0.5) * step - 0.5)) + 1 - reach;
-    const int last = static_cast<int>(std::floor((begin + count - 0.5) * step - 0.5)) + reach;
+    const int first = static_cast<int>(std::floor((begin + 0.5) * step - 0.5)) + 1 - radius;
+    const int last = static_cast<int>(std::floor((begin + count - 0.5) * step - 0.5)) + radius;
     return std::pair{std::max(0, first), std::min(from, last + 1)};
   };
   const auto [left, right] = range(made.x, made.width, image.width(), to.width);

@@ -68,9 +68,9 @@ Filtered filter_on(const DisplayImage& image, Backdrop backdrop, Mixing mixing, 
 ColorRange colors_around(const DisplayImage& image, int x, int y) {
   constexpr int farthest = 16;  // pixels: no filter blends farther
   ColorRange range;
-  for (int reach = 1; reach <= farthest && range.empty(); ++reach)
-    for (int v = std::max(y - reach, 0); v <= std::min(y + reach, image.height() - 1); ++v)
-      for (int u = std::max(x - reach, 0); u <= std::min(x + reach, image.width() - 1); ++u) range.add(image(u, v));
+  for (int radius = 1; radius <= farthest && range.empty(); ++radius)
+    for (int v = std::max(y - radius, 0); v <= std::min(y + radius, image.height() - 1); ++v)
+      for (int u = std::max(x - radius, 0); u <= std::min(x + radius, image.width() - 1); ++u) range.add(image(u, v));
   return range;
 }
 

@@ -10,10 +10,10 @@ namespace zoneplate::antialias {
 
 /// The request of a method that filters the display-referred image.
 ///
-/// Units     `reach` is the filter's radius in pixels.
-Request display_referred_request(int reach);
+/// Units     `radius` is the filter's radius in pixels.
+Request display_referred_request(int radius);
 
 /// A method that only filters the display-referred image in 8 bits (filter_encoded).
-std::unique_ptr<Resolver> make_post_process(int reach, Mixing mixing, EncodedFilter filter);
+std::unique_ptr<Resolver> make_post_process(int radius, Mixing mixing, EncodedFilter filter);
 
 }  // namespace zoneplate::antialias

@@ -30,7 +30,7 @@ class Msaa : public Resolver {
     request.centroid = centroid_;
     request.resolves_per_pixel = filter_.is_plain();
     request.planes.sample_colors = !filter_.is_plain();
-    request.halo = filter_.reach();
+    request.halo = filter_.radius();
     request.is_display_referred = filter_.is_display_referred();
     return request;
   }

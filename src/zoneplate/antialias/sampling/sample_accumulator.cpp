@@ -18,14 +18,14 @@ namespace {
 
 constexpr std::size_t room = 8;             // pixels beyond a row that kernels may access
 constexpr std::size_t rows_of_a_part = 32;  // rows per thread
-constexpr int max_reach = 4;                // reach of a filter of radius 4
+constexpr int max_radius = 4;               // of a kernel of radius 4
 
 /// The kernel's values at a sample's distances from the centres of the neighbouring pixels, the leftmost first.
 std::vector<float> taps_of(const ResolveFilter& filter, std::uint8_t offset) {
-  const int reach = filter.reach();
+  const int radius = filter.radius();
   if (!filter.kernel) return {1};
   std::vector<float> taps;
-  for (int d = -reach; d <= reach; ++d)
+  for (int d = -radius; d <= radius; ++d)
     taps.push_back(static_cast<float>(filter.kernel->value(d + offset / 256.0 - 0.5)));
   return taps;
 }
@@ -35,12 +35,12 @@ std::vector<float> taps_of(const ResolveFilter& filter, std::uint8_t offset) {
 /// The mapped samples of a row and their weights, padded with zeros as far as a filter reaches beyond the image.
 class SampleRow {
  public:
-  SampleRow(int width, int reach)
+  SampleRow(int width, int radius)
       : width_(static_cast<std::size_t>(width)),
-        before_(static_cast<std::size_t>(reach)),
+        before_(static_cast<std::size_t>(radius)),
         color_(4 * (width_ + 2 * before_ + room)),
         weight_(width_ + 2 * before_ + room) {
-    std::fill_n(weight_.begin() + reach, width, 1.0f);
+    std::fill_n(weight_.begin() + radius, width, 1.0f);
   }
 
   void take(std::span<const Linear> samples, SampleWeight weight, const DisplayOptions& display) {
@@ -67,7 +67,7 @@ class SampleRow {
   std::vector<float> color_, weight_;
 };
 
-int ResolveFilter::reach() const { return kernel ? static_cast<int>(std::ceil(kernel->radius + 0.5)) - 1 : 0; }
+int ResolveFilter::radius() const { return kernel ? static_cast<int>(std::ceil(kernel->radius + 0.5)) - 1 : 0; }
 
 ResolveFilter resolve_filter_of(std::string_view method, const Settings& settings) {
   ResolveFilter out{.weight = static_cast<SampleWeight>(settings.integer("resolve")), .kernel = {}};
@@ -107,25 +107,25 @@ void SampleAccumulator::add(const Frame& frame, std::span<const SamplePosition> 
 
 /// Adds the contributions of all samples to rows [first, last) of the sums.
 void SampleAccumulator::add_rows(const Frame& frame, std::span<const Taps> taps, int first, int last) {
-  const int reach = filter_.reach();
-  SampleRow row(width_, reach);
+  const int radius = filter_.radius();
+  SampleRow row(width_, radius);
   for (std::size_t s = 0; s < taps.size(); ++s)
-    for (int y = std::max(first - reach, 0); y < std::min(last + reach, height_); ++y) {
+    for (int y = std::max(first - radius, 0); y < std::min(last + radius, height_); ++y) {
       row.take(frame.sample_color[s].row(y), filter_.weight, frame.display);
-      spread(row, taps[s], y, std::max(first, y - reach), std::min(last, y + reach + 1));
+      spread(row, taps[s], y, std::max(first, y - radius), std::min(last, y + radius + 1));
     }
 }
 
 /// Adds row y of samples to rows [first, last) of the sums.
 void SampleAccumulator::spread(const SampleRow& row, const Taps& taps, int y, int first, int last) {
-  std::array<float*, 2 * max_reach + 1> colors, weights;
-  std::array<float, 2 * max_reach + 1> down;
-  const int reach = filter_.reach(), count = last - first, wide = static_cast<int>(taps.across.size());
-  assert(reach <= max_reach);
+  std::array<float*, 2 * max_radius + 1> colors, weights;
+  std::array<float, 2 * max_radius + 1> down;
+  const int radius = filter_.radius(), count = last - first, wide = static_cast<int>(taps.across.size());
+  assert(radius <= max_radius);
   for (int i = 0; i < count; ++i) {
     const auto at = static_cast<std::size_t>(i), to = static_cast<std::size_t>(first + i) * stride_;
     colors[at] = &sum_[4 * to], weights[at] = &weight_[to];
-    down[at] = taps.down[static_cast<std::size_t>(y - (first + i) + reach)];
+    down[at] = taps.down[static_cast<std::size_t>(y - (first + i) + radius)];
   }
   const auto n = static_cast<std::size_t>(width_);
   AccumulateKernels::of().spread(row.color(), 4, taps.across.data(), wide, down.data(), colors.data(), count, 4 * n);

@@ -26,7 +26,7 @@ struct ResolveFilter {
   /// True for the unweighted mean, which the renderer computes itself.
   bool is_plain() const { return weight == SampleWeight::Even && !kernel; }
   /// The filter's radius in whole pixels.
-  int reach() const;
+  int radius() const;
   /// True if the mean is of values after tone mapping.
   bool is_display_referred() const { return weight == SampleWeight::Display || weight == SampleWeight::Encoded; }
 };

@@ -100,7 +100,7 @@ TEST(SampleAccumulator, FiltersReachAsFarAsTheirRadius) {
   const SamplePattern centre = {SamplePosition{}};
   // A tent of radius 2 at distances of 0 and 1 pixels: 1 and ½ of a sum of 2 in each direction.
   ResolveFilter wide{.weight = {}, .kernel = stretched(make_kernel("tent"), 2 / make_kernel("tent").radius)};
-  EXPECT_EQ(wide.reach(), 2);
+  EXPECT_EQ(wide.radius(), 2);
   const LinearImage image = accumulated(wide, frame, centre).light();
   EXPECT_FLOAT_EQ(image(4, 4).g, 0.25f);
   EXPECT_FLOAT_EQ(image(5, 4).g, 0.125f);

@@ -59,7 +59,7 @@ class Ssaa : public Resolver {
     Request request{.samples = round(), .rate = Rate::Sample, .weights = {}, .planes = {}, .pixel_mask = {}};
     request.planes.sample_colors = true;
     request.footprint = 1 / std::sqrt(static_cast<float>(pattern_.size()));
-    request.halo = filter_.reach();
+    request.halo = filter_.radius();
     request.is_display_referred = filter_.is_display_referred();
     return request;
   }

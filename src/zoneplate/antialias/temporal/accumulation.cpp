@@ -232,8 +232,8 @@ void TemporalAccumulation::take_surfaces(const Frame& frame) {
   for (Bordered* plane : planes) extend_rows(*plane);
 }
 
-/// Where history may contain colours that have moved elsewhere: TemporalKernels::find_unrest.
-void TemporalAccumulation::find_restless(const ObjectMotions& objects) {
+/// Where history may contain colours that have moved elsewhere: TemporalKernels::compute_unrest.
+void TemporalAccumulation::detect_restless(const ObjectMotions& objects) {
   const int width = past_surface_.width(), height = past_surface_.height();
   const std::vector<float> column = columns(width);
   resize(current_.restless, width, height);
@@ -247,12 +247,12 @@ void TemporalAccumulation::find_restless(const ObjectMotions& objects) {
                         .height = height,
                         .past_surface = past_surface_.values().data(),
                         .object_motion = {objects.x.data(), objects.y.data()}};
-    TemporalKernels::of().find_unrest(row, &current_.restless(0, y), static_cast<std::size_t>(width));
+    TemporalKernels::of().compute_unrest(row, &current_.restless(0, y), static_cast<std::size_t>(width));
   });
 }
 
-/// Compares this frame's luminances with those of the history: TemporalKernels::find_changes.
-void TemporalAccumulation::find_changes(const Frame& frame) {
+/// Compares this frame's luminances with those of the history: TemporalKernels::detect_changes.
+void TemporalAccumulation::detect_changes(const Frame& frame) {
   const int width = frames_.width(), height = frames_.height();
   Current& out = current_;
   for (Bordered* plane : {&out.changes, &out.drift, &out.bend, &next_noise_})
@@ -271,7 +271,7 @@ void TemporalAccumulation::find_changes(const Frame& frame) {
                         .bend = pixels_of(out.bend, y),
                         .changes = pixels_of(out.changes, y),
                         .drift = pixels_of(out.drift, y)};
-    TemporalKernels::of().find_changes(row, static_cast<std::size_t>(width));
+    TemporalKernels::of().detect_changes(row, static_cast<std::size_t>(width));
     for (Bordered* plane : planes) extend_row(plane->row(y + border));
   });
   for (Bordered* plane : planes) extend_rows(*plane);
@@ -281,7 +281,7 @@ void TemporalAccumulation::find_changes(const Frame& frame) {
 /// and around such pixels, `relit_frames`.
 ///
 /// Pixels that had both lights in their history, and those at the border of a shadow, are found by their neighbours.
-void TemporalAccumulation::find_lasting(const Frame& frame) {
+void TemporalAccumulation::detect_lasting(const Frame& frame) {
   constexpr int radius = 4;
   const int width = frames_.width(), height = frames_.height();
   Current& out = current_;
@@ -290,7 +290,7 @@ void TemporalAccumulation::find_lasting(const Frame& frame) {
     std::ranges::fill(out.lasting.values(), std::numeric_limits<float>::infinity());  // all history is kept
     return;
   }
-  find_changes(frame);
+  detect_changes(frame);
   resize(out.relit, width, height), resize(out.wide_relit, width, height);
   std::vector<char> is_relit(static_cast<std::size_t>(height));  // by row
   for_each_row(height, [&](int y) {
@@ -392,7 +392,7 @@ void TemporalAccumulation::keep_surfaces(const Frame& frame) {
 LinearImage TemporalAccumulation::blended(Frame& frame) {
   const int width = frame.color.width(), height = frame.color.height();
   take_surfaces(frame);
-  if (options_.parts.trusts_rest && !context_.is_first) find_restless(object_motions(frame));
+  if (options_.parts.trusts_rest && !context_.is_first) detect_restless(object_motions(frame));
   const Current& current = current_;
   TemporalParts parts = options_.parts;
   if (context_.is_first) {
@@ -405,7 +405,7 @@ LinearImage TemporalAccumulation::blended(Frame& frame) {
   }
   const std::vector<float> column = columns(width);
   const bool tests_light = options_.parts.trusts_rest && !context_.is_first;
-  if (tests_light) find_lasting(frame);
+  if (tests_light) detect_lasting(frame);
   resize(next_history_, width, 4 * height);
   resize(next_frames_, width, height);
   const auto stride = static_cast<std::ptrdiff_t>(width + 2 * border);

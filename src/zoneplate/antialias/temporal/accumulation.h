@@ -50,9 +50,9 @@ class TemporalAccumulation : public Resolver {
     std::vector<float> x, y;
   };
   ObjectMotions object_motions(const Frame& frame);
-  void find_restless(const ObjectMotions& objects);
-  void find_changes(const Frame& frame);
-  void find_lasting(const Frame& frame);
+  void detect_restless(const ObjectMotions& objects);
+  void detect_changes(const Frame& frame);
+  void detect_lasting(const Frame& frame);
   void begin_history(const Frame& frame);
   void begin_luminances();
   void keep_surfaces(const Frame& frame);

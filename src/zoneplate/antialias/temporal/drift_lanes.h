@@ -29,7 +29,7 @@ template <class F>
 }
 
 template <class Full, class One>
-[[gnu::flatten]] void find_changes(const ChangeRow& row, std::size_t n) {
+[[gnu::flatten]] void detect_changes(const ChangeRow& row, std::size_t n) {
   for_row<Full, One>(n, [&]<class F>(std::size_t at) {
     const auto i = static_cast<std::ptrdiff_t>(at);
     const F zero(0.0f), one(1.0f);

@@ -52,7 +52,7 @@ struct SurfaceRow {
   float *surface, *motion_x, *motion_y, *last_depth;
 };
 
-/// One row of a frame with the objects of the last frame, for TemporalKernels::find_unrest.
+/// One row of a frame with the objects of the last frame, for TemporalKernels::compute_unrest.
 struct UnrestRow {
   const float *motion[2], *surface;  ///< as in TemporalRow
   std::ptrdiff_t stride;
@@ -62,7 +62,7 @@ struct UnrestRow {
   const float* object_motion[2];  ///< means by the object's number plus one; infinite without a pixel in this frame
 };
 
-/// One row of a frame with the history of the same pixels, for TemporalKernels::find_changes.
+/// One row of a frame with the history of the same pixels, for TemporalKernels::detect_changes.
 struct ChangeRow {
   const float* linear;  ///< colours of four floats, as `encode` reads them
   bool is_compressed;
@@ -78,7 +78,7 @@ struct ChangeRow {
   float* drift;
 };
 
-/// One row of what `find_changes` has made, for TemporalKernels::find_drift.
+/// One row of what `detect_changes` has made, for TemporalKernels::find_drift.
 struct DriftRow {
   const float *changes, *drift, *last, *fast, *noise, *bend;  ///< with borders of a pixel
   std::ptrdiff_t stride;                                      ///< floats from one row of theirs to the next
@@ -101,12 +101,12 @@ struct TemporalKernels : PerIsa<TemporalKernels> {
   void (*take_surfaces)(const SurfaceRow& row, std::size_t n);
   /// 1 where a surface moves, or the 3 × 3 surfaces do not move as one, 2 where a surface of the last frame moves
   /// otherwise, 0 elsewhere. An object of the last frame is taken to have moved by its mean motion.
-  void (*find_unrest)(const UnrestRow& row, float* unrest, std::size_t n);
+  void (*compute_unrest)(const UnrestRow& row, float* unrest, std::size_t n);
   /// Brings the luminances of a row up to this frame, and compares them with the history.
   ///
   /// `changes` are 1 where a pixel at rest is brighter than the spread of its history allows, -1 where it is darker,
   /// 0 elsewhere; `drift` is the difference of the mean of few frames from the history's, 0 where surfaces do not rest.
-  void (*find_changes)(const ChangeRow& row, std::size_t n);
+  void (*detect_changes)(const ChangeRow& row, std::size_t n);
   /// The number of frames that history at rest may count as: infinite where it is trusted, otherwise it is rectified
   /// and counts as `unlimited` frames or less.
   ///

@@ -98,8 +98,8 @@ constexpr TemporalKernels temporal() {
           .encode = &encode_temporal<Full, One>,
           .decode = &decode_temporal<Full, One>,
           .take_surfaces = &take_surfaces<Full, One>,
-          .find_unrest = &find_unrest<Full, One>,
-          .find_changes = &find_changes<Full, One>,
+          .compute_unrest = &compute_unrest<Full, One>,
+          .detect_changes = &detect_changes<Full, One>,
           .find_drift = &find_drift<Full, One>,
           .resolve = &resolve_temporal<Wide, Full, One>,
           .sharpen = &sharpen_temporal<Full, One>};

@@ -49,7 +49,7 @@ SurfaceHistory::SurfaceHistory(const Options& options)
     : options_(options),
       jitter_(jitter_pattern(JitterSequence::Halton, per_frame_pixel(options.length, options.scale))),
       coverage_(jitter_pattern(JitterSequence::R2, per_frame_pixel(options.coverage, options.scale))),
-      reach_(static_cast<int>(std::ceil(options.scale))) {}
+      radius_(static_cast<int>(std::ceil(options.scale))) {}
 
 /// Textures are sampled at the sample, not at the centre, and less filtered, since the mean of many samples filters
 /// them. An alpha test decides as it does for the shaded sample: at another mip level it covers another part of a
@@ -209,16 +209,16 @@ bool SurfaceHistory::has_sample(std::uint32_t object, int x, int y) const {
 
 /// Calls use(i, j) for the shaded samples of an object within a distance in pixels, by row.
 template <class Use>
-void SurfaceHistory::for_samples_around(std::uint32_t object, int x, int y, int reach, const Use& use) const {
-  for (int j = std::max(y - reach, 0); j <= std::min(y + reach, height_ - 1); ++j)
-    for (int i = std::max(x - reach, 0); i <= std::min(x + reach, width_ - 1); ++i)
+void SurfaceHistory::for_samples_around(std::uint32_t object, int x, int y, int radius, const Use& use) const {
+  for (int j = std::max(y - radius, 0); j <= std::min(y + radius, height_ - 1); ++j)
+    for (int i = std::max(x - radius, 0); i <= std::min(x + radius, width_ - 1); ++i)
       if (has_sample(object, i, j)) use(i, j);
 }
 
 /// The range of the lumas of the samples of a shaded pixel's object around it.
 float SurfaceHistory::range_around(int x, int y) const {
   float low = luma_of(color_(x, y)), high = low;
-  for_samples_around(object_(x, y), x, y, reach_, [&](int i, int j) {
+  for_samples_around(object_(x, y), x, y, radius_, [&](int i, int j) {
     const float luma = luma_of(color_(i, j));
     low = std::min(low, luma), high = std::max(high, luma);
   });
@@ -227,7 +227,7 @@ float SurfaceHistory::range_around(int x, int y) const {
 
 /// The change of every shaded sample against the history of its object. Its variance is that of earlier samples, and
 /// that which the range of its neighbours suggests.
-void SurfaceHistory::find_changes() {
+void SurfaceHistory::detect_changes() {
   changes_ = Plane<Change>(width_, height_);
   if (context_.is_first) return;
   for_rows(height_, [&](int y) {
@@ -251,7 +251,7 @@ void SurfaceHistory::find_changes() {
 bool SurfaceHistory::has_changed(std::uint32_t object, int x, int y) const {
   constexpr float deviations = 2.5f;
   Change sum;
-  for_samples_around(object, x, y, reach_, [&](int i, int j) {
+  for_samples_around(object, x, y, radius_, [&](int i, int j) {
     const Change& c = changes_(i, j);
     sum.luma += c.luma, sum.variance += c.variance, sum.tolerance += c.tolerance;
   });
@@ -316,14 +316,14 @@ Linear SurfaceHistory::color_around(int x, int y) const {
   if (is_shaded_(x, y) != 0) return color_(x, y);
   Linear sum{0, 0, 0, 0};
   float count = 0;
-  for (int j = std::max(y - reach_, 0); j <= std::min(y + reach_, height_ - 1); ++j)
-    for (int i = std::max(x - reach_, 0); i <= std::min(x + reach_, width_ - 1); ++i)
+  for (int j = std::max(y - radius_, 0); j <= std::min(y + radius_, height_ - 1); ++j)
+    for (int i = std::max(x - radius_, 0); i <= std::min(x + radius_, width_ - 1); ++i)
       if (is_shaded_(i, j) != 0) sum = sum_of(sum, color_(i, j)), ++count;
   return count > 0 ? scaled(sum, 1 / count) : sum;
 }
 
 LinearImage SurfaceHistory::resolve(Frame&) {
-  find_changes();
+  detect_changes();
   LinearImage out(width_, height_);
   Plane<Layers> history(width_, height_);
   for_rows(height_, [&](int y) {

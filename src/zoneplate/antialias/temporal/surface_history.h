@@ -73,14 +73,14 @@ class SurfaceHistory : public Resolver {
   Cell cell_of(int x, int y, SamplePosition position) const;
   bool has_sample(std::uint32_t object, int x, int y) const;
   template <class Use>
-  void for_samples_around(std::uint32_t object, int x, int y, int reach, const Use& use) const;
+  void for_samples_around(std::uint32_t object, int x, int y, int radius, const Use& use) const;
   Linear color_around(int x, int y) const;
   void take_shaded(Frame& frame, SamplePosition position);
   void add(const Frame& frame, SamplePosition position, int weight);
   Layer moved(std::uint32_t object, float x, float y) const;
   Layer past_of(const Presence& presence, int x, int y) const;
   float range_around(int x, int y) const;
-  void find_changes();
+  void detect_changes();
   bool has_changed(std::uint32_t object, int x, int y) const;
   Layer borrowed(std::uint32_t object, int x, int y) const;
   Layer guessed(const Layer& past, std::uint32_t object, int x, int y) const;
@@ -93,7 +93,7 @@ class SurfaceHistory : public Resolver {
 
   int width_ = 0, height_ = 0;              ///< of the image
   int frame_width_ = 0, frame_height_ = 0;  ///< of the frames
-  int reach_ = 1;                           ///< pixels around one that contain its neighbours' samples
+  int radius_ = 1;                          ///< pixels around one that contain its neighbours' samples
 
   LinearImage color_;  ///< of this frame's shaded samples
   Plane<std::uint32_t> object_;

@@ -18,7 +18,7 @@ template <class F>
 }
 
 template <class Full, class One>
-[[gnu::flatten]] void find_unrest(const UnrestRow& row, float* unrest, std::size_t n) {
+[[gnu::flatten]] void compute_unrest(const UnrestRow& row, float* unrest, std::size_t n) {
   constexpr float likeness = 1 / 128.0f;  // pixels; over twenty frames a sixth of a pixel
   for_row<Full, One>(n, [&]<class F>(std::size_t at) {
     const auto i = static_cast<std::ptrdiff_t>(at);

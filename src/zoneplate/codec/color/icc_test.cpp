@@ -41,13 +41,13 @@ TEST_F(Icc, DisplayP3IsWhatItsCodePointsSay) {
 
 TEST_F(Icc, AProfileOfSrgbIsStandard) {
   RgbSpace space = read_icc_space(icc_of_primaries(srgb_icc_primaries, icc_srgb_curve(), "sRGB"), false);
-  find_if_standard(space);
+  recognize_standard(space);
   EXPECT_TRUE(space.is_standard);
   space = read_icc_space(icc_display_p3(), false);
-  find_if_standard(space);
+  recognize_standard(space);
   EXPECT_FALSE(space.is_standard);
   space = read_icc_space(icc_of_primaries(srgb_icc_primaries, icc_power(1.8), "1.8"), false);
-  find_if_standard(space);
+  recognize_standard(space);
   EXPECT_FALSE(space.is_standard);
 }
 

@@ -69,7 +69,7 @@ float saturation(float r, float g, float b) {
   return most > 0 ? 1 - least / most : 0;
 }
 
-void find_saturation(const float* r, const float* g, const float* b, Row& out) {
+void compute_saturation(const float* r, const float* g, const float* b, Row& out) {
   for (std::size_t x = 0; x < out.size(); ++x) out[x] = saturation(r[x], g[x], b[x]);
 }
 
@@ -95,7 +95,7 @@ Row saturation_above(const LuminanceChroma& image, float3 weights) {
   };
   fill(image.red, red), fill(image.blue, blue);
   convert_row(red.data(), luminance.data(), blue.data(), image.width, weights);
-  find_saturation(red.data(), luminance.data(), blue.data(), out);
+  compute_saturation(red.data(), luminance.data(), blue.data(), out);
   return out;
 }
 
@@ -104,7 +104,7 @@ Row saturation_above(const LuminanceChroma& image, float3 weights) {
 void limit_saturation(const LuminanceChroma& image, float3 weights, Row above) {
   const auto row = [&](float* values, int y) { return row_of(values, image.width, y); };
   const auto saturation_of = [&](int y, Row& out) {
-    find_saturation(row(image.red.values, y), row(image.luminance, y), row(image.blue.values, y), out);
+    compute_saturation(row(image.red.values, y), row(image.luminance, y), row(image.blue.values, y), out);
   };
   Row here(above.size()), below(above.size());
   saturation_of(0, here);

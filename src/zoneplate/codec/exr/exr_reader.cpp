@@ -130,7 +130,7 @@ class ExrReader {
     set_up.alloc_fn = [](std::size_t size) { return std::calloc(1, size); };
     set_up.free_fn = [](void* memory) { std::free(memory); };
     library_.check(library_.start_read(&context_, "memory", &set_up));
-    find_channels();
+    select_channels();
   }
   ~ExrReader() { library_.finish(&context_); }
   ExrReader(const ExrReader&) = delete;
@@ -178,7 +178,7 @@ class ExrReader {
   }
 
  private:
-  void find_channels() {
+  void select_channels() {
     const exr_attr_chlist_t* list = nullptr;
     library_.check(library_.channels(context_, selection_.part, &list));
     std::map<std::string_view, std::size_t> wanted;

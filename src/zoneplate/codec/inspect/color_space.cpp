@@ -296,7 +296,7 @@ ImageColor color_of_file(FileColor file, const char* code_points, const std::str
     RgbSpace space = read_icc_space(file.profile.icc, file.is_grey);
     space.name = fmt::format("the ICC profile '{}'", space.name);
     space.profile = std::move(file.profile);
-    find_if_standard(space);
+    recognize_standard(space);
     out.space = std::make_shared<const RgbSpace>(std::move(space));
   } catch (const Error& error) {
     const char* const what = is_icc               ? "ICC profile"

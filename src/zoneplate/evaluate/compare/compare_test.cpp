@@ -364,7 +364,7 @@ TEST(ParetoFront, HoldsWhatNothingBeats) {
     return t;
   };
   std::vector<Trial> trials = {trial(1, 9), trial(2, 5), trial(3, 6), trial(4, 5), trial(5, 1), trial(5, 2)};
-  find_front(trials, *flip);
+  mark_front(trials, *flip);
   std::vector<bool> front;
   for (const Trial& t : trials) front.push_back(t.is_on_front);
   EXPECT_EQ(front, (std::vector<bool>{true, true, false, false, true, false}));
@@ -379,7 +379,7 @@ TEST(Ranking, IsThatOfTheFirstMetric) {
     if (value) scene.trials.back().results.push_back({.metric = psnr, .value = *value});
   };
   add("none", 1, 30), add("best", 9, 50), add("unmeasured", 0.5, std::nullopt), add("slow", 8, 40), add("good", 3, 42);
-  find_front(scene.trials, *psnr);
+  mark_front(scene.trials, *psnr);
   std::string order;
   for (const Trial* t : ranked(scene)) order += t->method + (t->is_on_front ? "* " : " ");
   EXPECT_EQ(order, "best* good* slow none* unmeasured ");
@@ -433,7 +433,7 @@ TEST(CostPlot, NamesMethodsOfLikeErrorAndOtherCost) {
     scene.trials.back().results.push_back({.metric = flip, .value = error});
   };
   add("fxaa", 4, 0.0100), add("none", 6, 0.0098), add("close", 6.1, 0.0097), add("msaa", 9, 0.0050);
-  find_front(scene.trials, *flip);
+  mark_front(scene.trials, *flip);
   const Plot plot = cost_plot(scene);
   EXPECT_EQ(plot.title, "s: FLIP ×1000 against cost");
   EXPECT_EQ(plot.curves[1].labels, (std::vector<std::string>{"fxaa", "none", "", "msaa"}));

@@ -285,7 +285,7 @@ bool is_on_front(const CostPoint& own, std::span<const CostPoint> all, const met
          });
 }
 
-void find_front(std::vector<Trial>& trials, const metrics::Metric& metric) {
+void mark_front(std::vector<Trial>& trials, const metrics::Metric& metric) {
   std::vector<CostPoint> points;
   for (const Trial& t : trials) points.push_back({t.cpu_ms(), t.value(metric.name)});
   for (std::size_t i = 0; i < trials.size(); ++i) trials[i].is_on_front = is_on_front(points[i], points, metric);
@@ -312,7 +312,7 @@ SceneTrials run_trials(const TrialSetup& stage, const TrialOptions& options, con
     out.common_worst = worst[0];
     out.common_worst.error /= static_cast<double>(options.methods.size());
   }
-  find_front(out.trials, *out.ranking);
+  mark_front(out.trials, *out.ranking);
   return out;
 }
 

@@ -124,6 +124,6 @@ struct CostPoint {
 bool is_on_front(const CostPoint& own, std::span<const CostPoint> all, const metrics::Metric& metric);
 
 /// Marks the trials on the Pareto front of CPU time and a metric.
-void find_front(std::vector<Trial>& trials, const metrics::Metric& metric);
+void mark_front(std::vector<Trial>& trials, const metrics::Metric& metric);
 
 }  // namespace zoneplate

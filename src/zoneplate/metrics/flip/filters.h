@@ -17,7 +17,7 @@ struct FlipFilters {
   /// A Gaussian and its first and second derivative; positive and negative parts sum to 1 and -1.
   Taps smooth, slope, bend;
 
-  int reach() const { return color_radius > feature_radius ? color_radius : feature_radius; }
+  int radius() const { return color_radius > feature_radius ? color_radius : feature_radius; }
 };
 
 FlipFilters make_flip_filters(double pixels_per_degree);

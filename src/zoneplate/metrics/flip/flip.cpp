@@ -40,18 +40,18 @@ Triple light_of(Linear c) {
   return {unit(c.r), unit(c.g), unit(c.b)};
 }
 
-/// A tile of one image in YCxCz with a margin of `reach` pixels on all sides, in which the image's border is repeated.
+/// A tile of one image in YCxCz with a margin of `radius` pixels on all sides, in which the image's border is repeated.
 struct Margin {
   Plane<double> y, cx, cz;
 };
 
-Margin load_tile(const LinearImage& image, const Tile& tile, int reach) {
-  const int width = tile.width + 2 * reach, height = tile.height + 2 * reach;
+Margin load_tile(const LinearImage& image, const Tile& tile, int radius) {
+  const int width = tile.width + 2 * radius, height = tile.height + 2 * radius;
   Margin out{Plane<double>(width, height), Plane<double>(width, height), Plane<double>(width, height)};
   for (int j = 0; j < height; ++j) {
-    const int y = std::clamp(tile.y0 - reach + j, 0, image.height() - 1);
+    const int y = std::clamp(tile.y0 - radius + j, 0, image.height() - 1);
     for (int i = 0; i < width; ++i) {
-      const int x = std::clamp(tile.x0 - reach + i, 0, image.width() - 1);
+      const int x = std::clamp(tile.x0 - radius + i, 0, image.width() - 1);
       const Triple c = opponent_from_rgb(light_of(image(x, y)));
       out.y(i, j) = c.x, out.cx(i, j) = c.y, out.cz(i, j) = c.z;
     }
@@ -60,14 +60,14 @@ Margin load_tile(const LinearImage& image, const Tile& tile, int reach) {
 }
 
 /// Filters a plane with one set of taps in x and another of the same size in y, and removes its margin.
-Plane<double> filter(const Plane<double>& in, int reach, const Taps& across, const Taps& down) {
+Plane<double> filter(const Plane<double>& in, int margin, const Taps& across, const Taps& down) {
   const int radius = static_cast<int>(across.size()) / 2;
-  const int width = in.width() - 2 * reach, height = in.height() - 2 * reach;
+  const int width = in.width() - 2 * margin, height = in.height() - 2 * margin;
   const auto n = static_cast<std::size_t>(width);
   const FlipKernels& kernels = FlipKernels::of();
   Plane<double> rows(width, height + 2 * radius), out(width, height);
   for (int j = 0; j < rows.height(); ++j)
-    kernels.weighted_sums(in.row(j + reach - radius).data() + (reach - radius), 1, across.data(), across.size(),
+    kernels.weighted_sums(in.row(j + margin - radius).data() + (margin - radius), 1, across.data(), across.size(),
                           rows.row(j).data(), n);
   for (int j = 0; j < height; ++j)
     kernels.weighted_sums(rows.row(j).data(), n, down.data(), down.size(), out.row(j).data(), n);
@@ -80,17 +80,17 @@ void add(Plane<double>& sum, const Plane<double>& other) {
 
 /// Computes the compared quantities of a tile's pixels.
 Plane<Seen> look(const LinearImage& image, const Tile& tile, const FlipFilters& f) {
-  const int reach = f.reach();
-  Margin c = load_tile(image, tile, reach);
-  const Plane<double> y = filter(c.y, reach, f.lightness, f.lightness);
-  const Plane<double> cx = filter(c.cx, reach, f.red_green, f.red_green);
-  Plane<double> cz = filter(c.cz, reach, f.blue_yellow_narrow, f.blue_yellow_narrow);
-  add(cz, filter(c.cz, reach, f.blue_yellow_broad, f.blue_yellow_broad));
+  const int radius = f.radius();
+  Margin c = load_tile(image, tile, radius);
+  const Plane<double> y = filter(c.y, radius, f.lightness, f.lightness);
+  const Plane<double> cx = filter(c.cx, radius, f.red_green, f.red_green);
+  Plane<double> cz = filter(c.cz, radius, f.blue_yellow_narrow, f.blue_yellow_narrow);
+  add(cz, filter(c.cz, radius, f.blue_yellow_broad, f.blue_yellow_broad));
 
   // Features are detected in the lightness before the filter, in [0, 1].
   for (double& v : c.y.values()) v = (v + 16) / 116;
-  const Plane<double> edge_x = filter(c.y, reach, f.slope, f.smooth), edge_y = filter(c.y, reach, f.smooth, f.slope);
-  const Plane<double> point_x = filter(c.y, reach, f.bend, f.smooth), point_y = filter(c.y, reach, f.smooth, f.bend);
+  const Plane<double> edge_x = filter(c.y, radius, f.slope, f.smooth), edge_y = filter(c.y, radius, f.smooth, f.slope);
+  const Plane<double> point_x = filter(c.y, radius, f.bend, f.smooth), point_y = filter(c.y, radius, f.smooth, f.bend);
 
   Plane<Seen> seen(tile.width, tile.height);
   for (std::size_t i = 0; i < seen.values().size(); ++i) {
@@ -114,9 +114,9 @@ double color_error(Triple a, Triple b, double greatest) {
 }
 
 /// Whether the images agree in all pixels that affect a tile.
-bool agree_around(const LinearImage& a, const LinearImage& b, const Tile& tile, int reach) {
-  const int left = std::max(0, tile.x0 - reach), right = std::min(a.width(), tile.x0 + tile.width + reach);
-  const int top = std::max(0, tile.y0 - reach), bottom = std::min(a.height(), tile.y0 + tile.height + reach);
+bool agree_around(const LinearImage& a, const LinearImage& b, const Tile& tile, int radius) {
+  const int left = std::max(0, tile.x0 - radius), right = std::min(a.width(), tile.x0 + tile.width + radius);
+  const int top = std::max(0, tile.y0 - radius), bottom = std::min(a.height(), tile.y0 + tile.height + radius);
   const auto same = [](const Linear& p, const Linear& q) { return p.r == q.r && p.g == q.g && p.b == q.b; };
   for (int y = top; y < bottom; ++y) {
     const auto part = [&](const LinearImage& image) {
@@ -149,7 +149,7 @@ Plane<float> flip_map(const LinearImage& reference, const LinearImage& test, dou
   parallel_for(static_cast<std::size_t>(across) * static_cast<std::size_t>(down), [&](std::size_t index) {
     const int x0 = static_cast<int>(index) % across * tile_side, y0 = static_cast<int>(index) / across * tile_side;
     const Tile tile{x0, y0, std::min(tile_side, width - x0), std::min(tile_side, height - y0)};
-    if (agree_around(reference, test, tile, filters.reach())) return;  // the error is 0
+    if (agree_around(reference, test, tile, filters.radius())) return;  // the error is 0
     const Plane<Seen> a = look(reference, tile, filters), b = look(test, tile, filters);
     for (int y = 0; y < tile.height; ++y) {
       for (int x = 0; x < tile.width; ++x) {

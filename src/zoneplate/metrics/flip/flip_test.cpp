@@ -104,13 +104,13 @@ TEST(Flip, OnePixelsDifferenceIsSeenAsFarAsFiltersReachAndNoFarther) {
   LinearImage changed = pair.reference;
   changed(64, 61) = {5, 0, 0, 1};
   const Plane<float> map = flip_map(pair.reference, changed, 30);
-  const int reach = make_flip_filters(30).reach();
+  const int radius = make_flip_filters(30).radius();
   for (int y = 0; y < 128; ++y)
     for (int x = 0; x < 256; ++x) {
       const int far = std::max(std::abs(x - 64), std::abs(y - 61));
       if (far <= 1) {
         EXPECT_GT(map(x, y), 0.01) << x << ' ' << y;
-      } else if (far > reach) {
+      } else if (far > radius) {
         EXPECT_EQ(map(x, y), 0) << x << ' ' << y;
       }
     }

@@ -92,7 +92,7 @@ int collect_rows(const TileTriangle& t, const TileVisibility& tile, std::uint64_
   return count;
 }
 
-void find_nearest(const TileVisibility& tile, float* nearest) {
+void compute_nearest(const TileVisibility& tile, float* nearest) {
   for (int block = 0; block < TileVisibility::blocks; ++block) {
     nearest[block] = 0;
     if (tile.block_primitive[block] == no_primitive) continue;
@@ -127,7 +127,7 @@ int collect_blocks(const TileTriangle& t, const TileVisibility& tile, const floa
   return count;
 }
 
-void find_owners(const TileVisibility& tile, std::int32_t* owners) {
+void fetch_owners(const TileVisibility& tile, std::int32_t* owners) {
   for (int row = 0; row < tile_pixels / 8; ++row) {
     owners[row] = tile.block_primitive[row / 64 * 8 + row % 8];
     if (owners[row] != mixed_primitives) continue;
@@ -146,7 +146,7 @@ template <>
 const CoverageKernels PerIsa<CoverageKernels>::scalar = {.draw = scalar::draw,
                                                          .collect = scalar::collect,
                                                          .collect_rows = scalar::collect_rows,
-                                                         .find_nearest = scalar::find_nearest,
+                                                         .compute_nearest = scalar::compute_nearest,
                                                          .collect_blocks = scalar::collect_blocks,
-                                                         .find_owners = scalar::find_owners};
+                                                         .fetch_owners = scalar::fetch_owners};
 }  // namespace zoneplate

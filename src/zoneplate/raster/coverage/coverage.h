@@ -71,14 +71,14 @@ struct CoverageKernels : PerIsa<CoverageKernels> {
   int (*collect_rows)(const TileTriangle& triangle, const TileVisibility& tile, std::uint64_t blocks, SpanLayer* out,
                       std::uint8_t* is_partial);
   /// The greatest depth of the samples of each block; 0 where nothing is drawn.
-  void (*find_nearest)(const TileVisibility& tile, float* nearest);
+  void (*compute_nearest)(const TileVisibility& tile, float* nearest);
   /// Lists the blocks where the triangle covers every sample and is in front of `nearest`; sets the bits in `others` of
   /// the other blocks where it may win some. `out` has the capacity for every block; the result is their number.
   int (*collect_blocks)(const TileTriangle& triangle, const TileVisibility& tile, const float* nearest, BlockLayer* out,
                         std::uint64_t& others);
   /// The owner of each span of 8 pixels, 8 × 64 of them: the triangle that owns all of its samples, `no_primitive` if
   /// it is empty, otherwise `mixed_primitives`.
-  void (*find_owners)(const TileVisibility& tile, std::int32_t* owners);
+  void (*fetch_owners)(const TileVisibility& tile, std::int32_t* owners);
 };
 
 }  // namespace zoneplate

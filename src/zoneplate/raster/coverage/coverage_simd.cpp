@@ -312,7 +312,7 @@ int collect_rows(const TileTriangle& t, const TileVisibility& tile, std::uint64_
   return count;
 }
 
-void find_nearest(const TileVisibility& tile, float* nearest) {
+void compute_nearest(const TileVisibility& tile, float* nearest) {
   const DF d;
   for (int block = 0; block < TileVisibility::blocks; ++block) {
     nearest[block] = 0;
@@ -346,7 +346,7 @@ int collect_blocks(const TileTriangle& t, const TileVisibility& tile, const floa
   return count;
 }
 
-void find_owners(const TileVisibility& tile, std::int32_t* owners) {
+void fetch_owners(const TileVisibility& tile, std::int32_t* owners) {
   const DI d;
   const int lanes = static_cast<int>(hn::Lanes(d)), samples = tile.sample_count;
   for (int block = 0; block < TileVisibility::blocks; ++block) {
@@ -376,7 +376,7 @@ template <>
 const CoverageKernels PerIsa<CoverageKernels>::HWY_NAMESPACE = {.draw = HWY_NAMESPACE::draw,
                                                                 .collect = HWY_NAMESPACE::collect,
                                                                 .collect_rows = HWY_NAMESPACE::collect_rows,
-                                                                .find_nearest = HWY_NAMESPACE::find_nearest,
+                                                                .compute_nearest = HWY_NAMESPACE::compute_nearest,
                                                                 .collect_blocks = HWY_NAMESPACE::collect_blocks,
-                                                                .find_owners = HWY_NAMESPACE::find_owners};
+                                                                .fetch_owners = HWY_NAMESPACE::fetch_owners};
 }  // namespace zoneplate

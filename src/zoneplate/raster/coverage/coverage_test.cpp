@@ -298,8 +298,8 @@ TEST(Coverage, KernelsGiveTheScalarTwinsBits) {
         CoverageKernels::of(isa).draw(tile, b.visibility);
       }
       std::vector<std::int32_t> owners_a(tile_pixels / 8), owners_b(tile_pixels / 8);
-      CoverageKernels::scalar.find_owners(a.visibility, owners_a.data());
-      CoverageKernels::of(isa).find_owners(b.visibility, owners_b.data());
+      CoverageKernels::scalar.fetch_owners(a.visibility, owners_a.data());
+      CoverageKernels::of(isa).fetch_owners(b.visibility, owners_b.data());
       EXPECT_EQ(owners_a, owners_b);
       a.visibility.materialize_all();
       b.visibility.materialize_all();
@@ -332,8 +332,8 @@ TEST(Coverage, WholeBlocksAreThoseWhereEverySampleIsWon) {
           continue;
         }
         float nearest[2][TileVisibility::blocks];
-        CoverageKernels::scalar.find_nearest(held.visibility, nearest[0]);
-        kernels.find_nearest(held.visibility, nearest[1]);
+        CoverageKernels::scalar.compute_nearest(held.visibility, nearest[0]);
+        kernels.compute_nearest(held.visibility, nearest[1]);
         ASSERT_TRUE(std::equal(nearest[0], nearest[0] + TileVisibility::blocks, nearest[1]));
         BlockLayer a[TileVisibility::blocks], b[TileVisibility::blocks];
         std::uint64_t others_a = 0, others_b = 0;

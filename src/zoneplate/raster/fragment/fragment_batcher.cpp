@@ -25,7 +25,7 @@ std::span<const std::uint32_t> FragmentBatcher::order_by_material(std::span<cons
   number_up_to(list.size());
   const auto as_is = std::span<const std::uint32_t>(identity_order_).first(list.size());
   if (list.empty()) return as_is;
-  find_draw(list[0].id);
+  select_draw(list[0].id);
   one_material_ = current_.draw->material;
   if (has_one_material_) return as_is;
   std::size_t same = 1;
@@ -58,7 +58,7 @@ std::size_t FragmentBatcher::same_material(std::span<const std::uint32_t> order,
   return last - first;
 }
 
-void FragmentBatcher::find_draw(std::int32_t id) {
+void FragmentBatcher::select_draw(std::int32_t id) {
   if (id >= current_.begin && id < current_.end) return;
   current_.number = projected_.draw_of(id);
   current_.draw = &projected_.draws[current_.number];
@@ -68,7 +68,7 @@ void FragmentBatcher::find_draw(std::int32_t id) {
 }
 
 int FragmentBatcher::material_of(std::int32_t id) {
-  find_draw(id);
+  select_draw(id);
   return current_.draw->material;
 }
 
@@ -80,7 +80,7 @@ void FragmentBatcher::prefetch_triangle(std::int32_t id) const {
 
 /// Stores the values of a triangle at entry i of the batch. Its vertices, a random access, are only prefetched.
 void FragmentBatcher::store_triangle(std::size_t i, std::int32_t id) {
-  find_draw(id);
+  select_draw(id);
   const Draw& draw = *current_.draw;
   const auto local = static_cast<std::size_t>(id - current_.begin);
   const std::uint32_t* v = &draw.index[3 * local];
@@ -100,7 +100,7 @@ void FragmentBatcher::store_triangle(std::size_t i, std::int32_t id) {
   }
 }
 
-void FragmentBatcher::fill(std::span<const Fragment> points, std::span<const std::uint32_t> numbers) {
+void FragmentBatcher::fill(std::span<const Fragment> fragments, std::span<const std::uint32_t> numbers) {
   constexpr std::size_t ahead = 16;
   batch_->count = static_cast<int>(numbers.size());
   batch_->material = material_.empty() ? one_material_ : static_cast<int>(material_[numbers[0]]);
@@ -108,8 +108,8 @@ void FragmentBatcher::fill(std::span<const Fragment> points, std::span<const std
   triangles_.screen = nullptr;
   std::fill(std::begin(batch_->is_flat_run), std::end(batch_->is_flat_run), false);
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch_->padded()); ++i) {
-    if (i + ahead < numbers.size()) prefetch_triangle(points[numbers[i + ahead]].id);
-    const Fragment& point = points[numbers[std::min(i, numbers.size() - 1)]];
+    if (i + ahead < numbers.size()) prefetch_triangle(fragments[numbers[i + ahead]].id);
+    const Fragment& point = fragments[numbers[std::min(i, numbers.size() - 1)]];
     store_triangle(i, point.id);
     batch_->x[i] = point.x, batch_->y[i] = point.y;
   }
@@ -139,7 +139,7 @@ void FragmentBatcher::fill(std::span<const FragmentSpan> rows, std::span<const s
 /// current draw.
 bool FragmentBatcher::are_of_one_draw(const FragmentList& list) {
   if (list.count == 0) return true;
-  find_draw(list.id[0]);
+  select_draw(list.id[0]);
   if (current_.draw->quads || !current_.screen) return false;
   if (projected_.draws.size() == 1) return true;
   const auto begin = static_cast<std::uint32_t>(current_.begin),
@@ -151,7 +151,7 @@ bool FragmentBatcher::are_of_one_draw(const FragmentList& list) {
 
 /// Finds the vertices of the batch that begins at fragment `first` of a list of the current draw. Vertices and indices
 /// are random accesses: both are prefetched about a batch ahead.
-void FragmentBatcher::find_vertices(const FragmentList& list, std::size_t first) {
+void FragmentBatcher::fetch_vertices(const FragmentList& list, std::size_t first) {
   constexpr std::size_t ahead = 160;
   const Draw& draw = *current_.draw;
   if (first == 0) vertex_memory_ = shader_.vertex_memory(draw.instance, draw.material);
@@ -200,17 +200,17 @@ void FragmentBatcher::fill(const FragmentList& list, std::size_t first, std::siz
   copy(list.id + first, batch_->triangle);
   for (std::uint32_t(&v)[FragmentBatch::padded_capacity] : batch_->vertex)
     std::fill(v + count, v + padded, v[count - 1]);
-  if (first + count < static_cast<std::size_t>(list.count)) find_vertices(list, first + count);
+  if (first + count < static_cast<std::size_t>(list.count)) fetch_vertices(list, first + count);
   interpolate();
 }
 
 template <class Use>
-void FragmentBatcher::for_batches(std::span<const Fragment> points, Use use) {
-  const auto order = order_by_material(points);
-  for (std::size_t first = 0; first < points.size();) {
+void FragmentBatcher::for_batches(std::span<const Fragment> fragments, Use use) {
+  const auto order = order_by_material(fragments);
+  for (std::size_t first = 0; first < fragments.size();) {
     const std::size_t count = same_material(order, first, FragmentBatch::capacity);
     const auto numbers = order.subspan(first, count);
-    fill(points, numbers);
+    fill(fragments, numbers);
     use(numbers);
     first += count;
   }
@@ -252,7 +252,7 @@ void FragmentBatcher::interpolate() {
 /// Finds the planes of a triangle that needs clipping.
 const TriangleFacing& FragmentBatcher::clipped_facing(std::int32_t id) {
   if (id != current_clipped_.id) {
-    find_draw(id);
+    select_draw(id);
     current_clipped_ = {id, face_of(projected_, current_.number, id, target_.viewport)};
   }
   return current_clipped_.facing;
@@ -305,7 +305,7 @@ void FragmentBatcher::interpolate_clipped(std::size_t group, float spacing) {
 void FragmentBatcher::weigh_segment_vertices() {
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch_->padded()); ++i) {
     const auto id = static_cast<std::int32_t>(batch_->triangle[batch_->leader(i)]);
-    find_draw(id);
+    select_draw(id);
     const Draw& d = *current_.draw;
     if (!d.quads) continue;
     const std::uint32_t* v = &d.index[3 * static_cast<std::size_t>(id - current_.begin)];
@@ -355,20 +355,20 @@ void FragmentBatcher::shade_outputs(std::span<const Fragment> fragments, std::ve
   });
 }
 
-void FragmentBatcher::test_alpha(std::span<const Fragment> points, std::vector<std::uint8_t>& is_there) {
-  shaded_ += points.size();
-  is_there.resize(points.size());
-  for_batches(points, [&](std::span<const std::uint32_t> numbers) {
+void FragmentBatcher::test_alpha(std::span<const Fragment> fragments, std::vector<std::uint8_t>& is_there) {
+  shaded_ += fragments.size();
+  is_there.resize(fragments.size());
+  for_batches(fragments, [&](std::span<const std::uint32_t> numbers) {
     alignas(64) float alpha[FragmentBatch::padded_capacity];
     const float cutoff = shader_.alpha(*batch_, alpha);
     for (std::size_t i = 0; i < numbers.size(); ++i) is_there[numbers[i]] = alpha[i] >= cutoff;
   });
 }
 
-void FragmentBatcher::find_alpha_margins(std::span<const Fragment> points, std::vector<float>& margins) {
-  shaded_ += points.size();
-  margins.resize(points.size());
-  for_batches(points, [&](std::span<const std::uint32_t> numbers) {
+void FragmentBatcher::evaluate_alpha_margins(std::span<const Fragment> fragments, std::vector<float>& margins) {
+  shaded_ += fragments.size();
+  margins.resize(fragments.size());
+  for_batches(fragments, [&](std::span<const std::uint32_t> numbers) {
     alignas(64) float alpha[FragmentBatch::padded_capacity];
     const float cutoff = shader_.alpha(*batch_, alpha);
     for (std::size_t i = 0; i < numbers.size(); ++i) margins[numbers[i]] = alpha[i] - cutoff;

@@ -72,10 +72,10 @@ class FragmentBatcher {
   void shade(const FragmentList& list, Use use);
 
   /// Tests alpha: is_there[i] is 1 if the alpha of fragment i is at least the cutoff, otherwise 0.
-  void test_alpha(std::span<const Fragment> points, std::vector<std::uint8_t>& is_there);
+  void test_alpha(std::span<const Fragment> fragments, std::vector<std::uint8_t>& is_there);
 
   /// The differences of the fragments' alpha and the cutoff; a surface is present where its margin is not negative.
-  void find_alpha_margins(std::span<const Fragment> points, std::vector<float>& margins);
+  void evaluate_alpha_margins(std::span<const Fragment> fragments, std::vector<float>& margins);
 
   std::uint64_t shaded() const { return shaded_; }
   /// The number of fragments whose data were evaluated without shading.
@@ -100,16 +100,16 @@ class FragmentBatcher {
   std::span<const std::uint32_t> order_by_material(std::span<const T> list);
   std::size_t same_material(std::span<const std::uint32_t> order, std::size_t first, std::size_t most) const;
   template <class Use>
-  void for_batches(std::span<const Fragment> points, Use use);
+  void for_batches(std::span<const Fragment> fragments, Use use);
   void number_up_to(std::size_t count);
-  void find_draw(std::int32_t id);
+  void select_draw(std::int32_t id);
   bool are_of_one_draw(const FragmentList& list);
   void shade_mixed(const FragmentList& list);
   int material_of(std::int32_t id);
   void prefetch_triangle(std::int32_t id) const;
-  void fill(std::span<const Fragment> points, std::span<const std::uint32_t> numbers);
+  void fill(std::span<const Fragment> fragments, std::span<const std::uint32_t> numbers);
   void fill(std::span<const FragmentSpan> rows, std::span<const std::uint32_t> numbers);
-  void find_vertices(const FragmentList& list, std::size_t first);
+  void fetch_vertices(const FragmentList& list, std::size_t first);
   void fill(const FragmentList& list, std::size_t first, std::size_t count);
   void store_triangle(std::size_t i, std::int32_t id);
   void interpolate();
@@ -168,7 +168,7 @@ void FragmentBatcher::shade(const FragmentList& list, Use use) {
   const auto total = static_cast<std::size_t>(list.count);
   shaded_ += total;
   if (are_of_one_draw(list)) {
-    if (total > 0) find_vertices(list, 0);
+    if (total > 0) fetch_vertices(list, 0);
     for (std::size_t first = 0; first < total; first += capacity) {
       const std::size_t count = std::min(capacity, total - first);
       fill(list, first, count);

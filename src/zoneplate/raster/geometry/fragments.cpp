@@ -37,7 +37,7 @@ SampleBin* TileSampleBins::add_part(std::size_t tile, std::int32_t first_id, Are
 
 /// Rewrites the list with only the nearest fragment of each sample. This is repeated when the list has doubled.
 void TileSampleBins::drop_hidden(std::size_t tile, Arena& arena) {
-  find_nearest(last_[tile]);
+  compute_nearest(last_[tile]);
   while (SampleBin* const part = last_[tile]) {
     last_[tile] = part->previous;
     part->previous = free_;
@@ -58,7 +58,7 @@ void TileSampleBins::drop_hidden(std::size_t tile, Arena& arena) {
 }
 
 /// Fills nearest_ with the visible fragment of each sample: the least (-depth, id).
-void TileSampleBins::find_nearest(const SampleBin* list) {
+void TileSampleBins::compute_nearest(const SampleBin* list) {
   number_.assign(static_cast<std::size_t>(samples_) * tile_pixels, 0);
   nearest_.clear();
   for (; list; list = list->previous)

@@ -33,7 +33,7 @@ class TileSampleBins {
   };
   SampleBin* add_part(std::size_t tile, std::int32_t first_id, Arena& arena);
   void drop_hidden(std::size_t tile, Arena& arena);
-  void find_nearest(const SampleBin* list);
+  void compute_nearest(const SampleBin* list);
 
   std::vector<SampleBin*> last_;
   std::vector<std::uint32_t> parts_;  ///< by tile: number of parts of its list

@@ -121,14 +121,14 @@ class PartsOfFrame {
 
   void draw_band();
   void draw_pass();
-  void find_samples(Outbox& found);
+  void collect_samples(Outbox& found);
   void merge_found();
   void test_alpha(Outbox& passing);
   void tell_owners(Outbox& known);
   void shade(const Outbox& found, const Outbox& passing, std::span<const TileMessage> known, Outbox& colors);
   void shade_tile(const TileMessage& known, std::span<const std::byte> found, std::span<const std::byte> passing,
                   PartBuffers& b, Outbox& colors);
-  void find_data(std::span<const std::byte> others, PartBuffers& b, TileData& data);
+  void compute_data(std::span<const std::byte> others, PartBuffers& b, TileData& data);
   void pack_layers(PartBuffers& b, ByteBuffer& out);
   void draw_alone(std::uint32_t tile, PartBuffers& b);
   void take_colors(ResolvedTile& of, PartBuffers& b, std::vector<PlacedLayer>& layers) const;
@@ -185,7 +185,7 @@ void PartsOfFrame::draw_pass() {
   for_resolved(
       [](std::uint32_t, ResolvedTile& of, PartBuffers&) { of.samples.clear(), of.tested.clear(), of.colors.clear(); });
   Outbox found(ranks_), passing(ranks_), known(ranks_), colors(ranks_);
-  find_samples(found);
+  collect_samples(found);
   double pack_ms = 0;
   buffers_.for_each([&](PartBuffers& b) { pack_ms += std::exchange(b.pack_ms, 0); });
   pack_ms /= thread_limit();
@@ -214,7 +214,7 @@ void PartsOfFrame::draw_pass() {
 }
 
 /// Step 1.
-void PartsOfFrame::find_samples(Outbox& found) {
+void PartsOfFrame::collect_samples(Outbox& found) {
   for_each(last_ - first_, [&](std::size_t i, PartBuffers& b) {
     const std::size_t tile = first_ + i;
     if (is_drawn_alone_[i] || setup_.bins.is_empty(tile)) return;
@@ -358,7 +358,7 @@ void PartsOfFrame::shade_tile(const TileMessage& known, std::span<const std::byt
       data->nearest.assign(tile_pixels, NearestSurface{});
     }
     std::swap(data->shaded, b.data.shaded);
-    find_data(others, b, *data);
+    compute_data(others, b, *data);
     std::swap(data->shaded, b.data.shaded);
   }
   if (!is_shaded) return;
@@ -371,13 +371,13 @@ void PartsOfFrame::shade_tile(const TileMessage& known, std::span<const std::byt
 }
 
 /// The nearest surfaces of the pixels, of this rank and of others.
-void PartsOfFrame::find_data(std::span<const std::byte> others, PartBuffers& b, TileData& data) {
+void PartsOfFrame::compute_data(std::span<const std::byte> others, PartBuffers& b, TileData& data) {
   for_packed_samples(others, [&](int, std::uint32_t pixel, float depth, std::int32_t id) {
     NearestSurface& nearest = data.nearest[pixel];
     if (depth < nearest.depth || (depth == nearest.depth && id >= nearest.id)) return;
     nearest.depth = depth, nearest.id = id;
   });
-  find_nearest_surfaces(b.job, b.visibility, b.opaque, setup_.stores_color(), data);
+  collect_nearest_surfaces(b.job, b.visibility, b.opaque, setup_.stores_color(), data);
 }
 
 /// Writes the data of the pixels whose nearest surface is this rank's.
@@ -407,7 +407,7 @@ void PartsOfFrame::pack_layers(PartBuffers& b, ByteBuffer& out) {
   const bool is_per_sample = target_.is_per_sample;
   for (std::size_t next = 0; next < triangles;) {
     next = collect_layers(b.job, AlphaMode::Blend, next, b.job.drawn, nullptr, b.visibility, b.list);
-    find_layer_fragments(b.job, is_per_sample, b.list);
+    collect_layer_fragments(b.job, is_per_sample, b.list);
     b.batcher.shade(b.list.fragments, b.colors_of_list, nullptr);
     for (std::size_t i = 0; i < b.list.layers.size(); ++i) {
       const Layer& layer = b.list.layers[i];

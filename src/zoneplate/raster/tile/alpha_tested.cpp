@@ -52,7 +52,7 @@ void AlphaTester::rasterize(const TileJob& job, FragmentBatcher& batcher, TileVi
 }
 
 /// passing_samples_: of list_.fragments.
-void AlphaTester::find_passing_samples(const TileJob& job, FragmentBatcher& batcher) {
+void AlphaTester::collect_passing_samples(const TileJob& job, FragmentBatcher& batcher) {
   const Target& target = job.setup.target;
   const std::vector<Fragment>& fragments = list_.fragments;
   passing_samples_.assign(fragments.size(), 0);
@@ -73,8 +73,8 @@ void AlphaTester::find_passing_samples(const TileJob& job, FragmentBatcher& batc
 
 void AlphaTester::draw_layers(const TileJob& job, FragmentBatcher& batcher, TileVisibility& visibility) {
   const bool is_per_sample = job.setup.target.is_per_sample || job.setup.target.alpha == AlphaTest::Samples;
-  find_layer_fragments(job, is_per_sample, list_);
-  find_passing_samples(job, batcher);
+  collect_layer_fragments(job, is_per_sample, list_);
+  collect_passing_samples(job, batcher);
   for (std::size_t i = 0; i < list_.layers.size(); ++i) {
     const Layer& layer = list_.layers[i];
     std::uint32_t d = layer.first_depth;

@@ -25,7 +25,7 @@ class AlphaTester {
 
  private:
   void draw_layers(const TileJob& job, FragmentBatcher& batcher, TileVisibility& visibility);
-  void find_passing_samples(const TileJob& job, FragmentBatcher& batcher);
+  void collect_passing_samples(const TileJob& job, FragmentBatcher& batcher);
 
   AlphaDigits digits_;
   FragmentBatcher digit_batcher_;

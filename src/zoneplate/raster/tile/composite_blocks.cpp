@@ -77,7 +77,7 @@ void BlockCompositor::collect(const TileJob& job, const TileVisibility& visibili
   float nearest[TileVisibility::blocks];
   BlockLayer found[TileVisibility::blocks];
   std::uint32_t begin[TileVisibility::blocks + 1] = {};
-  coverage.find_nearest(visibility, nearest);
+  coverage.compute_nearest(visibility, nearest);
   other_blocks_ = 0;
   unsorted_.clear();
   layers_.clear();

@@ -59,7 +59,7 @@ void PixelCompositor::peel(const TileJob& job, const TileVisibility& visibility,
   Peel last{std::numeric_limits<float>::infinity(), -1, 0};
   bool has_any = false;
   while (stack.transmittance > least) {
-    find_next_layers(job, visibility, pixel, sample, last);
+    collect_next_layers(job, visibility, pixel, sample, last);
     if (peeled_.empty()) break;
     has_any = true;
     list_.fragments.clear();
@@ -76,8 +76,8 @@ void PixelCompositor::peel(const TileJob& job, const TileVisibility& visibility,
 
 /// peeled_: the nearest layers of a sample behind `last`, at most RasterCapacity::layer_samples of them, in their
 /// order.
-void PixelCompositor::find_next_layers(const TileJob& job, const TileVisibility& visibility, std::uint32_t pixel,
-                                       int sample, const Peel& last) {
+void PixelCompositor::collect_next_layers(const TileJob& job, const TileVisibility& visibility, std::uint32_t pixel,
+                                          int sample, const Peel& last) {
   const std::vector<const Triangle*>& triangles = job.triangles_of(AlphaMode::Blend);
   const std::size_t most = std::max<std::size_t>(job.setup.rules.capacity.layer_samples, 1);
   const auto keep_nearest = [&] {

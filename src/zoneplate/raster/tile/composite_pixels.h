@@ -63,8 +63,8 @@ class PixelCompositor {
   void composite_collected(const TileJob& job, std::size_t first, std::size_t last, Linear* behind);
   void peel(const TileJob& job, const TileVisibility& visibility, FragmentBatcher& batcher, std::uint32_t pixel,
             int sample, Linear& behind);
-  void find_next_layers(const TileJob& job, const TileVisibility& visibility, std::uint32_t pixel, int sample,
-                        const Peel& last);
+  void collect_next_layers(const TileJob& job, const TileVisibility& visibility, std::uint32_t pixel, int sample,
+                           const Peel& last);
   Peel layer_of(const TileJob& job, const TileVisibility& visibility, std::span<const Triangle* const> pieces,
                 std::uint32_t pixel, int sample);
 
@@ -81,7 +81,7 @@ void PixelCompositor::for_pixels(const TileJob& job, const TileRect& rect, const
   const std::size_t triangles = job.triangles_of(AlphaMode::Blend).size();
   const int width = rect.right - rect.left, height = rect.bottom - rect.top;
   if (collect_layers(job, AlphaMode::Blend, 0, rect, spans, visibility, list_) == triangles) {
-    find_layer_fragments(job, job.setup.target.is_per_sample, list_);
+    collect_layer_fragments(job, job.setup.target.is_per_sample, list_);
     batcher.shade(list_.fragments, colors_, nullptr);
     std::size_t first = 0;
     for (int y = rect.top; y < rect.bottom; ++y)

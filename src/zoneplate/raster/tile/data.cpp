@@ -56,8 +56,8 @@ void write_pixel(const TileJob& job, std::uint32_t pixel, const TileData& data) 
 
 }  // namespace
 
-void find_nearest_surfaces(const TileJob& job, const TileVisibility& visibility, const OpaqueFragments& opaque,
-                           bool is_shaded, TileData& data) {
+void collect_nearest_surfaces(const TileJob& job, const TileVisibility& visibility, const OpaqueFragments& opaque,
+                              bool is_shaded, TileData& data) {
   const Target& target = job.setup.target;
   for (std::uint32_t pixel = 0; pixel < tile_pixels; ++pixel)
     for (std::uint32_t f = opaque.first_fragment[pixel]; f < opaque.first_fragment[pixel + 1]; ++f) {

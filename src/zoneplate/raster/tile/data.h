@@ -28,13 +28,13 @@ struct TileData {
 };
 
 /// Updates `nearest` by the fragments of a pass, in the order of visibility. `is_shaded`: `shaded` holds their data.
-void find_nearest_surfaces(const TileJob& job, const TileVisibility& visibility, const OpaqueFragments& opaque,
-                           bool is_shaded, TileData& data);
+void collect_nearest_surfaces(const TileJob& job, const TileVisibility& visibility, const OpaqueFragments& opaque,
+                              bool is_shaded, TileData& data);
 
 /// Writes the data planes from `nearest`. A surface that owns all samples of a pixel is taken at the pixel's centre,
 /// unless the target has data at samples.
 /// Fragments are shaded only where the target stores results of shading other than colours, and only those whose data
-/// the passes have not shaded: `is_shaded` as in find_nearest_surfaces.
+/// the passes have not shaded: `is_shaded` as in collect_nearest_surfaces.
 void write_data(const TileJob& job, FragmentBatcher& batcher, bool is_shaded, TileData& data);
 
 }  // namespace zoneplate

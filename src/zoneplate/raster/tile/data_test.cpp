@@ -71,7 +71,7 @@ TEST(DataStage, TheNearestSampleDecides) {
   fill_visibility(b.job, b.visibility, [](int s, int, int) { return s == 2 ? 1 : 0; });
   b.visibility.depth[2 * sample_stride] = 0.75f;
   list_fragments(b.job, b.visibility, b.opaque);
-  find_nearest_surfaces(b.job, b.visibility, b.opaque, false, b.data);
+  collect_nearest_surfaces(b.job, b.visibility, b.opaque, false, b.data);
   EXPECT_EQ(b.data.nearest[0].id, 1);
   EXPECT_EQ(b.data.nearest[0].depth, 0.75f);
   EXPECT_EQ(b.data.nearest[1].id, 0);  // equal depths: the earlier triangle

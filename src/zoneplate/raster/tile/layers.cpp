@@ -42,7 +42,7 @@ std::size_t collect_layers(const TileJob& job, AlphaMode mode, std::size_t first
   return number;
 }
 
-void find_layer_fragments(const TileJob& job, bool is_per_sample, LayerList& list) {
+void collect_layer_fragments(const TileJob& job, bool is_per_sample, LayerList& list) {
   const std::vector<Layer>& layers = list.layers;
   list.fragments.clear();
   list.fragment_of_layer.resize(layers.size());

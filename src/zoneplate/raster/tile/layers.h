@@ -46,6 +46,6 @@ std::size_t collect_layers(const TileJob& job, AlphaMode mode, std::size_t first
                            const std::uint8_t* spans, const TileVisibility& visibility, LayerList& list);
 
 /// Fills `fragments` and `fragment_of_layer`.
-void find_layer_fragments(const TileJob& job, bool is_per_sample, LayerList& list);
+void collect_layer_fragments(const TileJob& job, bool is_per_sample, LayerList& list);
 
 }  // namespace zoneplate

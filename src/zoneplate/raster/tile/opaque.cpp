@@ -26,7 +26,7 @@ class OpaqueShading {
         presenter_(job, colors) {}
 
   void run() {
-    find_spans();
+    compute_spans();
     if (target_.is_per_sample)
       shade_sample_spans();
     else
@@ -36,9 +36,9 @@ class OpaqueShading {
   }
 
  private:
-  void find_spans();
+  void compute_spans();
   void add_block(int block, std::int32_t id);
-  void find_spans_of(int block);
+  void compute_spans_of(int block);
   void add_sample_spans(std::uint32_t pixel, std::int32_t id);
   void add_span(const FragmentSpan& span) {
     opaque_.spans[span_count_++] = span;
@@ -64,20 +64,20 @@ class OpaqueShading {
   SpanPresenter presenter_;     ///< of spans
 };
 
-void OpaqueShading::find_spans() {
+void OpaqueShading::compute_spans() {
   const std::size_t most =
       tile_pixels / FragmentBatch::group * static_cast<std::size_t>(target_.is_per_sample ? job_.pass.count : 1);
   if (opaque_.spans.size() < most) opaque_.spans.resize(most);
   span_count_ = 0;
   opaque_.fragments.clear();
-  setup_.coverage.find_owners(visibility_, opaque_.span_primitive);
+  setup_.coverage.fetch_owners(visibility_, opaque_.span_primitive);
   for (int block = 0; block < TileVisibility::blocks; ++block) {
     const std::int32_t owner = visibility_.block_primitive[block];
     const bool is_one = owner != mixed_primitives && owner != no_primitive;
     if (is_one && job_.is_whole_column(block % 8) && !target_.is_per_sample) {
       add_block(block, owner);
     } else {
-      find_spans_of(block);
+      compute_spans_of(block);
     }
   }
 }
@@ -89,7 +89,7 @@ void OpaqueShading::add_block(int block, std::int32_t id) {
   for (int y = first; y < last; ++y, span.y += 256, span.pixel += tile_size) add_span(span);
 }
 
-void OpaqueShading::find_spans_of(int block) {
+void OpaqueShading::compute_spans_of(int block) {
   const int x = block % 8 * 8;
   const int first = std::max(block / 8 * 8, job_.drawn.top), last = std::min(block / 8 * 8 + 8, job_.drawn.bottom);
   const bool is_whole = job_.is_whole_column(block % 8);

@@ -13,7 +13,7 @@ namespace zoneplate {
 
 /// The fragments of a tile's visible surfaces, opaque and alpha-tested.
 struct OpaqueFragments {
-  std::int32_t span_primitive[tile_pixels / 8];  ///< as CoverageKernels::find_owners gives them
+  std::int32_t span_primitive[tile_pixels / 8];  ///< as CoverageKernels::fetch_owners gives them
   std::vector<FragmentSpan> spans;               ///< eight pixels that one triangle owns; some at the end may be unused
   FragmentList list;                             ///< fragments of other spans, where there is no transparency
   std::vector<std::uint32_t> listed_spans;       ///< the first pixels of the spans that `list` holds

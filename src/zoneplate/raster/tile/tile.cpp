@@ -108,7 +108,7 @@ void render_passes(TileBuffers& b) {
       add_visibility(b);
     }
     b.times.blending += b.watch.lap_ms();
-    find_nearest_surfaces(b.job, b.visibility, b.opaque, is_shaded, b.data);
+    collect_nearest_surfaces(b.job, b.visibility, b.opaque, is_shaded, b.data);
   }
   if (is_shaded) {
     b.colors.color.resize(tile_pixels / 8);

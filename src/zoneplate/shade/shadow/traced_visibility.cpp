@@ -79,8 +79,8 @@ TracedVisibility::SeenLight TracedVisibility::see(std::size_t k, float3 from) co
 /// rays, also where half of them are traced, are the only ones where all of these see the same. Rays of successive
 /// receivers are traced together.
 template <class MakeRay>
-void TracedVisibility::find_means(std::span<const int> which, bool has_half_rays, const MakeRay& ray,
-                                  float* visible) const {
+void TracedVisibility::compute_means(std::span<const int> which, bool has_half_rays, const MakeRay& ray,
+                                     float* visible) const {
   struct Sum {
     float all = 0, least = 1, greatest = 0;
     bool is_even() const { return least == greatest && (least == 0 || least == 1); }
@@ -166,7 +166,7 @@ void TracedVisibility::of_light(int k, const Receivers& receivers, float* visibl
                       directions.of_cone(p, seen[i].height), seen[i].distance);
     };
   };
-  find_means(which, receivers.has_half_rays, ray, visible);
+  compute_means(which, receivers.has_half_rays, ray, visible);
 }
 
 /// The mean over directions of a density proportional to the cosine.
@@ -207,7 +207,8 @@ void TracedVisibility::of_environment(const Receivers& receivers, float* visible
     visible[i] = 1;
     if (distance_squared(bounds_, origin) > occlusion_.distance * occlusion_.distance) continue;
     BvhTop top;
-    kernels_.find_top(bvh_, {{origin.x, origin.y, origin.z}, {normal.x, normal.y, normal.z}, occlusion_.distance}, top);
+    kernels_.collect_top(bvh_, {{origin.x, origin.y, origin.z}, {normal.x, normal.y, normal.z}, occlusion_.distance},
+                         top);
     if (!environment_) {
       visible[i] = of_uniform_light(receivers, i, origin, top);
       continue;

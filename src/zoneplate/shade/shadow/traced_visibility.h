@@ -52,7 +52,7 @@ class TracedVisibility : public LightVisibility {
   };
   SeenLight see(std::size_t k, float3 from) const;
   template <class MakeRay>
-  void find_means(std::span<const int> which, bool has_half_rays, const MakeRay& ray, float* visible) const;
+  void compute_means(std::span<const int> which, bool has_half_rays, const MakeRay& ray, float* visible) const;
   float of_uniform_light(const Receivers& receivers, int i, float3 origin, const BvhTop& top) const;
   float of_rays(EnvironmentRays::Hemisphere& light, const Receivers& receivers, int i, float3 origin,
                 const BvhTop& top) const;

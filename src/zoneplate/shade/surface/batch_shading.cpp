@@ -20,7 +20,7 @@ namespace zoneplate {
 /// From vertices to fragments: positions and tangents in world space, normals in the mesh's space.
 void BatchShading::interpolate(const SurfaceConstants::Needs& needs) {
   const Attributes& attributes = needs.attributes;
-  find_vertex_records(d.records, batch, vertices);
+  fetch_vertex_records(d.records, batch, vertices);
   if (needs.interpolation.quads > 0) kernels.interpolate(batch, vertices, needs.interpolation, p);
   if (attributes.object_position)
     for (int c = 0; c < 3; ++c) std::copy_n(p.position[c], p.count, p.object_position[c]);
@@ -49,7 +49,7 @@ Footprint BatchShading::footprint(const TextureSlot& slot) {
 
 /// The random numbers of a fragment depend on its position, in 1/256 pixel: all textures of a fragment share them, and
 /// the samples of a pixel, or frames whose samples move, have others.
-void BatchShading::find_random() {
+void BatchShading::evaluate_random() {
   random = std::make_unique<float[]>(3 * FragmentBatch::padded_capacity);
   for (int i = 0; i < p.count; ++i) {
     const std::uint32_t key = hash(static_cast<std::uint32_t>(batch.x[i]), static_cast<std::uint32_t>(batch.y[i]));
@@ -69,20 +69,20 @@ void BatchShading::sample(const TextureSlot& slot, float* const out[4]) {
 void BatchShading::sample(const TextureSlot& slot, Footprint at, float* const out[4]) {
   if (slot.filtering.kind != TextureFilter::Kind::BySampler) {
     if (slot.filtering.kind == TextureFilter::Kind::Stochastic) {
-      if (random == nullptr) find_random();
+      if (random == nullptr) evaluate_random();
       for (int n = 0; n < 3; ++n) at.random[n] = random.get() + n * FragmentBatch::padded_capacity;
     }
     return sample_area(*slot.texture, slot.filtering, at, out, p.count);
   }
   if (slot.filtering.anisotropy > 1)
     return d.filtering.sample_anisotropic(slot.texture->view(), slot.filtering, at, out, p.count);
-  d.filtering.find_taps(slot.texture->view(), slot.filtering, at, taps, p.count);
+  d.filtering.compute_taps(slot.texture->view(), slot.filtering, at, taps, p.count);
   taps_of = &slot;
   d.filtering.mix_taps(slot.texture->view(), taps, out, p.count);
 }
 
 /// base = factor × texture × vertex colour.
-void BatchShading::find_base() {
+void BatchShading::evaluate_base() {
   const bool is_textured = !is_corner && plan.slot(TextureSlotIndex::BaseColor).texture != nullptr;
   float* const base[4] = {p.base[0], p.base[1], p.base[2], p.base[3]};
   if (is_textured) sample(plan.slot(TextureSlotIndex::BaseColor), base);
@@ -101,30 +101,30 @@ void BatchShading::find_base() {
 
 /// Multiplies the base colour by the solid texture at the fragments' positions in object space.
 void BatchShading::apply_solid_texture() {
-  SolidPoints points;
+  SolidPoints positions;
   for (int c = 0; c < 3; ++c) {
     stages::fill_repeated(batch, p.count, p.object_dx[c]);
     stages::fill_repeated(batch, p.count, p.object_dy[c]);
-    points.position[c] = p.object_position[c];
-    points.dx[c] = p.object_dx[c], points.dy[c] = p.object_dy[c];
+    positions.position[c] = p.object_position[c];
+    positions.dx[c] = p.object_dx[c], positions.dy[c] = p.object_dy[c];
   }
-  d.solid.evaluate(plan.solid_texture, points, texel, p.count);
+  d.solid.evaluate(plan.solid_texture, positions, texel, p.count);
   for (int c = 0; c < 3; ++c) kernels.multiply(p.base[c], texel[c], p.count);
 }
 
-void BatchShading::find_normals(const TextureSlot& normal_map, float scale) {
-  if (normal_map.texture == nullptr) return kernels.find_normals(batch, vertices, d.transforms.data(), p);
+void BatchShading::evaluate_normals(const TextureSlot& normal_map, float scale) {
+  if (normal_map.texture == nullptr) return kernels.compute_normals(batch, vertices, d.transforms.data(), p);
   kernels.transform_normals(batch, vertices, d.transforms.data(), p);
   sample(normal_map, texel);
   kernels.bend_normals(batch, texel, scale, p);
 }
 
 /// The clear coat has its own normal map, or none. The interpolated normals stay in `p` for the surface's own.
-void BatchShading::find_coat_normals() {
+void BatchShading::evaluate_coat_normals() {
   alignas(64) ShadingState::Array interpolated[3];
   const auto copy = [&](const float* from, float* to) { std::copy_n(from, p.count, to); };
   for (int c = 0; c < 3; ++c) copy(p.normal[c], interpolated[c]);
-  find_normals(plan.layers->slot(LayerSlotIndex::ClearcoatNormal), plan.layers->layers.clearcoat_normal_scale);
+  evaluate_normals(plan.layers->slot(LayerSlotIndex::ClearcoatNormal), plan.layers->layers.clearcoat_normal_scale);
   for (int c = 0; c < 3; ++c) copy(p.normal[c], q.clearcoat_normal[c]), copy(interpolated[c], p.normal[c]);
 }
 
@@ -145,11 +145,11 @@ void BatchShading::flatten_normals() {
   }
 }
 
-void BatchShading::find_normals() {
+void BatchShading::evaluate_normals() {
   if (is_corner && d.view.shading_frequency == ShadingFrequency::Triangle) flatten_normals();
-  if (plan.widens_by_curvature && !is_corner) kernels.find_normal_variance(batch, vertices, d.transforms.data(), p);
-  if (plan.layers != nullptr && plan.layers->uniforms.has_clearcoat) find_coat_normals();
-  find_normals(plan.slot(TextureSlotIndex::Normal), plan.normal_scale);
+  if (plan.widens_by_curvature && !is_corner) kernels.compute_normal_variance(batch, vertices, d.transforms.data(), p);
+  if (plan.layers != nullptr && plan.layers->uniforms.has_clearcoat) evaluate_coat_normals();
+  evaluate_normals(plan.slot(TextureSlotIndex::Normal), plan.normal_scale);
   if (plan.has_bumps) tilt_normals();
 }
 
@@ -173,7 +173,7 @@ void BatchShading::widen_roughness() {
     if (sampler.anisotropy > 1) {
       d.filtering.sample_anisotropic(*plan.normal_spread, sampler, footprint(slot), texel, p.count);
     } else {
-      d.filtering.find_taps(*plan.normal_spread, sampler, footprint(slot), taps, p.count);
+      d.filtering.compute_taps(*plan.normal_spread, sampler, footprint(slot), taps, p.count);
       d.filtering.mix_taps(*plan.normal_spread, taps, texel, p.count);
       taps_of = nullptr;
     }
@@ -209,7 +209,7 @@ void BatchShading::turn_lobes(float scale) {
   }
 }
 
-void BatchShading::find_emissive() {
+void BatchShading::evaluate_emissive() {
   if (plan.slot(TextureSlotIndex::Emissive).texture == nullptr) return;
   sample(plan.slot(TextureSlotIndex::Emissive), texel);
   for (int c = 0; c < 3; ++c) kernels.scale(p.emissive[c], texel[c], plan.emissive_factor[c], 0, p.count);
@@ -235,13 +235,13 @@ void BatchShading::add_own_ambient() {
 }
 
 /// occlusion = 1 + strength (texture - 1).
-void BatchShading::find_occlusion() {
+void BatchShading::evaluate_occlusion() {
   if (plan.slot(TextureSlotIndex::Occlusion).texture == nullptr) return;
   sample(plan.slot(TextureSlotIndex::Occlusion), texel);
   kernels.scale(p.occlusion, texel[0], plan.occlusion_strength, 1 - plan.occlusion_strength, p.count);
 }
 
-void BatchShading::find_metallic() {
+void BatchShading::evaluate_metallic() {
   if (plan.slot(TextureSlotIndex::MetallicRoughness).texture == nullptr) return;
   sample(plan.slot(TextureSlotIndex::MetallicRoughness), texel);
   kernels.scale(p.roughness, texel[1], plan.roughness, 0, p.count);
@@ -249,7 +249,7 @@ void BatchShading::find_metallic() {
 }
 
 /// The part of each light, and of the environment, that reaches the fragments.
-void BatchShading::find_visibility() {
+void BatchShading::evaluate_visibility() {
   const LightVisibility& visibility = *d.view.visibility;
   Receivers receivers;
   const auto record = [this](std::size_t k, std::size_t i) {
@@ -280,7 +280,7 @@ void BatchShading::find_visibility() {
 }
 
 /// specular = factor × texture, exponent = factor × texture, at least 1.
-void BatchShading::find_highlight() {
+void BatchShading::evaluate_highlight() {
   if (!plan.has_specular) return;
   if (plan.slot(TextureSlotIndex::Specular).texture != nullptr) {
     sample(plan.slot(TextureSlotIndex::Specular), texel);
@@ -292,7 +292,7 @@ void BatchShading::find_highlight() {
 }
 
 /// The thickness of the volume in the world: scaled as its instance is along the ray that enters the volume.
-void BatchShading::find_thickness() {
+void BatchShading::evaluate_thickness() {
   using F = scalar::Float;
   const stages::Viewer<F> viewer(d.viewpoint);
   const float eta = 1 / plan.layers->uniforms.ior;
@@ -318,7 +318,7 @@ void BatchShading::find_thickness() {
 }
 
 /// The environment's mixed levels for the lobes of the material.
-void BatchShading::find_mixed_levels() {
+void BatchShading::evaluate_mixed_levels() {
   const auto level = [&](LevelMix* mix) { return mix != nullptr ? mix->for_lookups(p.count) : MixedLevel{}; };
   const SurfaceConstants::Lobes& lobes = d.lobes[static_cast<std::size_t>(batch.material)];
   p.mixed = level(lobes.base), p.coat_mixed = level(lobes.coat);
@@ -330,8 +330,8 @@ void BatchShading::light_layered(FragmentOutputs& out) {
     sample(slot, texel);
     return texel;
   };
-  find_layers(layered, kernels, p.count, values, q);
-  if (layered.uniforms.has_volume) find_thickness();
+  evaluate_layers(layered, kernels, p.count, values, q);
+  if (layered.uniforms.has_volume) evaluate_thickness();
   if (plan.slot(TextureSlotIndex::MetallicRoughness).texture == nullptr) {
     kernels.fill(p.metallic, plan.metallic, p.count);
     kernels.fill(p.roughness, plan.roughness, p.count);
@@ -344,7 +344,7 @@ void BatchShading::light_layered(FragmentOutputs& out) {
       kernels.fill(p.roughness, 1 - *glossiness, p.count);
   }
   if (plan.widens()) widen_roughness();
-  find_mixed_levels();
+  evaluate_mixed_levels();
   kernels.light_layered(d.shading_uniforms[static_cast<std::size_t>(batch.material)], layered.uniforms, batch, p, q,
                         out);
 }
@@ -365,32 +365,32 @@ void BatchShading::unlit(FragmentOutputs& out) {
 }
 
 void BatchShading::light_whole(FragmentOutputs& out) {
-  find_occlusion();
-  if (d.view.visibility != nullptr) find_visibility();
-  find_emissive();
+  evaluate_occlusion();
+  if (d.view.visibility != nullptr) evaluate_visibility();
+  evaluate_emissive();
   add_own_ambient();
   if (plan.has_bare_meshes) mark_lit(d.scene, batch, p.is_lit);
   const bool is_metallic = plan.model == ShadingModel::MetallicRoughness;
-  if (is_metallic) find_metallic();
+  if (is_metallic) evaluate_metallic();
   if (plan.layers != nullptr) return light_layered(out);
   if (is_metallic && plan.widens()) widen_roughness();
 
   const ShadingUniforms& uniforms = d.shading_uniforms[static_cast<std::size_t>(batch.material)];
   if (is_metallic && uniforms.map != nullptr) {
-    find_mixed_levels();
+    evaluate_mixed_levels();
     kernels.light_metallic_in_map(uniforms, batch, p, out);
   } else if (is_metallic) {
     kernels.light_metallic(uniforms, batch, p, out);
   } else {
-    find_highlight();
+    evaluate_highlight();
     kernels.light_phong(uniforms, batch, p, out);
   }
 }
 
 void BatchShading::shade_color(FragmentOutputs& out) {
   interpolate(d.needs_of_color[static_cast<std::size_t>(batch.material)]);
-  find_base();
-  if (plan.attributes.normal) find_normals();
+  evaluate_base();
+  if (plan.attributes.normal) evaluate_normals();
   light(out);
 }
 

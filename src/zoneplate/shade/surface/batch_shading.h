@@ -37,32 +37,32 @@ struct BatchShading {
 
   void interpolate(const SurfaceConstants::Needs& needs);
   Footprint footprint(const TextureSlot& slot);
-  void find_random();
+  void evaluate_random();
   void sample(const TextureSlot& slot, float* const out[4]);
   void sample(const TextureSlot& slot, Footprint at, float* const out[4]);
   void displace_coordinates();
   void tilt_normals();
   void widen_roughness();
   void shade_color(FragmentOutputs& out);
-  void find_base();
+  void evaluate_base();
   void apply_solid_texture();
-  void find_normals();
-  void find_emissive();
+  void evaluate_normals();
+  void evaluate_emissive();
   void add_own_ambient();
-  void find_occlusion();
-  void find_metallic();
-  void find_visibility();
-  void find_highlight();
-  void find_thickness();
-  void find_mixed_levels();
+  void evaluate_occlusion();
+  void evaluate_metallic();
+  void evaluate_visibility();
+  void evaluate_highlight();
+  void evaluate_thickness();
+  void evaluate_mixed_levels();
   void light_layered(FragmentOutputs& out);
   void light(FragmentOutputs& out);
   void unlit(FragmentOutputs& out);
 
  private:
   void light_whole(FragmentOutputs& out);
-  void find_normals(const TextureSlot& normal_map, float scale);
-  void find_coat_normals();
+  void evaluate_normals(const TextureSlot& normal_map, float scale);
+  void evaluate_coat_normals();
   void flatten_normals();
   void turn_lobes(float scale);
 };

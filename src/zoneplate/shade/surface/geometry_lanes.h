@@ -277,8 +277,8 @@ template <class F>
 }
 
 template <class F>
-void find_normals(const FragmentBatch& batch, const TriangleVertices& vertices, const InstanceTransform* transforms,
-                  ShadingState& p) {
+void compute_normals(const FragmentBatch& batch, const TriangleVertices& vertices, const InstanceTransform* transforms,
+                     ShadingState& p) {
   for (int i = 0; i < p.count;) {
     const int group = i / FragmentBatch::group;
     Vector<F> n = Vector<F>::load(p.normal, i);

@@ -23,7 +23,7 @@ void BatchShading::tilt_normals() {
   const auto scratch = std::make_unique<Scratch>();
   const TextureSlot& slot = plan.slot(TextureSlotIndex::Height);
   const TextureView& heights = slot.texture->view();
-  find_surface_gradients(d.scene, batch, slot.uv_set, scratch->surface);
+  compute_surface_gradients(d.scene, batch, slot.uv_set, scratch->surface);
   const Footprint at = footprint(slot);
   measure_footprints(heights, at, scratch->level, scratch->ratio, p.count);
   for (auto& axis : scratch->gradient) std::fill_n(axis, p.count, 0.0f);
@@ -65,7 +65,7 @@ void BatchShading::displace_coordinates() {
   Scratch& s = *scratch;
   const TextureSlot& slot = plan.slot(TextureSlotIndex::Height);
   float *const u = p.uv[slot.uv_set][0], *const v = p.uv[slot.uv_set][1];
-  find_surface_gradients(d.scene, batch, slot.uv_set, s.surface);
+  compute_surface_gradients(d.scene, batch, slot.uv_set, s.surface);
   const stages::Viewer<scalar::Float> viewer(d.viewpoint);
   for (int i = 0; i < p.count; ++i) {
     const auto at = [&](const float(&of)[3][FragmentBatch::padded_capacity]) {

@@ -43,7 +43,7 @@ void turn_directions(const LayeredUniforms& uniforms, const float* const* texel,
 /// Requires  what the plan has: clearcoat_normal and thickness are left to the caller, but for the texture of the
 ///           latter.
 template <class Kernels, class Sample>
-void find_layers(const LayeredPlan& plan, const Kernels& kernels, int count, Sample sample, LayerState& out) {
+void evaluate_layers(const LayeredPlan& plan, const Kernels& kernels, int count, Sample sample, LayerState& out) {
   using Slot = LayerSlotIndex;
   const MaterialLayers& m = plan.layers;
   const LayeredUniforms& u = plan.uniforms;

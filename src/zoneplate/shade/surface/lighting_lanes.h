@@ -142,8 +142,8 @@ struct Cosines {
 /// Computes the cosine whose power is the highlight, or for Blinn-Phong its square. Source: as in
 /// shade/reflection/brdf.h.
 template <class F, Highlight highlight>
-[[gnu::always_inline]] inline void find_cosines(const ShadingUniforms& s, const PreparedLight& of, bool is_sun,
-                                                const FragmentBatch& batch, const ShadingState& p, Cosines& out) {
+[[gnu::always_inline]] inline void compute_cosines(const ShadingUniforms& s, const PreparedLight& of, bool is_sun,
+                                                   const FragmentBatch& batch, const ShadingState& p, Cosines& out) {
   const Viewer<F> viewer(s.viewpoint);
   for (int i = 0; i < p.count; i += F::lanes) {
     const auto n = Vector<F>::load(p.normal, i), l = arriving<F>(of, is_sun, p, i).from;
@@ -271,7 +271,7 @@ void light_phong(const ShadingUniforms s, const Kind& kind, const FragmentBatch&
   alignas(64) ShadingState::Array diffuse[3], specular[3];
   for (int k = 0; k < kind.lights; ++k) {
     const PreparedLight light = s.light[k];
-    find_cosines<F, highlight>(s, light, kind.has_sun_only, batch, p, cosines);
+    compute_cosines<F, highlight>(s, light, kind.has_sun_only, batch, p, cosines);
     if constexpr (highlight != Highlight::None) {
       if (kind.has_exponent_texture)
         raise_cosines<F, highlight>(p, cosines);

@@ -83,7 +83,7 @@ void plan_ambient(const Material& m, const ViewUniforms& s, MaterialPlan& plan) 
   }
 }
 
-void find_slots(const Material& m, const TextureSet& textures, const ViewUniforms& view, MaterialPlan& plan) {
+void resolve_slots(const Material& m, const TextureSet& textures, const ViewUniforms& view, MaterialPlan& plan) {
   const auto slot_of = [&](const TextureUse& use, TexelMeaning meaning) {
     return make_slot(use, textures.find(use, meaning), view);
   };
@@ -152,7 +152,7 @@ void decide(const ViewUniforms& s, const Material& m, MaterialPlan& plan) {
 }  // namespace
 
 TextureSet::TextureSet(const Scene& scene, const MipOptions& mips) : TextureSet(mips) {
-  find_uses(scene);
+  collect_uses(scene);
   for (auto& [key, entry] : textures_)
     entry.texture =
         std::make_unique<Texture>(scene.images[static_cast<std::size_t>(key.first)].pixels, key.second, entry.options);
@@ -160,7 +160,7 @@ TextureSet::TextureSet(const Scene& scene, const MipOptions& mips) : TextureSet(
 
 TextureSet TextureSet::take(Scene& scene, const MipOptions& mips) {
   TextureSet set(mips);
-  set.find_uses(scene);
+  set.collect_uses(scene);
   auto next = set.textures_.begin();
   for (std::size_t i = 0; i < scene.images.size(); ++i) {
     TexelImage& pixels = scene.images[i].pixels;
@@ -175,7 +175,7 @@ TextureSet TextureSet::take(Scene& scene, const MipOptions& mips) {
   return set;
 }
 
-void TextureSet::find_uses(const Scene& scene) {
+void TextureSet::collect_uses(const Scene& scene) {
   for (const TextureImage& image : scene.images) is_light_.push_back(image.pixels.kind() == TexelKind::Light);
   for (const Material& material : scene.materials) {
     const auto add = [&](std::size_t, const TextureUse& use, TexelMeaning meaning) {
@@ -229,7 +229,7 @@ std::vector<MaterialPlan> make_plans(const Scene& scene, const ViewUniforms& vie
   for (std::size_t i = 0; i < plans.size(); ++i) {
     copy_factors(scene.materials[i], plans[i]);
     plan_ambient(scene.materials[i], view, plans[i]);
-    find_slots(scene.materials[i], textures, view, plans[i]);
+    resolve_slots(scene.materials[i], textures, view, plans[i]);
     decide(view, scene.materials[i], plans[i]);
   }
 

@@ -37,7 +37,7 @@ class TextureSet {
  private:
   using Key = std::pair<int, TexelMeaning>;
   explicit TextureSet(const MipOptions& mips) : mips_(mips) {}
-  void find_uses(const Scene& scene);
+  void collect_uses(const Scene& scene);
   Key key_of(int image, TexelMeaning meaning) const;
 
   struct Entry {

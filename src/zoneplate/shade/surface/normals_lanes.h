@@ -11,8 +11,8 @@
 namespace zoneplate::stages {
 
 template <class F>
-void find_normal_variance(const FragmentBatch& batch, const TriangleVertices& vertices,
-                          const InstanceTransform* transforms, ShadingState& p) {
+void compute_normal_variance(const FragmentBatch& batch, const TriangleVertices& vertices,
+                             const InstanceTransform* transforms, ShadingState& p) {
   constexpr float variance = 1.0f / 12;  // of a coordinate in a pixel
   constexpr float most = 0.09f;          // beyond, silhouettes would become matte
   for (int c = 0; c < 3; ++c) {

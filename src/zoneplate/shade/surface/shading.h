@@ -95,19 +95,19 @@ struct SurfaceKernels : PerIsa<SurfaceKernels> {
                              const InstanceTransform* transforms, ShadingState& state);
 
   /// From interpolated to shading normals: transformed to world space, normalised, reversed on back faces.
-  void (*find_normals)(const FragmentBatch& batch, const TriangleVertices& vertices,
-                       const InstanceTransform* transforms, ShadingState& state);
+  void (*compute_normals)(const FragmentBatch& batch, const TriangleVertices& vertices,
+                          const InstanceTransform* transforms, ShadingState& state);
   /// The same for normals in world space, perturbed by a normal map: n = T x + B y + N z with (x, y, z) = 2 texel - 1,
   /// x and y × scale, and B = (N × T) × the sign of tangent.w. Fragments without a tangent keep their normal.
   /// Source: glTF 2.0, 3.9.3.
   void (*bend_normals)(const FragmentBatch& batch, const float* const texel[4], float scale, ShadingState& state);
   /// The variance of the interpolated normal within a pixel, added up over both axes: min((|∂n/∂x|² + |∂n/∂y|²) / 12,
   /// 0.09) for unit normals n in world space; normal_dx and normal_dy become the vectors a and b of TurningLobe, which
-  /// hold twice that variance. Before find_normals or transform_normals.
+  /// hold twice that variance. Before compute_normals or transform_normals.
   /// Source    Tokuyoshi and Kaplanyan, Stable Geometric Specular Antialiasing with Projected-Space NDF Filtering, JCGT
   ///           10(2), 2021, but with the variance 1 / 12 of a box pixel in place of a Gaussian's 1 / 2π.
-  void (*find_normal_variance)(const FragmentBatch& batch, const TriangleVertices& vertices,
-                               const InstanceTransform* transforms, ShadingState& state);
+  void (*compute_normal_variance)(const FragmentBatch& batch, const TriangleVertices& vertices,
+                                  const InstanceTransform* transforms, ShadingState& state);
   /// roughness = (α² + variance)^¼ with α = roughness², at most 1.
   void (*widen_roughness)(ShadingState& state);
   /// Turns normals by the gradient of a height, in world space: n - facing × (gradient - n (n · gradient)), normalised.

@@ -30,7 +30,7 @@ struct ShadingState {
   alignas(64) Array position[3], normal[3], tangent[4], color[4];
   alignas(64) Array uv[2][2], uv_dx[2][2],
       uv_dy[2][2];  ///< by set; derivatives are unset where the batch repeats them
-  /// Of the interpolated normal, unset likewise; after find_normal_variance the vectors of a TurningLobe.
+  /// Of the interpolated normal, unset likewise; after compute_normal_variance the vectors of a TurningLobe.
   alignas(64) Array normal_dx[3], normal_dy[3];
   alignas(64) Array is_lit;  ///< 1, or 0 for fragments of meshes without normals
 
@@ -94,7 +94,7 @@ struct StateArray {
 struct Interpolation {
   struct Quad {
     int offset = 0;  ///< of the first float in the record
-    /// The first three floats are normals that only find_normals reads: those of a run, if they are equal at all
+    /// The first three floats are normals that only compute_normals reads: those of a run, if they are equal at all
     /// vertices, are stored for its first group only.
     bool has_sparse_normals = false;
     StateArray value[4], dx[4], dy[4];

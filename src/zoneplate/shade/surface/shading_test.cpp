@@ -27,7 +27,7 @@ const SurfaceKernels& kernels(Isa isa) { return SurfaceKernels::of(isa); }
 struct Bench {
   FragmentBatch batch;
   TriangleVertices vertices;
-  ShadingState points;
+  ShadingState state;
   LayerState layers;
   Coordinates coordinates;
   FragmentOutputs shaded;
@@ -40,7 +40,7 @@ struct Bench {
   explicit Bench(int count) {
     std::memset(static_cast<void*>(this), 0, sizeof *this);
     batch.count = count;
-    points.count = batch.padded();
+    state.count = batch.padded();
     std::uint32_t key = 1;
     const auto fill = [&](auto& array) {
       auto* numbers = reinterpret_cast<float*>(&array);
@@ -57,7 +57,7 @@ struct Bench {
     float numbers[instances][offsetof(InstanceTransform, scale_along) / sizeof(float)];
     fill(numbers), fill(texel);
     for (std::size_t i = 0; i < instances; ++i) std::memcpy(&transforms[i], numbers[i], sizeof numbers[i]);
-    ShadingState& p = points;
+    ShadingState& p = state;
     fill(p.position), fill(p.normal), fill(p.tangent), fill(p.color), fill(p.uv), fill(p.uv_dx), fill(p.uv_dy);
     fill(p.is_lit), fill(p.base), fill(p.metallic), fill(p.roughness), fill(p.occlusion);
     fill(p.emissive), fill(p.specular), fill(p.exponent), fill(layers);
@@ -93,7 +93,7 @@ struct Bench {
 
   StateArray array(const float* of) const {
     return {static_cast<std::int32_t>(reinterpret_cast<const unsigned char*>(of) -
-                                      reinterpret_cast<const unsigned char*>(&points))};
+                                      reinterpret_cast<const unsigned char*>(&state))};
   }
 
   void make_lights() {
@@ -136,45 +136,46 @@ std::vector<Stage> stages() {
   using K = const SurfaceKernels&;
   using B = Bench&;
   std::vector<Stage> all = {
-      {"scale", [](K k, B b) { k.scale(b.points.base[0], b.texel[0], 0.7f, 0.1f, b.points.count); }},
-      {"multiply", [](K k, B b) { k.multiply(b.points.base[0], b.texel[0], b.points.count); }},
-      {"fill", [](K k, B b) { k.fill(b.points.base[0], 0.7f, b.points.count); }},
-      {"saturate", [](K k, B b) { k.saturate(b.points.base[0], b.points.count); }},
+      {"scale", [](K k, B b) { k.scale(b.state.base[0], b.texel[0], 0.7f, 0.1f, b.state.count); }},
+      {"multiply", [](K k, B b) { k.multiply(b.state.base[0], b.texel[0], b.state.count); }},
+      {"fill", [](K k, B b) { k.fill(b.state.base[0], 0.7f, b.state.count); }},
+      {"saturate", [](K k, B b) { k.saturate(b.state.base[0], b.state.count); }},
       {"interpolate",
        [](K k, B b) {
          Interpolation what;
          what.quads = 2;
          what.quad[0].offset = 4, what.quad[1].offset = 20;
-         for (int c = 0; c < 4; ++c) what.quad[0].value[c] = b.array(b.points.color[c]);
+         for (int c = 0; c < 4; ++c) what.quad[0].value[c] = b.array(b.state.color[c]);
          for (int c = 0; c < 2; ++c) {
-           what.quad[1].value[2 * c] = b.array(b.points.uv[0][c]);
-           what.quad[1].dx[2 * c] = b.array(b.points.uv_dx[0][c]);
-           what.quad[1].dy[2 * c] = b.array(b.points.uv_dy[0][c]);
+           what.quad[1].value[2 * c] = b.array(b.state.uv[0][c]);
+           what.quad[1].dx[2 * c] = b.array(b.state.uv_dx[0][c]);
+           what.quad[1].dy[2 * c] = b.array(b.state.uv_dy[0][c]);
          }
-         k.interpolate(b.batch, b.vertices, what, b.points);
+         k.interpolate(b.batch, b.vertices, what, b.state);
        }},
       {"map_coordinates",
        [](K k, B b) {
-         k.map_coordinates({{1, 2, 3, -0.5f, 0.25f, 7}}, b.batch, b.points, 1, b.coordinates);
+         k.map_coordinates({{1, 2, 3, -0.5f, 0.25f, 7}}, b.batch, b.state, 1, b.coordinates);
        }},
-      {"transform_positions", [](K k, B b) { k.transform_positions(b.batch, b.vertices, b.transforms, b.points); }},
-      {"transform_normals", [](K k, B b) { k.transform_normals(b.batch, b.vertices, b.transforms, b.points); }},
-      {"transform_tangents", [](K k, B b) { k.transform_tangents(b.batch, b.vertices, b.transforms, b.points); }},
-      {"find_normals", [](K k, B b) { k.find_normals(b.batch, b.vertices, b.transforms, b.points); }},
+      {"transform_positions", [](K k, B b) { k.transform_positions(b.batch, b.vertices, b.transforms, b.state); }},
+      {"transform_normals", [](K k, B b) { k.transform_normals(b.batch, b.vertices, b.transforms, b.state); }},
+      {"transform_tangents", [](K k, B b) { k.transform_tangents(b.batch, b.vertices, b.transforms, b.state); }},
+      {"compute_normals", [](K k, B b) { k.compute_normals(b.batch, b.vertices, b.transforms, b.state); }},
       {"bend_normals",
        [](K k, B b) {
          const float* const texel[4] = {b.texel[0], b.texel[1], b.texel[2], b.texel[3]};
-         k.bend_normals(b.batch, texel, 0.8f, b.points);
+         k.bend_normals(b.batch, texel, 0.8f, b.state);
        }},
-      {"find_normal_variance", [](K k, B b) { k.find_normal_variance(b.batch, b.vertices, b.transforms, b.points); }},
-      {"widen_roughness", [](K k, B b) { k.widen_roughness(b.points); }},
+      {"compute_normal_variance",
+       [](K k, B b) { k.compute_normal_variance(b.batch, b.vertices, b.transforms, b.state); }},
+      {"widen_roughness", [](K k, B b) { k.widen_roughness(b.state); }},
       {"tilt_normals",
        [](K k, B b) {
          const float* const gradient[3] = {b.texel[0], b.texel[1], b.texel[2]};
-         k.tilt_normals(b.batch, gradient, b.points);
+         k.tilt_normals(b.batch, gradient, b.state);
        }},
-      {"default_normals", [](K k, B b) { k.default_normals(b.light.viewpoint, b.batch, b.points); }},
-      {"unlit", [](K k, B b) { k.unlit(true, b.points, b.shaded); }},
+      {"default_normals", [](K k, B b) { k.default_normals(b.light.viewpoint, b.batch, b.state); }},
+      {"unlit", [](K k, B b) { k.unlit(true, b.state, b.shaded); }},
   };
   // Every way to be lit, with all kinds of light.
   for (int bits = 0; bits < 64; ++bits) {
@@ -186,19 +187,18 @@ std::vector<Stage> stages() {
       s.has_bare_meshes = bit(3) != bit(5), s.has_specular_texture = bit(2) != bit(4);
       s.has_turning_normals = bit(0) != bit(2);
       s.has_exponent_texture = bit(4), s.exponent = bit(5) ? Exponent{40, 40} : Exponent{17.5f, 0};
-      b.points.light_visibility = bit(1) != bit(4) ? visibility().data() : nullptr;
+      b.state.light_visibility = bit(1) != bit(4) ? visibility().data() : nullptr;
     };
+    all.push_back({"light_phong", [light](K k, B b) { light(b), k.light_phong(b.light, b.batch, b.state, b.shaded); }});
     all.push_back(
-        {"light_phong", [light](K k, B b) { light(b), k.light_phong(b.light, b.batch, b.points, b.shaded); }});
-    all.push_back(
-        {"light_metallic", [light](K k, B b) { light(b), k.light_metallic(b.light, b.batch, b.points, b.shaded); }});
+        {"light_metallic", [light](K k, B b) { light(b), k.light_metallic(b.light, b.batch, b.state, b.shaded); }});
     LayeredUniforms layers;
     layers.has_clearcoat = bit(0), layers.has_sheen = bit(1), layers.has_anisotropy = bit(2);
     layers.has_iridescence = bit(3), layers.has_transmission = bit(4), layers.has_diffuse_transmission = bit(5);
     layers.has_volume = bit(0) != bit(5), layers.half_spread = bit(1) ? 0.0f : 0.1f;
     layers.absorption[0] = 0.5f, layers.absorption[2] = 7;
     all.push_back({"light_layered", [light, layers](K k, B b) {
-                     light(b), k.light_layered(b.light, layers, b.batch, b.points, b.layers, b.shaded);
+                     light(b), k.light_layered(b.light, layers, b.batch, b.state, b.layers, b.shaded);
                    }});
     // In a map: of one roughness, with mixed levels and without, and of roughness that differs.
     const auto in_map = [light, bit](B b) {
@@ -208,23 +208,23 @@ std::vector<Stage> stages() {
       b.light.map = &map.view, b.light.roughness = b.light.layered_roughness = bit(1) ? 0.1f : 0.8f;
       b.light.coat_roughness = bit(1) ? 0.8f : 0.1f;
       const auto level = [](LevelMix& mix) { return mix.for_lookups(10000), mix.for_lookups(1); };
-      if (bit(3)) b.points.mixed = level(mixes[bit(1) ? 0 : 1]), b.points.coat_mixed = level(mixes[bit(1) ? 1 : 0]);
-      for (int i = 0; i < b.points.count; ++i) {
-        float &roughness = b.points.roughness[i], &coat = b.layers.clearcoat_roughness[i];
+      if (bit(3)) b.state.mixed = level(mixes[bit(1) ? 0 : 1]), b.state.coat_mixed = level(mixes[bit(1) ? 1 : 0]);
+      for (int i = 0; i < b.state.count; ++i) {
+        float &roughness = b.state.roughness[i], &coat = b.layers.clearcoat_roughness[i];
         roughness = std::clamp(std::abs(roughness), 0.0f, 1.0f), coat = std::clamp(std::abs(coat), 0.0f, 1.0f);
         if (bit(2)) roughness = b.light.roughness, coat = b.light.coat_roughness;
       }
-      if (!bit(2)) b.light.layered_roughness = b.light.coat_roughness = -1, b.points.mixed = b.points.coat_mixed = {};
+      if (!bit(2)) b.light.layered_roughness = b.light.coat_roughness = -1, b.state.mixed = b.state.coat_mixed = {};
       b.light.metallic = bit(4) ? 0.0f : 0.5f;
     };
     all.push_back({"light_phong in a map",
-                   [in_map](K k, B b) { in_map(b), k.light_phong(b.light, b.batch, b.points, b.shaded); }});
+                   [in_map](K k, B b) { in_map(b), k.light_phong(b.light, b.batch, b.state, b.shaded); }});
     all.push_back({"light_metallic_in_map",
-                   [in_map](K k, B b) { in_map(b), k.light_metallic_in_map(b.light, b.batch, b.points, b.shaded); }});
+                   [in_map](K k, B b) { in_map(b), k.light_metallic_in_map(b.light, b.batch, b.state, b.shaded); }});
     all.push_back({"light_layered_in_map", [in_map, layers, bit](K k, B b) {
                      LayeredUniforms some = layers;
                      if (bit(5)) some = {.has_clearcoat = bit(0), .has_grey_interface = true};
-                     in_map(b), k.light_layered(b.light, some, b.batch, b.points, b.layers, b.shaded);
+                     in_map(b), k.light_layered(b.light, some, b.batch, b.state, b.layers, b.shaded);
                    }});
   }
   return all;
@@ -239,7 +239,7 @@ void clear_rest(Bench& b) {
       std::fill(arrays + a * FragmentBatch::padded_capacity + first,
                 arrays + a * FragmentBatch::padded_capacity + whole, 0.0f);
   };
-  clear(b.points.position[0], sizeof(ShadingState) - offsetof(ShadingState, position));
+  clear(b.state.position[0], sizeof(ShadingState) - offsetof(ShadingState, position));
   clear(b.shaded.r, sizeof(FragmentOutputs)), clear(b.coordinates.uv[0], sizeof(Coordinates));
 }
 
@@ -254,7 +254,7 @@ TEST(SurfaceKernels, EveryInstructionSetGivesTheSameBits) {
         stage.run(kernels(isa), *actual);
         clear_rest(*actual);
         const auto same = [&](const auto& a, const auto& b) { return std::memcmp(&a, &b, sizeof a) == 0; };
-        ASSERT_TRUE(same(actual->points, expected->points) && same(actual->shaded, expected->shaded) &&
+        ASSERT_TRUE(same(actual->state, expected->state) && same(actual->shaded, expected->shaded) &&
                     same(actual->coordinates, expected->coordinates))
             << stage.name << " " << name_of(isa) << " " << count;
       }
@@ -266,8 +266,8 @@ TEST(SurfaceKernels, NothingIsWrittenPastTheCountsVector) {
     for (const Stage& stage : stages()) {
       const auto untouched = std::make_unique<Bench>(24), actual = std::make_unique<Bench>(24);
       stage.run(kernels(isa), *actual);
-      const auto* before = reinterpret_cast<const float*>(&untouched->points.position);
-      const auto* after = reinterpret_cast<const float*>(&actual->points.position);
+      const auto* before = reinterpret_cast<const float*>(&untouched->state.position);
+      const auto* after = reinterpret_cast<const float*>(&actual->state.position);
       const std::size_t arrays =
           (sizeof(ShadingState) - offsetof(ShadingState, position)) / sizeof(ShadingState::Array);
       const std::size_t end = isa == Isa::Avx512 ? 2 * FragmentBatch::max_lanes : 24;
@@ -294,16 +294,16 @@ TEST(SurfaceKernels, SparseNormalsBecomeTheSameNormals) {
     Interpolation what;
     what.quads = 1;
     what.quad[0].has_sparse_normals = is_sparse;
-    for (int c = 0; c < 3; ++c) what.quad[0].value[c] = b->array(b->points.normal[c]);
-    what.quad[0].value[3] = b->array(b->points.position[0]);
-    k.interpolate(b->batch, b->vertices, what, b->points);
-    k.find_normals(b->batch, b->vertices, b->transforms, b->points);
+    for (int c = 0; c < 3; ++c) what.quad[0].value[c] = b->array(b->state.normal[c]);
+    what.quad[0].value[3] = b->array(b->state.position[0]);
+    k.interpolate(b->batch, b->vertices, what, b->state);
+    k.compute_normals(b->batch, b->vertices, b->transforms, b->state);
     return b;
   };
   for (const Isa isa : supported_isas()) {
     const auto all = normals(kernels(isa), false), sparse = normals(kernels(isa), true);
-    EXPECT_EQ(std::memcmp(all->points.normal, sparse->points.normal, sizeof all->points.normal), 0) << name_of(isa);
-    EXPECT_EQ(std::memcmp(all->points.position, sparse->points.position, sizeof all->points.position), 0);
+    EXPECT_EQ(std::memcmp(all->state.normal, sparse->state.normal, sizeof all->state.normal), 0) << name_of(isa);
+    EXPECT_EQ(std::memcmp(all->state.position, sparse->state.position, sizeof all->state.position), 0);
   }
 }
 
@@ -317,9 +317,8 @@ TEST(SurfaceKernels, AShadowedLightCountsByItsVisibility) {
         std::fill_n(b->light.ambient, 3, 0.0f);
         std::vector<float> visibility;
         for (const float w : weights) visibility.insert(visibility.end(), FragmentBatch::padded_capacity, w);
-        b->points.light_visibility = weights.empty() ? nullptr : visibility.data();
-        (is_metallic ? kernels(isa).light_metallic : kernels(isa).light_phong)(b->light, b->batch, b->points,
-                                                                               b->shaded);
+        b->state.light_visibility = weights.empty() ? nullptr : visibility.data();
+        (is_metallic ? kernels(isa).light_metallic : kernels(isa).light_phong)(b->light, b->batch, b->state, b->shaded);
         return std::vector<float>(b->shaded.g, b->shaded.g + 16);
       };
       const std::vector<float> all = color_under({}), same = color_under({1, 1, 1, 1}),
@@ -343,10 +342,10 @@ TEST(SurfaceKernels, TheFinishedColourIsFinite) {
   const float wild[8] = {std::nanf(""), INFINITY, -INFINITY, -1, -0.0f, 0.5f, 1e30f, 2};
   const float alpha[8] = {1, 1, 1, 1, 1, 0.5f, 0.25f, 0};
   const float expected[8] = {0, 1e9f, 0, 0, 0, 0.25f, 0.25e9f, 0};
-  for (int c = 0; c < 3; ++c) std::copy_n(wild, 8, b.points.base[c]);
-  std::copy_n(alpha, 8, b.points.base[3]);
+  for (int c = 0; c < 3; ++c) std::copy_n(wild, 8, b.state.base[c]);
+  std::copy_n(alpha, 8, b.state.base[3]);
   for (const Isa isa : supported_isas()) {
-    kernels(isa).unlit(true, b.points, b.shaded);
+    kernels(isa).unlit(true, b.state, b.shaded);
     for (int i = 0; i < 8; ++i) {
       EXPECT_EQ(b.shaded.r[i], expected[i]);
       EXPECT_FALSE(std::signbit(b.shaded.r[i]));

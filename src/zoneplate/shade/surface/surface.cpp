@@ -92,10 +92,10 @@ void SurfaceShader::shade_fragments(const FragmentBatch& batch, OutputMask outpu
   shading.interpolate(*needs);
   if (plan.parallax_layers > 0) shading.displace_coordinates();
   if (outputs.color || outputs.albedo) {
-    shading.find_base();
+    shading.evaluate_base();
     if (needs->attributes.object_position) shading.apply_solid_texture();
   }
-  if (needs->attributes.normal) shading.find_normals();
+  if (needs->attributes.normal) shading.evaluate_normals();
   if (outputs.color && plan.is_lit)
     shading.light(out);
   else if (outputs.color)
@@ -143,7 +143,7 @@ void SurfaceShader::alpha(const FragmentBatch& batch, float* out) const {
   if (is_displaced) attributes.uv[shading.plan.slot(TextureSlotIndex::Height).uv_set] = true;
   shading.interpolate(constants_->make_needs(batch.material, attributes, is_displaced));
   if (is_displaced) shading.displace_coordinates();
-  shading.find_base();
+  shading.evaluate_base();
   std::copy_n(shading.p.base[3], shading.p.count, out);
 }
 

@@ -113,7 +113,7 @@ SurfaceConstants::Lobes SurfaceConstants::make_lobes(const MaterialPlan& plan, c
 SurfaceConstants::Needs SurfaceConstants::make_needs(int material, Attributes attributes, bool needs_viewer) const {
   if (needs_viewer && !viewpoint.is_orthographic && !viewpoint.has_rays) attributes.position = true;
   Needs needs{attributes, interpolation(records.layout(material), attributes)};
-  // Stages before find_normals, or in its place, read the normals of all fragments.
+  // Stages before compute_normals, or in its place, read the normals of all fragments.
   const MaterialPlan& plan = plans[static_cast<std::size_t>(material)];
   needs.interpolation.quad[0].has_sparse_normals =
       attributes.normal && !attributes.normal_change && plan.slot(TextureSlotIndex::Normal).texture == nullptr &&

@@ -84,7 +84,7 @@ InterleavedVertices::InterleavedVertices(const Scene& scene)
   for (const Instance& instance : scene.instances) instances_.push_back(first[static_cast<std::size_t>(instance.mesh)]);
 }
 
-void find_vertex_records(const InterleavedVertices& records, const FragmentBatch& batch, TriangleVertices& out) {
+void fetch_vertex_records(const InterleavedVertices& records, const FragmentBatch& batch, TriangleVertices& out) {
   const auto stride = static_cast<std::size_t>(records.layout(batch.material).floats);
   if (batch.one_instance) {
     // Records in one array are addressed where they are read.
@@ -181,7 +181,7 @@ void make_missing_tangents(const Scene& scene, const FragmentBatch& batch, int u
   }
 }
 
-void find_surface_gradients(const Scene& scene, const FragmentBatch& batch, int uv_set, SurfaceGradients& out) {
+void compute_surface_gradients(const Scene& scene, const FragmentBatch& batch, int uv_set, SurfaceGradients& out) {
   for (std::size_t i = 0; i < static_cast<std::size_t>(batch.padded()); ++i) {
     const std::size_t leader = batch.leader(i);
     const auto copy = [&](float(&to)[3][FragmentBatch::padded_capacity], float3 v) {

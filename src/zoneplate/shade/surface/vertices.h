@@ -47,14 +47,14 @@ class InterleavedVertices {
 };
 
 /// Finds the vertex records of a batch's triangles.
-void find_vertex_records(const InterleavedVertices& records, const FragmentBatch& batch, TriangleVertices& out);
+void fetch_vertex_records(const InterleavedVertices& records, const FragmentBatch& batch, TriangleVertices& out);
 
 /// The interpolation of the attributes from records of this layout.
 Interpolation interpolation(const RecordLayout& layout, const Attributes& attributes);
 
 /// Sets the tangents of fragments of meshes without tangents: the direction in which u grows over the triangle (zero
 /// where the triangle has no area in u, v); w: the sign of that area.
-void make_missing_tangents(const Scene& scene, const FragmentBatch& batch, int uv_set, ShadingState& points);
+void make_missing_tangents(const Scene& scene, const FragmentBatch& batch, int uv_set, ShadingState& state);
 
 /// Of each fragment's triangle, in world space: the gradients of its texture coordinates along the surface, which are
 /// the changes of u and of v per world unit, and its unit normal, on the side that is seen. Zero where the triangle has
@@ -63,7 +63,7 @@ struct SurfaceGradients {
   float u[3][FragmentBatch::padded_capacity], v[3][FragmentBatch::padded_capacity];
   float normal[3][FragmentBatch::padded_capacity];
 };
-void find_surface_gradients(const Scene& scene, const FragmentBatch& batch, int uv_set, SurfaceGradients& out);
+void compute_surface_gradients(const Scene& scene, const FragmentBatch& batch, int uv_set, SurfaceGradients& out);
 
 /// Sets `is_lit` to 1 for the fragments of meshes that have normals, else to 0.
 void mark_lit(const Scene& scene, const FragmentBatch& batch, float* is_lit);

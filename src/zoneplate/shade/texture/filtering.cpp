@@ -194,7 +194,7 @@ void sample_anisotropic(const TextureView& t, const SamplerState& f, const Footp
 }  // namespace scalar
 
 template <>
-const FilteringKernels PerIsa<FilteringKernels>::scalar = {.find_taps = &find_taps<scalar::Float, TextureView>,
+const FilteringKernels PerIsa<FilteringKernels>::scalar = {.compute_taps = &compute_taps<scalar::Float, TextureView>,
                                                            .mix_taps = &scalar::mix_taps,
                                                            .sample_anisotropic = &scalar::sample_anisotropic};
 }  // namespace zoneplate

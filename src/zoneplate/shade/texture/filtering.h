@@ -84,8 +84,8 @@ struct Taps {
 /// Source    Williams, Pyramidal Parametrics, SIGGRAPH 1983; OpenGL 4.6 core, section 8.14, with the isotropic
 ///           scale factor ρ of equation 8.8 and c = 0.
 struct FilteringKernels : PerIsa<FilteringKernels> {
-  void (*find_taps)(const TextureView& texture, const SamplerState& filtering, const Footprint& footprint, Taps& out,
-                    int count);
+  void (*compute_taps)(const TextureView& texture, const SamplerState& filtering, const Footprint& footprint, Taps& out,
+                       int count);
   void (*mix_taps)(const TextureView& texture, const Taps& taps, float* const out[4], int count);
 
   /// Both stages for footprints that are longer than wide: the mean of N probes along the longer axis, each the

@@ -263,8 +263,8 @@ template <class F, class Address, class Filter>
 
 /// `at` is a copy, so that its pointers are loaded once and not again after each store.
 template <class F, class Address, class View, class Filter>
-[[gnu::always_inline]] inline void find_all_taps(const Address address, const View& t, const Filter& f,
-                                                 const Footprint at, Taps& out, int count) {
+[[gnu::always_inline]] inline void compute_all_taps(const Address address, const View& t, const Filter& f,
+                                                    const Footprint at, Taps& out, int count) {
   static constexpr bool none[Taps::groups] = {};
   static constexpr int step = F::lanes < 8 ? 8 : F::lanes;
   const bool* const repeats = at.repeats != nullptr ? at.repeats : none;
@@ -300,14 +300,14 @@ template <class F, class Address, class View, class Filter>
   }
 }
 
-/// The stage `find_taps` of shade/texture/filtering.h.
+/// The stage `compute_taps` of shade/texture/filtering.h.
 template <class F, class View>
-void find_taps(const View& t, const SamplerState& f, const Footprint& footprint, Taps& out, int count) {
+void compute_taps(const View& t, const SamplerState& f, const Footprint& footprint, Taps& out, int count) {
   if (is_trilinear_repeat(f) && t.unorm8 != nullptr)
-    return find_all_taps<F>(TexelAddress<true>(t), t, TrilinearRepeat{}, footprint, out, count);
+    return compute_all_taps<F>(TexelAddress<true>(t), t, TrilinearRepeat{}, footprint, out, count);
   const TexelAddress<false> address(t);
-  if (is_trilinear_repeat(f)) return find_all_taps<F>(address, t, TrilinearRepeat{}, footprint, out, count);
-  find_all_taps<F>(address, t, f, footprint, out, count);
+  if (is_trilinear_repeat(f)) return compute_all_taps<F>(address, t, TrilinearRepeat{}, footprint, out, count);
+  compute_all_taps<F>(address, t, f, footprint, out, count);
 }
 
 }  // namespace zoneplate

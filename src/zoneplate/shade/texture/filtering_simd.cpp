@@ -504,7 +504,7 @@ HWY_AFTER_NAMESPACE();
 namespace zoneplate {
 template <>
 const FilteringKernels PerIsa<FilteringKernels>::HWY_NAMESPACE = {
-    .find_taps = &zoneplate::find_taps<HWY_NAMESPACE::WideFloat, TextureView>,
+    .compute_taps = &zoneplate::compute_taps<HWY_NAMESPACE::WideFloat, TextureView>,
     .mix_taps = &HWY_NAMESPACE::mix_taps,
     .sample_anisotropic = &HWY_NAMESPACE::sample_anisotropic};
 }  // namespace zoneplate

@@ -46,7 +46,7 @@ Values look_up(const Texture& texture, const SamplerState& filtering, const Poin
   static Taps taps;
   Values values;
   float* const out[4] = {values.channel[0], values.channel[1], values.channel[2], values.channel[3]};
-  kernels(isa).find_taps(texture.view(), filtering, points.footprint(), taps, points.padded());
+  kernels(isa).compute_taps(texture.view(), filtering, points.footprint(), taps, points.padded());
   kernels(isa).mix_taps(texture.view(), taps, out, points.padded());
   return values;
 }
@@ -188,7 +188,7 @@ TEST(SamplerState, TrilinearOfFloatsAgreesWithItsDefinition) {
     }
     const SamplerState filtering = make_filtering({.wrap_u = wrap, .wrap_v = wrap});
     static Taps taps;
-    kernels(best_isa()).find_taps(view, filtering, points.footprint(), taps, points.padded());
+    kernels(best_isa()).compute_taps(view, filtering, points.footprint(), taps, points.padded());
     const Values values = look_up(texture, filtering, points);
     for (int i = 0; i < points.count; ++i) {
       const double mip_weight = taps.mip_weight[Taps::by_fours(i)] / 32768.0;
@@ -293,7 +293,7 @@ struct Staircase {
     static Taps taps;
     Values values;
     float* const out[4] = {values.channel[0], values.channel[1], values.channel[2], values.channel[3]};
-    kernels(best_isa()).find_taps(view, filtering, points.footprint(), taps, points.padded());
+    kernels(best_isa()).compute_taps(view, filtering, points.footprint(), taps, points.padded());
     kernels(best_isa()).mix_taps(view, taps, out, points.padded());
     std::vector<double> result;
     for (int i = 0; i < points.count; ++i) result.push_back((values.channel[0][i] * 255.0 - 4) / 8);
@@ -456,7 +456,7 @@ TEST(SamplerState, NoPlaceLeavesTheTexture) {
     const int texels = view.offset[view.levels - 1] + 9 + 2;
     for (const SamplerState& filtering : all_filterings())
       for (const Isa isa : supported_isas()) {
-        kernels(isa).find_taps(view, filtering, points.footprint(), taps, points.padded());
+        kernels(isa).compute_taps(view, filtering, points.footprint(), taps, points.padded());
         for (int l = 0; l < (filtering.blends_mips ? 2 : 1); ++l)
           for (int i = 0; i < points.count; ++i)
             for (const std::int32_t left : {taps.upper[l][i], taps.lower[l][i]}) {

@@ -16,7 +16,8 @@ struct Probes {
 };
 
 template <class F, class View>
-[[gnu::always_inline]] inline void find_probes(const View& t, int anisotropy, const Footprint& p, int i, Probes& out) {
+[[gnu::always_inline]] inline void compute_probes(const View& t, int anisotropy, const Footprint& p, int i,
+                                                  Probes& out) {
   const F w(static_cast<float>(t.width[0])), h(static_cast<float>(t.height[0])), one(1.0f);
   const float most = static_cast<float>(anisotropy);
   const F ux = F::load(p.dudx + i), vx = F::load(p.dvdx + i), uy = F::load(p.dudy + i), vy = F::load(p.dvdy + i);
@@ -35,9 +36,9 @@ template <class F, class View>
 
 /// The probes of all fragments. Groups whose footprints repeat have those of the fragment before them.
 template <class F, class View>
-[[gnu::always_inline]] inline void find_all_probes(const View& t, int anisotropy, const Footprint at, int count,
-                                                   Probes& out) {
-  for (int i = 0; i < count; i += F::lanes) find_probes<F>(t, anisotropy, at, i, out);
+[[gnu::always_inline]] inline void compute_all_probes(const View& t, int anisotropy, const Footprint at, int count,
+                                                      Probes& out) {
+  for (int i = 0; i < count; i += F::lanes) compute_probes<F>(t, anisotropy, at, i, out);
   for (int i = 8; at.repeats != nullptr && i < count; i += 8)
     if (at.repeats[i / 8])
       for (float* const of : {out.du, out.dv, out.count, out.lod}) std::copy_n(of + i - 8, 8, of + i);
@@ -218,7 +219,7 @@ template <class F, class Wide, class Joined, class View, class Mix>
 [[gnu::always_inline]] inline void sample_anisotropic(const View& t, const SamplerState& f, const Footprint& at,
                                                       int count, Mix mix) {
   Probes probes;
-  find_all_probes<Wide>(t, f.anisotropy, at, count, probes);
+  compute_all_probes<Wide>(t, f.anisotropy, at, count, probes);
   int most[Taps::groups];
   for (int i = 0; i < count; i += 8) most[i / 8] = max_probes<F>(probes, i);
   if (is_trilinear_repeat(f) && t.unorm8 != nullptr)

@@ -62,7 +62,7 @@ float4 sample(const Texture& texture, const Sampler& sampler, const TextureFilte
     kernels.sample_anisotropic(texture.view(), state, footprint, out, count);
   } else {
     Taps taps;
-    kernels.find_taps(texture.view(), state, footprint, taps, count);
+    kernels.compute_taps(texture.view(), state, footprint, taps, count);
     kernels.mix_taps(texture.view(), taps, out, count);
   }
   return {red.value[0], green.value[0], blue.value[0], alpha.value[0]};

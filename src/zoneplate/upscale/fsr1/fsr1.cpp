@@ -42,7 +42,7 @@ class Easu {
       // The output may read edges from one pixel before the input's first.
       edge_columns_.push_back(4 * std::clamp(x + 1 - grid.x, 0, image.width()));
     }
-    find_edges();
+    compute_edges();
   }
 
   /// Output row i of `rows`.
@@ -60,7 +60,7 @@ class Easu {
 
  private:
   /// The edges of the image with one pixel around it, from the lumas with two pixels around it.
-  void find_edges() {
+  void compute_edges() {
     const EasuKernels& kernels = EasuKernels::of();
     const int width = image_.width(), height = image_.height();
     Plane<float> luma(width + 4, height);
@@ -121,7 +121,7 @@ DisplayImage upscale_opaque(const DisplayImage& image, const UpscaleGrid& grid, 
 class Fsr1 : public SpatialUpscaler {
  public:
   explicit Fsr1(const Fsr1Options& options) : options_(options) {}
-  int reach() const override { return continued_reach + (options_.sharpens ? 3 : 2); }
+  int radius() const override { return continued_radius + (options_.sharpens ? 3 : 2); }
   DisplayImage upscale(const DisplayImage& image, const UpscaleGrid& grid) const override {
     return upscale_fsr1(image, grid, options_);
   }

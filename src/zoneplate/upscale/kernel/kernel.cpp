@@ -37,7 +37,7 @@ void transfer(DisplayImage& image, float (*curve)(float)) {
 class KernelUpscaler : public SpatialUpscaler {
  public:
   KernelUpscaler(Kernel kernel, bool mixes_light) : kernel_(std::move(kernel)), mixes_light_(mixes_light) {}
-  int reach() const override { return static_cast<int>(std::ceil(kernel_.radius)); }
+  int radius() const override { return static_cast<int>(std::ceil(kernel_.radius)); }
 
   DisplayImage upscale(const DisplayImage& image, const UpscaleGrid& grid) const override {
     if (!mixes_light_) return upscale_values(image, grid);
@@ -84,7 +84,7 @@ class KernelUpscaler : public SpatialUpscaler {
       return c.a > 0 ? Display{clamped(c.r / c.a), clamped(c.g / c.a), clamped(c.b / c.a), clamped(c.a)}
                      : Display{0, 0, 0, 0};
     });
-    if (!is_opaque) keep_visible_colors(out, image, grid, reach());
+    if (!is_opaque) keep_visible_colors(out, image, grid, radius());
     return out;
   }
 

@@ -94,7 +94,7 @@ Convolution read_layer(Bytes& file, const std::uint8_t (&form)[4]) {
 
 /// Applies a layer. Activations of `to` are written from channel `channel` on.
 void convolve(const Convolution& layer, const Activations& from, Activations& to, int channel) {
-  const int reach = layer.side / 2;
+  const int radius = layer.side / 2;
   parallel_ranges(static_cast<std::size_t>(to.height), 4, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const int y = static_cast<int>(i);
@@ -108,7 +108,7 @@ void convolve(const Convolution& layer, const Activations& from, Activations& to
                          .all_outputs = layer.outputs,
                          .activations = to.at(0, y) + channel,
                          .channels = to.channels};
-      for (int k = 0; k < layer.side; ++k) row.input[k] = from.at(-reach, y * layer.stride + k - reach);
+      for (int k = 0; k < layer.side; ++k) row.input[k] = from.at(-radius, y * layer.stride + k - radius);
       NetworkKernels::of().convolve(row, static_cast<std::size_t>(to.width));
     }
   });

@@ -135,7 +135,7 @@ DisplayImage sharpened(const DisplayImage& image, const UpscaleGrid& grid, const
 class Nis : public SpatialUpscaler {
  public:
   explicit Nis(float sharpness) : sharpness_(sharpness) {}
-  int reach() const override { return 3 + continued_reach; }
+  int radius() const override { return 3 + continued_radius; }
   DisplayImage upscale(const DisplayImage& image, const UpscaleGrid& grid) const override {
     return upscale_nis(image, grid, sharpness_);
   }

@@ -46,7 +46,7 @@ DisplayImage upscale_values(const DisplayImage& image, const UpscaleGrid& grid) 
 
 class Sgsr1 : public SpatialUpscaler {
  public:
-  int reach() const override { return 2 + continued_reach; }
+  int radius() const override { return 2 + continued_radius; }
   DisplayImage upscale(const DisplayImage& image, const UpscaleGrid& grid) const override {
     return filter_with_alpha(
         image, grid, [&](const DisplayImage& values) { return upscale_values(values, grid); }, &Display::g);

@@ -49,14 +49,14 @@ const float* floats_of(const LinearImage& image, int y) { return &image.row(y).d
 /// marked too: there the new light may be one that the last frames had beside. Beyond the frame, its outermost pixels
 /// go on.
 Plane<float> restarts_of(const Plane<float>& change) {
-  constexpr int reach = 3, side = 2 * reach + 1, enough = 40, marked = reach + 2;
+  constexpr int radius = 3, side = 2 * radius + 1, enough = 40, marked = radius + 2;
   const int width = change.width(), height = change.height();
   // Sums over rectangles that begin at (0, 0) of the plane with a border; windows are named by their first pixel there,
   // which is three pixels before that of their middle in the frame.
   Plane<int> sums(width + side, height + side), windows(width + 1, height + 1);
   for (int y = 0; y + 1 < sums.height(); ++y)
     for (int x = 0; x + 1 < sums.width(); ++x) {
-      const float own = change(std::clamp(x - reach, 0, width - 1), std::clamp(y - reach, 0, height - 1));
+      const float own = change(std::clamp(x - radius, 0, width - 1), std::clamp(y - radius, 0, height - 1));
       sums(x + 1, y + 1) = static_cast<int>(own) + sums(x, y + 1) + sums(x + 1, y) - sums(x, y);
     }
   for (int y = 0; y < height; ++y)
@@ -110,8 +110,8 @@ struct SampleMean::Motions {
 };
 
 /// Widens the boxes of this frame by those of the last one where they hold too, and finds how much history counts.
-void SampleMean::find_kept(const TaauInput& frame, const LinearImage& color, const Motions& moved, Boxes& now,
-                           Followed& followed) const {
+void SampleMean::compute_kept(const TaauInput& frame, const LinearImage& color, const Motions& moved, Boxes& now,
+                              Followed& followed) const {
   const int width = color.width(), height = color.height();
   const auto pixels = static_cast<std::size_t>(width);
   const std::vector<float> column = whole_numbers(width);
@@ -259,7 +259,7 @@ LinearImage SampleMean::accumulate(const TaauInput& frame) {
                         .is_borrowed = followed.borrowed.row(y).data()};
     SampleMeanKernels::of().survey(row, pixels);
   });
-  if (!history_.empty()) find_kept(frame, color, Motions(frame), now, followed);
+  if (!history_.empty()) compute_kept(frame, color, Motions(frame), now, followed);
   Plane<float> count(width_, height_);
   LinearImage out = resolved({frame, color, now, followed}, count);
   history_ = out;

@@ -67,8 +67,8 @@ class SampleMean {
  private:
   struct Motions;
 
-  void find_kept(const TaauInput& frame, const LinearImage& color, const Motions& moved, Boxes& now,
-                 Followed& followed) const;
+  void compute_kept(const TaauInput& frame, const LinearImage& color, const Motions& moved, Boxes& now,
+                    Followed& followed) const;
 
   int width_, height_;
   LinearImage history_;

@@ -132,12 +132,12 @@ template <class F>
 [[gnu::always_inline]] inline void widen(const WidenRow& row, std::ptrdiff_t i) {
   const F zero(0.0f), one(1.0f), column = F::load(row.column + i);
   // The light drifts where half of 5 × 5 trends agree; where eight tenths do, no history counts.
-  constexpr int reach = 2;
+  constexpr int radius = 2;
   const PastPixels<F> around(column - one, F(static_cast<float>(row.y - 1)), row.width, row.height, column, i,
-                             reach + 1);
+                             radius + 1);
   F sum(0.0f);
-  for (int dy = -reach; dy <= reach; ++dy)
-    for (int dx = -reach; dx <= reach; ++dx) sum = sum + around.value(row.trend, dx + 1, dy + 1);
+  for (int dy = -radius; dy <= radius; ++dy)
+    for (int dx = -radius; dx <= radius; ++dx) sum = sum + around.value(row.trend, dx + 1, dy + 1);
   const F drift = saturated((abs(sum) * F(1 / 25.0f) - F(0.5f)) * F(1 / 0.3f));
   const auto begins = (F::load(row.restarts + i) > zero) | (F::load(row.is_uncovered + i) > zero);
   const F lost = select(begins, one, drift);

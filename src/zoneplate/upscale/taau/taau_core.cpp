@@ -26,7 +26,7 @@ LinearImage Taau::accumulate(const TaauInput& frame) {
                          .height = height_,
                          .is_first = is_first,
                          .scale = {scale_x, scale_y},
-                         .reach = 1.51f + (1.3f - 1.51f) * std::clamp(scale_x - 1, 0.0f, 1.0f),
+                         .radius = 1.51f + (1.3f - 1.51f) * std::clamp(scale_x - 1, 0.0f, 1.0f),
                          .history = is_first ? nullptr : &history_.values().data()->r};
   std::vector<float> column(static_cast<std::size_t>(width_));
   for (std::size_t x = 0; x < column.size(); ++x) column[x] = static_cast<float>(x);

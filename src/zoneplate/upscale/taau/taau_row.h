@@ -13,7 +13,7 @@ struct TaauFrame {
   std::int32_t width, height;  ///< of the output
   bool is_first;               ///< there is no history
   float scale[2];              ///< output pixels per frame pixel, per axis
-  float reach;                 ///< samples at less than this, in frame pixels, limit the history
+  float radius;                ///< samples at less than this, in frame pixels, limit the history
   const float* history;        ///< of the last frame, in the output's size: four floats per pixel
 };
 

@@ -60,7 +60,7 @@ template <class F>
   const Rgba<F> middle = pixel(1, 1);
   Rgba<F> difference[9];
   for (int k = 0; k < 9; ++k) difference[k] = pixel(k / 3, k % 3) - middle;
-  const F dx = F::load(row.dx + i), dy = F(row.dy), reach2 = F(frame.reach * frame.reach);
+  const F dx = F::load(row.dx + i), dy = F(row.dy), reach2 = F(frame.radius * frame.radius);
   Rgba<F> sum = Rgba<F>::all(zero);
   DifferenceBox<F> box{sum, sum};
   F density = zero, weights = zero;

@@ -27,7 +27,7 @@ namespace {
 constexpr int longest_line = 86;
 /// The greatest distance from its corner at which a Z shape blends pixels: half a line.
 constexpr int farthest_item = longest_line / 2 + 1;
-constexpr int reach = longest_line + farthest_item + 4;
+constexpr int radius = longest_line + farthest_item + 4;
 
 /// The constants of the original and of its extra-sharp variant.
 struct Tuning {
@@ -315,7 +315,7 @@ constexpr Param params[] = {
 
 std::unique_ptr<Resolver> make(const Settings& s) {
   const Cmaa2Options options{.threshold = thresholds[s.integer("preset")], .is_sharp = s.integer("sharp") == 1};
-  return make_post_process(reach, Mixing::Linear, [options](const Rgba8Image& i) { return apply_cmaa2(i, options); });
+  return make_post_process(radius, Mixing::Linear, [options](const Rgba8Image& i) { return apply_cmaa2(i, options); });
 }
 
 }  // namespace

@@ -21,7 +21,7 @@
 namespace zoneplate::antialias {
 namespace {
 
-constexpr int reach = DdaaConstants::search + 2;
+constexpr int radius = DdaaConstants::search + 2;
 
 }  // namespace
 
@@ -33,7 +33,7 @@ Rgba8Image apply_ddaa(const Rgba8Image& image, const DdaaOptions& options, Rgba8
   // Blocks are large, because two neighbouring blocks both compute the power along their common border.
   constexpr std::size_t rows = 128;
   parallel_ranges(static_cast<std::size_t>(image.height()), rows, [&](std::size_t begin, std::size_t end) {
-    RollingRows<float> power(image.width(), image.height(), reach, static_cast<int>(begin));
+    RollingRows<float> power(image.width(), image.height(), radius, static_cast<int>(begin));
     ResultRow result(image, out);
     std::vector<std::uint8_t> seen(room);
     std::vector<float> taps(4 * room);
@@ -69,7 +69,7 @@ std::unique_ptr<Resolver> make(const Settings& s) {
   const Threshold& t = thresholds[s.integer("threshold")];
   const DdaaOptions options{
       .threshold = t.share, .least = t.least, .strength = static_cast<float>(s.integer("strength"))};
-  return make_post_process(reach, Mixing::Encoded, [options](const Rgba8Image& i) { return apply_ddaa(i, options); });
+  return make_post_process(radius, Mixing::Encoded, [options](const Rgba8Image& i) { return apply_ddaa(i, options); });
 }
 
 }  // namespace

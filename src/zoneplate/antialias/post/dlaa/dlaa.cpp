@@ -26,7 +26,7 @@ namespace antialias {
 namespace {
 
 using Constants = DlaaConstants;
-constexpr int reach = Constants::half_blur + 1;
+constexpr int radius = Constants::half_blur + 1;
 
 /// The image with its border, and the result of the first pass: four times the luma of the Laplacian, in 8 bits.
 struct Source {
@@ -34,7 +34,7 @@ struct Source {
   Bordered<std::uint8_t> edges;
 
   Source(const Rgba8Image& image, const DlaaKernels& kernels)
-      : colors(image.width(), image.height(), reach), edges(image.width(), image.height(), Constants::half_blur) {
+      : colors(image.width(), image.height(), radius), edges(image.width(), image.height(), Constants::half_blur) {
     for_rows(image.height(),
              [&](int y) { std::memcpy(colors.at(0, y), image.row(y).data(), image.row(y).size_bytes()); });
     colors.extend();
@@ -83,7 +83,7 @@ Method dlaa() {
           .summary = "short and long blurs along edges, without an edge search",
           .source = "Andreev 2011",
           .make = [](const Settings&) -> std::unique_ptr<Resolver> {
-            return make_post_process(reach, Mixing::Encoded, [](const Rgba8Image& i) { return apply_dlaa(i); });
+            return make_post_process(radius, Mixing::Encoded, [](const Rgba8Image& i) { return apply_dlaa(i); });
           },
           .is_specification_only = true};
 }

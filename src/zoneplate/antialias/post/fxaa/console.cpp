@@ -53,7 +53,7 @@ Tap fetch(const FxaaConsoleRows& rows, std::ptrdiff_t x, std::ptrdiff_t n, float
     return upper + (lower - upper) * v;
   };
   const auto at = [&](std::ptrdiff_t i, std::ptrdiff_t j) {
-    return rows.codes[rows.reach + y + j] + 4 * std::clamp<std::ptrdiff_t>(x + i, 0, n - 1);
+    return rows.codes[rows.radius + y + j] + 4 * std::clamp<std::ptrdiff_t>(x + i, 0, n - 1);
   };
   const std::uint8_t *a = at(0, 0), *b = at(1, 0), *c = at(0, 1), *d = at(1, 1);
   const std::uint8_t *l = rows.luma + x + y * rows.stride, *below = l + rows.stride;

@@ -10,11 +10,11 @@ namespace zoneplate {
 
 /// The input of the console path for the pixels of a row.
 struct FxaaConsoleRows {
-  static constexpr int reach = 5;
-  const std::uint8_t* luma;  ///< valid for `reach` values around
+  static constexpr int radius = 5;
+  const std::uint8_t* luma;  ///< valid for `radius` values around
   std::ptrdiff_t stride;     ///< stride of luma
   /// Rows of codes, the pixels' own in the middle; beyond their ends the outermost pixels are repeated.
-  const std::uint8_t* codes[2 * reach + 1];
+  const std::uint8_t* codes[2 * radius + 1];
 };
 
 struct FxaaConsoleKernels : PerIsa<FxaaConsoleKernels> {

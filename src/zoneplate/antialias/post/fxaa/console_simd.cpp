@@ -77,7 +77,7 @@ struct Point {
   }
   HWY_INLINE VF4 color(const FxaaConsoleRows& rows, std::ptrdiff_t n) const {
     const auto inside = [n](std::ptrdiff_t i) { return 4 * (i < 0 ? 0 : i < n ? i : n - 1); };
-    const std::uint8_t *above = rows.codes[rows.reach + y], *below = rows.codes[rows.reach + y + 1];
+    const std::uint8_t *above = rows.codes[rows.radius + y], *below = rows.codes[rows.radius + y + 1];
     const std::ptrdiff_t first = inside(x), second = inside(x + 1);
     const VF4 upper = mixed(load_codes(above + first), load_codes(above + second), u);
     return mixed(upper, mixed(load_codes(below + first), load_codes(below + second), u), v);

@@ -84,13 +84,13 @@ Rgba8 pixel_at(const Rgba8Image& image, int x, int y) {
   return image(std::clamp(x, 0, image.width() - 1), std::clamp(y, 0, image.height() - 1));
 }
 
-/// The luma of the rows within reach of the current row.
+/// The luma of the rows within the radius of the current row.
 class Luma {
  public:
   Luma(const Rgba8Image& image, const FxaaOptions& options, int first)
       : image_(image),
         row_of_(options.is_green_luma ? FxaaKernels::of().green_row : FxaaKernels::of().luma_row),
-        rows_(image.width(), image.height(), fxaa_reach(options), first) {}
+        rows_(image.width(), image.height(), fxaa_radius(options), first) {}
 
   std::ptrdiff_t stride() const { return rows_.stride(); }
   const std::uint8_t* at(int x, int y) const { return rows_.at(x, y); }
@@ -180,8 +180,8 @@ Rgba8Image apply_console(const Rgba8Image& image, const FxaaOptions& options, Rg
     for (int y = begin; y < end; ++y) {
       luma.make_around(y);
       FxaaConsoleRows rows{luma.at(0, y), luma.stride(), {}};
-      for (int j = -rows.reach; j <= rows.reach; ++j)
-        rows.codes[rows.reach + j] = &image.row(std::clamp(y + j, 0, image.height() - 1))[0].r;
+      for (int j = -rows.radius; j <= rows.radius; ++j)
+        rows.codes[rows.radius + j] = &image.row(std::clamp(y + j, 0, image.height() - 1))[0].r;
       kernels.seen_row(rows, threshold, least, seen.data(), width);
       kernels.mix_row(rows, options.sharpness, seen.data(), &result.begin(y)[0].r, width);
       result.end();
@@ -192,8 +192,8 @@ Rgba8Image apply_console(const Rgba8Image& image, const FxaaOptions& options, Rg
 
 }  // namespace
 
-int fxaa_reach(const FxaaOptions& options) {
-  if (options.preset == FxaaOptions::console) return FxaaConsoleRows::reach;
+int fxaa_radius(const FxaaOptions& options) {
+  if (options.preset == FxaaOptions::console) return FxaaConsoleRows::radius;
   // The last distance is used without a test.
   const std::span<const int> distances = distances_of(options.preset);
   return (distances[distances.size() - 2] + 1) / 2 + 1;
@@ -273,7 +273,7 @@ FxaaOptions options_of(const Settings& s) {
 
 std::unique_ptr<Resolver> make(const Settings& s) {
   const FxaaOptions options = options_of(s);
-  return make_post_process(fxaa_reach(options), options.mixes_light ? Mixing::Linear : Mixing::Encoded,
+  return make_post_process(fxaa_radius(options), options.mixes_light ? Mixing::Linear : Mixing::Encoded,
                            [options](const Rgba8Image& i) { return apply_fxaa(i, options); });
 }
 

@@ -27,6 +27,6 @@ struct FxaaOptions {
 Rgba8Image apply_fxaa(const Rgba8Image& image, const FxaaOptions& options, Rgba8Image memory = {});
 
 /// The greatest distance between a pixel and one that it affects.
-int fxaa_reach(const FxaaOptions& options);
+int fxaa_radius(const FxaaOptions& options);
 
 }  // namespace zoneplate::antialias

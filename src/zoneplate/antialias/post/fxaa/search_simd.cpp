@@ -179,7 +179,7 @@ HWY_INLINE End find_end(const Walk& walk, const FxaaSearch& search, MI16 selecte
 }
 
 /// Finds both ends with the loop for the vector's orientation: most vectors have only one.
-HWY_INLINE void find_ends(const Walk& walk, const FxaaSearch& search, MI16 selected, End& before, End& after) {
+HWY_INLINE void search_ends(const Walk& walk, const FxaaSearch& search, MI16 selected, End& before, End& after) {
   if (hn::AllFalse(dw, hn::AndNot(walk.is_level, selected))) {
     before = find_end<Direction::Level>(walk, search, selected, -1);
     after = find_end<Direction::Level>(walk, search, selected, 1);
@@ -232,7 +232,7 @@ void ends_some(const std::uint8_t* p, std::ptrdiff_t stride, const FxaaSearch& s
   walk.twice = hn::Add(here, here);
 
   End before, after;
-  find_ends(walk, search, selected, before, after);
+  search_ends(walk, search, selected, before, after);
   // Pixels with a tie are processed separately, by fxaa_tied_shift.
   const MI16 is_tied =
       hn::Or(hn::Eq(hn::Abs(before.error), walk.gradient), hn::Eq(hn::Abs(after.error), walk.gradient));

@@ -117,12 +117,12 @@ SmaaBlendingWeights::SmaaBlendingWeights(const EdgePlane& edges, const SmaaOptio
 SmaaBlendingWeights::~SmaaBlendingWeights() = default;
 
 void SmaaBlendingWeights::find(int y, WeightRow& out) const {
-  if (options_.exact_offset) return find_exact_weights(edges_, y, *tables_, options_, out);
+  if (options_.exact_offset) return compute_exact_weights(edges_, y, *tables_, options_, out);
   const std::uint8_t* row = edges_.at(0, y);
   for_edges(edges_, y, [&](int x) { out.set(x, weights_of(row + x, edges_.stride(), *tables_, options_)); });
 }
 
-int smaa_reach(const SmaaOptions& options) {
+int smaa_radius(const SmaaOptions& options) {
   // The search, the pixel across its end, the edges that cross two pixels away, and the neighbourhood of edge
   // detection.
   return std::max(2 * options.steps + 1, options.diagonal_steps + 1) + 4;

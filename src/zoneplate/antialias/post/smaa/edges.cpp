@@ -77,7 +77,7 @@ void detect_color_edges(const Rgba8Image& image, const SmaaOptions& options, Edg
 }  // namespace
 
 EdgePlane smaa_edge_detection(const Rgba8Image& image, const Plane<float>* depth, const SmaaOptions& options) {
-  EdgePlane edges(image.width(), image.height(), smaa_reach(options));
+  EdgePlane edges(image.width(), image.height(), smaa_radius(options));
   const bool is_depth = options.edges == SmaaOptions::Edges::Depth;
   assert(!(is_depth && options.is_predicated));
   if (is_depth || options.is_predicated) {

@@ -128,8 +128,8 @@ class Collected {
 
 }  // namespace
 
-void find_exact_weights(const EdgePlane& edges, int y, const SmaaSearches& searches, const SmaaOptions& options,
-                        WeightRow& out) {
+void compute_exact_weights(const EdgePlane& edges, int y, const SmaaSearches& searches, const SmaaOptions& options,
+                           WeightRow& out) {
   Collected collected(*options.exact_offset, out);
   const std::uint8_t* row = edges.at(0, y);
   for_edges(edges, y, [&](int x) { collected.add(x, row + x, edges.stride(), searches, options); });

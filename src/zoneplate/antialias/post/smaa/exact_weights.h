@@ -25,7 +25,7 @@ struct SmaaSearches {
 /// Stores the weights of row y in a cleared row: areas in closed form for a sample at SmaaOptions::exact_offset.
 ///
 /// Requires  `options.exact_offset` has a value.
-void find_exact_weights(const EdgePlane& edges, int y, const SmaaSearches& searches, const SmaaOptions& options,
-                        WeightRow& out);
+void compute_exact_weights(const EdgePlane& edges, int y, const SmaaSearches& searches, const SmaaOptions& options,
+                           WeightRow& out);
 
 }  // namespace zoneplate::antialias

@@ -121,7 +121,7 @@ class Smaa : public Resolver {
  public:
   Smaa(const SmaaOptions& options, Predication predication) : options_(options), predication_(predication) {}
   Request request(const FrameContext&) override {
-    Request request = display_referred_request(smaa_reach(options_));
+    Request request = display_referred_request(smaa_radius(options_));
     request.planes.depth = options_.edges == SmaaOptions::Edges::Depth || predication_ == Predication::Depth;
     request.planes.object_id = predication_ == Predication::Objects;
     return request;
@@ -182,7 +182,7 @@ class SmaaSubsamples : public Resolver {
   bool has_history() const override { return subsamples_.frames() > 1; }
   Request request(const FrameContext& context) override {
     context_ = context;
-    Request request = display_referred_request(smaa_reach(options_));
+    Request request = display_referred_request(smaa_radius(options_));
     request.samples.clear();
     for (const Subsample& s : subsamples_.of_frame(context.index)) request.samples.push_back(s.position);
     request.planes.samples = true;

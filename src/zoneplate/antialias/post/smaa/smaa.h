@@ -87,7 +87,7 @@ Rgba8Image apply_smaa(const Rgba8Image& image, const Plane<float>* depth, const 
                       Rgba8Image memory = {});
 
 /// The greatest distance between a pixel and one that it affects.
-int smaa_reach(const SmaaOptions& options);
+int smaa_radius(const SmaaOptions& options);
 
 /// Where SMAA's areas come from.
 enum class SmaaAreas {

@@ -44,13 +44,13 @@ Fragment AlphaEdges::corner_point(const Query& a, int column, int row) const {
 
 void AlphaEdges::solve() {
   edges_.clear();
-  find_mixed();
-  find_grid_points();
-  find_crossings();
+  collect_mixed();
+  compute_grid_points();
+  compute_crossings();
 }
 
 /// Determines the parts that contain an edge.
-void AlphaEdges::find_mixed() {
+void AlphaEdges::collect_mixed() {
   points_.clear(), centres_.clear();
   for (const Query& a : queries_) {
     for (const int row : {0, cells})
@@ -71,7 +71,7 @@ void AlphaEdges::find_mixed() {
   }
 }
 
-void AlphaEdges::find_grid_points() {
+void AlphaEdges::compute_grid_points() {
   points_.clear();
   for (const Edge& e : edges_)
     for (int row = 0; row <= cells; ++row)
@@ -80,7 +80,7 @@ void AlphaEdges::find_grid_points() {
   for (std::size_t i = 0; i < edges_.size(); ++i) std::copy_n(&margin[i * corners], corners, edges_[i].margin.data());
 }
 
-void AlphaEdges::find_crossings() {
+void AlphaEdges::compute_crossings() {
   crossings_.clear();
   for (std::uint32_t e = 0; e < edges_.size(); ++e) {
     std::uint32_t side = 0;

@@ -22,8 +22,8 @@ class AlphaTester {
   AlphaTester(const AlphaTester&) = delete;  // the shader stores a reference to this target
 
   /// For each position, alpha minus the cutoff. The surface is present where that is >= 0.
-  std::span<const float> margins(std::span<const Fragment> points) {
-    shader_.find_alpha_margins(points, margins_);
+  std::span<const float> margins(std::span<const Fragment> fragments) {
+    shader_.evaluate_alpha_margins(fragments, margins_);
     return margins_;
   }
   std::uint64_t tested() const { return shader_.shaded(); }
@@ -98,9 +98,9 @@ class AlphaEdges {
 
   std::int32_t place(int cell) const;
   Fragment corner_point(const Query& a, int column, int row) const;
-  void find_mixed();
-  void find_grid_points();
-  void find_crossings();
+  void collect_mixed();
+  void compute_grid_points();
+  void compute_crossings();
   void add_crossing(std::uint32_t edge, std::uint32_t side, int column, int row, bool is_upright);
   void bisect();
   Place crossing_place(const Query& a, const Edge& e, int column, int row, bool is_upright) const;

@@ -43,11 +43,11 @@ void PixelCandidates::find(std::span<const ScreenTriangle> triangles, const Pixe
   const auto pixels = static_cast<std::size_t>(rect.width()) * static_cast<std::size_t>(rect.height());
   found_.clear();
   hidden_below_.assign(pixels, -1.0);
-  for (const std::uint32_t number : order_) find_pixels(number, triangles[number], rect);
+  for (const std::uint32_t number : order_) collect_pixels(number, triangles[number], rect);
   sort_by_pixel(pixels);
 }
 
-void PixelCandidates::find_pixels(std::uint32_t number, const ScreenTriangle& triangle, const PixelRect& rect) {
+void PixelCandidates::collect_pixels(std::uint32_t number, const ScreenTriangle& triangle, const PixelRect& rect) {
   const Triangle& t = triangle.shape;
   const int left = std::max(t.min_x, rect.left), right = std::min(t.max_x + 1, rect.right);
   const int top = std::max(t.min_y, rect.top), bottom = std::min(t.max_y + 1, rect.bottom);

@@ -39,7 +39,7 @@ class PixelCandidates {
   }
 
  private:
-  void find_pixels(std::uint32_t number, const ScreenTriangle& triangle, const PixelRect& rect);
+  void collect_pixels(std::uint32_t number, const ScreenTriangle& triangle, const PixelRect& rect);
   void sort_by_pixel(std::size_t pixels);
 
   std::vector<std::uint32_t> order_;

@@ -31,12 +31,12 @@ AreaFragmentColors::AreaFragmentColors(const ProjectedDraws& projected, const Fr
 
 void AreaFragmentColors::find(const AreaFragmentTable& table) {
   seen_.clear();
-  for (Group* group : {&parts_, &fine_}) group->points.clear(), group->place.clear();
+  for (Group* group : {&parts_, &fine_}) group->fragments.clear(), group->place.clear();
   for (std::size_t i = 0; i < table.fragments().size(); ++i) {
     const AreaFragment& f = table.fragments()[i];
     Group& group = f.is_fine ? fine_ : parts_;
     for (const Layer& layer : table.layers_of(f)) {
-      group.points.push_back(point_of(f, layer.id));
+      group.fragments.push_back(point_of(f, layer.id));
       group.place.push_back(seen_.size());
       seen_.push_back({i, layer.alpha_mode != AlphaMode::Blend, {}});
     }
@@ -52,8 +52,8 @@ void AreaFragmentColors::find(const AreaFragmentTable& table) {
 }
 
 void AreaFragmentColors::shade(Group& group) {
-  group.shader.shade(group.points, group.colors, nullptr);
-  for (std::size_t i = 0; i < group.points.size(); ++i) seen_[group.place[i]].color = group.colors[i];
+  group.shader.shade(group.fragments, group.colors, nullptr);
+  for (std::size_t i = 0; i < group.fragments.size(); ++i) seen_[group.place[i]].color = group.colors[i];
 }
 
 }  // namespace zoneplate::antialias

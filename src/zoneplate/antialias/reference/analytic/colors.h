@@ -38,7 +38,7 @@ class AreaFragmentColors {
     Group(const Group&) = delete;  // the shader stores a reference to this target
     Target target;
     FragmentBatcher shader;
-    std::vector<Fragment> points;
+    std::vector<Fragment> fragments;
     std::vector<std::size_t> place;
     std::vector<Linear> colors;
   };

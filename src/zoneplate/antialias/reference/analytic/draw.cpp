@@ -48,9 +48,9 @@ PixelRect drawn_rect(const Whole& whole, std::size_t tile) {
           std::min(y + tile_size, target.y + target.height)};
 }
 
-PixelRect rect_around(const PixelRect& r, int reach, Viewport viewport) {
-  return {std::max(r.left - reach, 0), std::max(r.top - reach, 0), std::min(r.right + reach, viewport.width),
-          std::min(r.bottom + reach, viewport.height)};
+PixelRect rect_around(const PixelRect& r, int radius, Viewport viewport) {
+  return {std::max(r.left - radius, 0), std::max(r.top - radius, 0), std::min(r.right + radius, viewport.width),
+          std::min(r.bottom + radius, viewport.height)};
 }
 
 int fine_grid(const Whole& whole) { return std::max(whole.options.shading, whole.options.mask); }
@@ -96,7 +96,7 @@ class TileIntegrator {
   void draw(std::size_t tile) {
     if (whole_.triangles.of_tile(tile).empty()) return;
     drawn_ = drawn_rect(whole_, tile);
-    const PixelRect around = rect_around(drawn_, whole_.filter.reach(), whole_.target.viewport);
+    const PixelRect around = rect_around(drawn_, whole_.filter.radius(), whole_.target.viewport);
     sum_.assign(static_cast<std::size_t>(drawn_.width()) * static_cast<std::size_t>(drawn_.height()), {});
     const int rows = rows_at_once(whole_.triangles.of_tile(tile).size());
     for (int top = around.top; top < around.bottom; top += rows)
@@ -173,7 +173,7 @@ class TileIntegrator {
   }
 
   void add_samples(int x, int y) {
-    if (whole_.filter.reach() > 0) add_fragments();  // contributions are added in the order of the neighbouring pixels
+    if (whole_.filter.radius() > 0) add_fragments();  // contributions are added in the order of the neighbouring pixels
     crowd_.find(here_, x, y, whole_.display_light ? &*whole_.display_light : nullptr);
     if (drawn_.contains(x, y)) sum_at(x, y).covered += crowd_.covered();
     for_around(x, y, [&](PixelSum& s, std::size_t k) {
@@ -215,10 +215,10 @@ class TileIntegrator {
   /// Calls use(sum, k) for the drawn pixels around a pixel, k by rows from the top.
   template <class Use>
   void for_around(int px, int py, Use use) {
-    const int reach = whole_.filter.reach();
+    const int radius = whole_.filter.radius();
     std::size_t k = 0;
-    for (int y = py - reach; y <= py + reach; ++y)
-      for (int x = px - reach; x <= px + reach; ++x, ++k)
+    for (int y = py - radius; y <= py + radius; ++y)
+      for (int x = px - radius; x <= px + radius; ++x, ++k)
         if (drawn_.contains(x, y)) use(sum_at(x, y), k);
   }
 
@@ -267,7 +267,7 @@ void draw_analytic(const CustomDraw& drawing, const AnalyticOptions& options) {
   ProjectedDraws projected = number_draws(drawing.draws, target.viewport, drawing.rules.capacity.screen_vertices);
   project_kept(projected);
   const RasterRules rules{.edge_rule = EdgeRule::Inside, .visibility = drawing.rules.visibility};
-  TileTriangles triangles(projected, target, rules, filter.reach());
+  TileTriangles triangles(projected, target, rules, filter.radius());
   drawing.counts.geometry_ms = geometry.ms();
   drawing.counts.triangles = static_cast<std::uint64_t>(projected.first_triangle.back());
   drawing.counts.set_up = triangles.count();

@@ -68,9 +68,9 @@ PolynomialFilter::PolynomialFilter(std::string_view name) {
     cubic(0, 0.5);
   }
   const double radius = pieces_.back().end;
-  reach_ = static_cast<int>(std::ceil(radius - 0.5));
+  radius_ = static_cast<int>(std::ceil(radius - 0.5));
   for (int h = 0; h < 2; ++h)
-    for (int k = -reach_; k <= reach_; ++k) half_.push_back(expanded(0.5 * h - (k + 0.5)));
+    for (int k = -radius_; k <= radius_; ++k) half_.push_back(expanded(0.5 * h - (k + 0.5)));
 }
 
 std::array<double, 4> PolynomialFilter::expanded(double x0) const {
@@ -97,7 +97,7 @@ double PolynomialFilter::value(double x) const {
 }
 
 void PolynomialFilter::add_weights(const ConvexPolygon& polygon, std::span<double> weights) const {
-  if (reach_ == 0) {
+  if (radius_ == 0) {
     weights[0] += area_moments(polygon).area;
     return;
   }
@@ -130,11 +130,11 @@ double PolynomialFilter::share_inside(int pixel, int size) const {
   const auto integral = [](const std::array<double, 4>& p) {
     return 0.5 * (p[0] + 0.5 * (p[1] / 2 + 0.5 * (p[2] / 3 + 0.5 * (p[3] / 4))));
   };
-  if (pixel >= reach_ && pixel < size - reach_) return 1;
+  if (pixel >= radius_ && pixel < size - radius_) return 1;
   double sum = 0;
-  for (int k = -reach_; k <= reach_; ++k)
+  for (int k = -radius_; k <= radius_; ++k)
     if (pixel - k >= 0 && pixel - k < size)
-      for (int h = 0; h < 2; ++h) sum += integral(half_[static_cast<std::size_t>(h * span() + k + reach_)]);
+      for (int h = 0; h < 2; ++h) sum += integral(half_[static_cast<std::size_t>(h * span() + k + radius_)]);
   return sum;
 }
 

@@ -14,7 +14,7 @@ namespace zoneplate::antialias {
 /// polygons.
 ///
 /// In two dimensions it is the product f(x) f(y) about the centre of the filtered pixel. A region of a pixel
-/// contributes to all pixels within `reach` of its own: `add_weights` computes the weights of all of these at once,
+/// contributes to all pixels within `radius` of its own: `add_weights` computes the weights of all of these at once,
 /// rows from the top.
 ///
 /// Units     pixels; ∫ f = 1.
@@ -26,8 +26,8 @@ class PolynomialFilter {
   /// "box", "tent", "quadratic" (the B-spline of degree 2), "b-spline" (of degree 3), "mitchell", "catmull-rom".
   explicit PolynomialFilter(std::string_view name);
 
-  int reach() const { return reach_; }         ///< radius, in pixels, of the pixels to which a region contributes
-  int span() const { return 2 * reach_ + 1; }  ///< the same as a width
+  int radius() const { return radius_; }        ///< radius, in pixels, of the pixels to which a region contributes
+  int span() const { return 2 * radius_ + 1; }  ///< the same as a width
   std::size_t weight_count() const { return static_cast<std::size_t>(span() * span()); }
 
   double value(double x) const;  ///< f(x); at a discontinuity, the value of one side
@@ -36,7 +36,7 @@ class PolynomialFilter {
   void add_weights(const ConvexPolygon& polygon, std::span<double> weights) const;
 
   /// Σ of a pixel's weights along an axis over the pixels in [0, size) of an image: 1 unless the image's end is within
-  /// reach.
+  /// the radius.
   double share_inside(int pixel, int size) const;
 
  private:
@@ -49,7 +49,7 @@ class PolynomialFilter {
   std::array<double, 4> expanded(double x0) const;
 
   std::vector<Piece> pieces_;
-  int degree_ = 0, reach_ = 0;
+  int degree_ = 0, radius_ = 0;
   /// For each half of the pixel and each neighbouring pixel: its filter over this half.
   std::vector<std::array<double, 4>> half_;
 };

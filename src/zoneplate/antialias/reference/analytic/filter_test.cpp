@@ -80,8 +80,8 @@ TEST(AnalyticFilter, WeightsAreTheIntegralsThatQuadratureFinds) {
           for (int ky = 0; ky < filter.span(); ++ky)
             for (int kx = 0; kx < filter.span(); ++kx)
               expected[static_cast<std::size_t>(ky * filter.span() + kx)] +=
-                  m.area * filter.value(x - (kx - filter.reach()) - 0.5) *
-                  filter.value(y - (ky - filter.reach()) - 0.5);
+                  m.area * filter.value(x - (kx - filter.radius()) - 0.5) *
+                  filter.value(y - (ky - filter.radius()) - 0.5);
         }
       for (std::size_t i = 0; i < weights.size(); ++i) EXPECT_NEAR(weights[i], expected[i], 4e-5) << name << " " << i;
     }

@@ -15,8 +15,9 @@ constexpr std::int32_t part_size = 4096;
 
 }  // namespace
 
-TileTriangles::TileTriangles(const ProjectedDraws& projected, const Target& target, const RasterRules& rules, int reach)
-    : projected_(projected), target_(target), rules_(rules), reach_(reach) {
+TileTriangles::TileTriangles(const ProjectedDraws& projected, const Target& target, const RasterRules& rules,
+                             int radius)
+    : projected_(projected), target_(target), rules_(rules), radius_(radius) {
   first_column_ = target.x / tile_size;
   first_row_ = target.y / tile_size;
   columns_ = (target.x + target.width - 1) / tile_size - first_column_ + 1;
@@ -75,19 +76,19 @@ void TileTriangles::for_triangles(const Part& part, Use use) const {
                     : here;
       is_seen = true;
     });
-    if (is_seen && box.left < target_.x + target_.width + reach_ && box.right >= target_.x - reach_ &&
-        box.top < target_.y + target_.height + reach_ && box.bottom >= target_.y - reach_)
+    if (is_seen && box.left < target_.x + target_.width + radius_ && box.right >= target_.x - radius_ &&
+        box.top < target_.y + target_.height + radius_ && box.bottom >= target_.y - radius_)
       use(id, box);
   }
 }
 
-/// Calls use(tile) for every tile within `reach` pixels of a box.
+/// Calls use(tile) for every tile within `radius` pixels of a box.
 template <class Use>
 void TileTriangles::for_tiles(const Box& box, Use use) const {
-  const int left = std::max(box.left - reach_, target_.x);
-  const int right = std::min(box.right + reach_, target_.x + target_.width - 1);
-  const int top = std::max(box.top - reach_, target_.y);
-  const int bottom = std::min(box.bottom + reach_, target_.y + target_.height - 1);
+  const int left = std::max(box.left - radius_, target_.x);
+  const int right = std::min(box.right + radius_, target_.x + target_.width - 1);
+  const int top = std::max(box.top - radius_, target_.y);
+  const int bottom = std::min(box.bottom + radius_, target_.y + target_.height - 1);
   for (int row = top / tile_size; row <= bottom / tile_size; ++row)
     for (int column = left / tile_size; column <= right / tile_size; ++column)
       use(static_cast<std::size_t>((row - first_row_) * columns_ + column - first_column_));

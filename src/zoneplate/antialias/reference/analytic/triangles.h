@@ -30,8 +30,8 @@ class TileTriangles {
  public:
   static constexpr std::size_t max_listed = std::size_t{1} << 24;
 
-  /// A tile's list contains the triangles within `reach` pixels of the tile.
-  TileTriangles(const ProjectedDraws& projected, const Target& target, const RasterRules& rules, int reach);
+  /// A tile's list contains the triangles within `radius` pixels of the tile.
+  TileTriangles(const ProjectedDraws& projected, const Target& target, const RasterRules& rules, int radius);
 
   int first_column() const { return first_column_; }  ///< in tiles of 64 × 64 on the image's own grid
   int first_row() const { return first_row_; }
@@ -69,7 +69,7 @@ class TileTriangles {
   const ProjectedDraws& projected_;
   const Target& target_;
   const RasterRules rules_;
-  const int reach_;
+  const int radius_;
   int first_column_ = 0, first_row_ = 0, columns_ = 0, rows_ = 0;
   std::uint64_t count_ = 0;
   std::vector<Part> parts_;

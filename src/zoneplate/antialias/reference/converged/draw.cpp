@@ -29,17 +29,17 @@ Sum operator+(const Sum& p, const Sum& q) { return {p.r + q.r, p.g + q.g, p.b + 
 /// The filter along one axis: its value for each neighbouring pixel and each sample.
 class AxisWeights {
  public:
-  AxisWeights(const std::function<double(double)>& value, int reach, std::span<const std::uint8_t> places)
-      : reach_(reach), samples_(places.size()) {
-    for (int k = -reach; k <= reach; ++k)
+  AxisWeights(const std::function<double(double)>& value, int radius, std::span<const std::uint8_t> places)
+      : radius_(radius), samples_(places.size()) {
+    for (int k = -radius; k <= radius; ++k)
       for (const std::uint8_t place : places) weights_.push_back(value(k + place / 256.0 - 0.5));
   }
   double operator()(int k, std::size_t sample) const {
-    return weights_[static_cast<std::size_t>(k + reach_) * samples_ + sample];
+    return weights_[static_cast<std::size_t>(k + radius_) * samples_ + sample];
   }
 
  private:
-  int reach_;
+  int radius_;
   std::size_t samples_;
   std::vector<double> weights_;
 };
@@ -47,7 +47,7 @@ class AxisWeights {
 /// A filter as a function of the position along an axis.
 struct AxisFilter {
   std::function<double(double)> value;
-  int reach = 0;
+  int radius = 0;
 };
 
 AxisFilter axis_filter(const std::string& name) {
@@ -72,14 +72,14 @@ class Strips {
     rules_.progress = nullptr;  // of a pass over a strip, not of the image
     std::vector<std::uint8_t> x, y;
     for (const SamplePosition p : pattern_) x.push_back(p.x), y.push_back(p.y);
-    across_.emplace(filter_.value, filter_.reach, x);
-    down_.emplace(filter_.value, filter_.reach, y);
+    across_.emplace(filter_.value, filter_.radius, x);
+    down_.emplace(filter_.value, filter_.radius, y);
     if (options.order == FilterOrder::Display) shown_.emplace(drawing.options.display);
   }
 
   void draw() {
     const Target& whole = drawing_.target;
-    const auto width = static_cast<std::size_t>(whole.width + 2 * filter_.reach);
+    const auto width = static_cast<std::size_t>(whole.width + 2 * filter_.radius);
     const std::size_t row_bytes = width * pass_samples * (sizeof(Linear) + sizeof(float) + sizeof(std::uint32_t));
     const int rows = static_cast<int>(std::clamp<std::size_t>(strip_bytes / row_bytes, 16, 4096));
     for (int y = whole.y; y < whole.y + whole.height; y += rows)
@@ -106,7 +106,7 @@ class Strips {
     write_strip();
   }
 
-  /// Starts a strip: its pixels, and the neighbouring pixels within reach of the filter.
+  /// Starts a strip: its pixels, and the neighbouring pixels within the radius of the filter.
   void begin_strip(int top, int height) {
     const Target& whole = drawing_.target;
     top_ = top, height_ = height;
@@ -114,10 +114,10 @@ class Strips {
     strip_.viewport = whole.viewport;
     strip_.is_per_sample = true;
     if (drawing_.options.sample_footprint) strip_.spacing = 1 / std::sqrt(static_cast<float>(pattern_.size()));
-    strip_.x = std::max(whole.x - filter_.reach, 0);
-    strip_.y = std::max(top - filter_.reach, 0);
-    strip_.width = std::min(whole.x + whole.width + filter_.reach, whole.viewport.width) - strip_.x;
-    strip_.height = std::min(top + height + filter_.reach, whole.viewport.height) - strip_.y;
+    strip_.x = std::max(whole.x - filter_.radius, 0);
+    strip_.y = std::max(top - filter_.radius, 0);
+    strip_.width = std::min(whole.x + whole.width + filter_.radius, whole.viewport.width) - strip_.x;
+    strip_.height = std::min(top + height + filter_.radius, whole.viewport.height) - strip_.y;
     color_.assign(pass_samples, LinearImage(strip_.width, strip_.height));
     depth_.assign(pass_samples, Plane<float>(strip_.width, strip_.height));
     triangle_.assign(pass_samples, Plane<std::uint32_t>(strip_.width, strip_.height));
@@ -136,8 +136,8 @@ class Strips {
     Plane<Sum>& sums = sums_[first * groups / pattern_.size()];
     parallel_for(static_cast<std::size_t>(height_), [&](std::size_t row) {
       const int y = static_cast<int>(row);
-      for (int ky = -filter_.reach; ky <= filter_.reach; ++ky)
-        for (int kx = -filter_.reach; kx <= filter_.reach; ++kx) {
+      for (int ky = -filter_.radius; ky <= filter_.radius; ++ky)
+        for (int kx = -filter_.radius; kx <= filter_.radius; ++kx) {
           std::array<double, pass_samples> weight{};
           for (std::size_t s = 0; s < count; ++s) weight[s] = (*across_)(kx, first + s) * (*down_)(ky, first + s);
           add_row(sums.row(y), top_ + y + ky, kx, std::span(weight).first(count));
