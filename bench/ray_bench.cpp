@@ -81,24 +81,34 @@ void nearest_primary(benchmark::State& state) {
 }
 BENCHMARK(nearest_primary)->Arg(170)->Arg(708);
 
-void time_visibility(benchmark::State& state, const RayScene& s, const std::vector<Ray>& rays) {
+void time_visibility(benchmark::State& state, const Bvh& bvh, const std::vector<Ray>& rays) {
   std::vector<float> visible(rays.size());
-  for (auto _ : state) RayKernels::of().visibility(view_of(s.bvh), rays.data(), rays.size(), {}, visible.data());
+  for (auto _ : state) RayKernels::of().visibility(view_of(bvh), rays.data(), rays.size(), {}, visible.data());
   per_ray(state, rays.size());
 }
 void visibility_shadow(benchmark::State& state) {
-  time_visibility(state, scene(state.range(0)), scene(state.range(0)).shadow);
+  time_visibility(state, scene(state.range(0)).bvh, scene(state.range(0)).shadow);
 }
 BENCHMARK(visibility_shadow)->Arg(170)->Arg(708);
 void visibility_occlusion(benchmark::State& state) {
-  time_visibility(state, scene(state.range(0)), scene(state.range(0)).occlusion);
+  time_visibility(state, scene(state.range(0)).bvh, scene(state.range(0)).occlusion);
 }
 BENCHMARK(visibility_occlusion)->Arg(170)->Arg(708);
 
 void visibility_hemispheres(benchmark::State& state) {
-  time_visibility(state, scene(state.range(0)), scene(state.range(0)).hemispheres);
+  time_visibility(state, scene(state.range(0)).bvh, scene(state.range(0)).hemispheres);
 }
 BENCHMARK(visibility_hemispheres)->Arg(170)->Arg(708);
+
+/// The same rays against one tree that is placed eight times, far from each other.
+void placed_hemispheres(benchmark::State& state) {
+  const RayScene& s = scene(state.range(0));
+  std::vector<ShadowCaster> casters(8, s.mesh.caster());
+  for (std::size_t i = 0; i < casters.size(); ++i)
+    casters[i].world_from_object.column[3].x = 10 * static_cast<float>(i);
+  time_visibility(state, Bvh(casters, 0), s.hemispheres);
+}
+BENCHMARK(placed_hemispheres)->Arg(170)->Arg(708);
 
 #ifdef ZONEPLATE_EMBREE
 const EmbreeScene& embree_of(std::int64_t n) {

@@ -5,12 +5,15 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <map>
 #include <utility>
 
 #include "zoneplate/base/deadline.h"
 #include "zoneplate/base/large_array.h"
 #include "zoneplate/base/out_of_memory.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/math/lanes.h"
+#include "zoneplate/ray/placement_lanes.h"
 
 namespace zoneplate {
 namespace {
@@ -33,7 +36,8 @@ struct alignas(16) WideBox {
   }
 };
 
-/// A triangle in the build: its box, with the caster in the unused lane of `low` and the triangle in that of `high`.
+/// A triangle in the build, or a placement: its box, with the caster or placement in the unused lane of `low` and the
+/// triangle in that of `high`.
 struct Reference {
   WideBox box;
   std::uint32_t caster() const { return std::bit_cast<std::uint32_t>(box.low[3]); }
@@ -49,6 +53,8 @@ struct Range {
   WideBox centres;  ///< of twice the centroids
   std::size_t size() const { return end - begin; }
 };
+
+std::uint32_t number(std::size_t x) { return static_cast<std::uint32_t>(x); }
 
 void add_centre(const Reference& r, WideBox& centres) {
   WideBox c;
@@ -134,7 +140,7 @@ std::pair<Range, Range> divide(std::span<Reference> references, const Range& ran
 }
 
 /// The children of a node: at most eight ranges, each of which is small enough for a leaf or worth a node.
-std::vector<Range> children_of(std::span<Reference> references, const Range& range, int depth) {
+std::vector<Range> children_of(std::span<Reference> references, const Range& range, std::size_t leaf_size, int depth) {
   std::vector<Range> parts{range};
   while (parts.size() < BvhNode::width) {
     // The child that a ray is most likely to enter is divided next.
@@ -142,7 +148,7 @@ std::vector<Range> children_of(std::span<Reference> references, const Range& ran
     std::pair<float, std::size_t> greatest;
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const std::pair weight{depth >= halving_depth ? 0 : parts[i].box.area(), parts[i].size()};
-      if (parts[i].size() > BvhLeaf::width && weight > greatest) widest = i, greatest = weight;
+      if (parts[i].size() > leaf_size && weight > greatest) widest = i, greatest = weight;
     }
     if (widest == parts.size()) break;
     auto [left, right] = divide(references, parts[widest], depth >= halving_depth);
@@ -175,11 +181,15 @@ struct Tree {
   std::vector<BvhLeaf> leaves;
 };
 
+/// Builds a tree of the triangles of casters, or one of placements if there are no casters.
 struct Builder {
   std::span<const ShadowCaster> casters;
   std::span<Reference> references;
 
+  std::size_t leaf_size() const { return casters.empty() ? 1 : BvhLeaf::width; }
+
   std::uint32_t add_leaf(const Range& range, Tree& tree) const {
+    if (casters.empty()) return BvhNode::placement + references[range.begin].caster();
     BvhLeaf leaf;
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     for (std::size_t i = 0; i < BvhLeaf::width; ++i) {
@@ -194,15 +204,15 @@ struct Builder {
       if (caster.is_translucent) leaf.translucent |= 1u << i;
     }
     tree.leaves.push_back(leaf);
-    return BvhNode::leaf + static_cast<std::uint32_t>(tree.leaves.size() - 1);
+    return BvhNode::leaf + number(tree.leaves.size() - 1);
   }
 
   /// Appends the tree of a range, depth first; returns the reference to it.
   std::uint32_t build(const Range& range, int depth, Tree& tree) const {
-    if (range.size() <= BvhLeaf::width) return add_leaf(range, tree);
-    const auto at = static_cast<std::uint32_t>(tree.nodes.size());
+    if (range.size() <= leaf_size()) return add_leaf(range, tree);
+    const std::uint32_t at = number(tree.nodes.size());
     tree.nodes.push_back(empty_node());
-    const std::vector<Range> parts = children_of(references, range, depth);
+    const std::vector<Range> parts = children_of(references, range, leaf_size(), depth);
     for (std::size_t i = 0; i < parts.size(); ++i) {
       const std::uint32_t child = build(parts[i], depth + 1, tree);
       tree.nodes[at].child[i] = child;
@@ -211,6 +221,14 @@ struct Builder {
     return at;
   }
 };
+
+void add_reference(Reference r, std::size_t caster, std::size_t triangle, std::vector<Reference>& to, Range& all) {
+  r.box.low[3] = std::bit_cast<float>(number(caster));
+  r.box.high[3] = std::bit_cast<float>(number(triangle));
+  all.box.add(r.box), add_centre(r, all.centres);
+  to.push_back(r);
+  all.end = to.size();
+}
 
 /// The boxes of all triangles with finite vertices, in order.
 std::vector<Reference> make_references(std::span<const ShadowCaster> casters, Range& all) {
@@ -228,14 +246,9 @@ std::vector<Reference> make_references(std::span<const ShadowCaster> casters, Ra
         is_usable = is_usable && is_finite(p);
         r.box.add({{p.x, p.y, p.z, 0}, {p.x, p.y, p.z, 0}});
       }
-      if (!is_usable) continue;
-      r.box.low[3] = std::bit_cast<float>(static_cast<std::uint32_t>(c));
-      r.box.high[3] = std::bit_cast<float>(static_cast<std::uint32_t>(t));
-      all.box.add(r.box), add_centre(r, all.centres);
-      references.push_back(r);
+      if (is_usable) add_reference(r, c, t, references, all);
     }
   }
-  all.end = references.size();
   return references;
 }
 
@@ -251,16 +264,16 @@ struct Job {
 };
 
 void build_top(const Builder& builder, const Range& range, int depth, Tree& tree, std::vector<Job>& jobs) {
-  const auto at = static_cast<std::uint32_t>(tree.nodes.size());
+  const std::uint32_t at = number(tree.nodes.size());
   tree.nodes.push_back(empty_node());
   check_deadline();
-  const std::vector<Range> parts = children_of(builder.references, range, depth);
+  const std::vector<Range> parts = children_of(builder.references, range, builder.leaf_size(), depth);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     set_box(tree.nodes[at], i, parts[i].box);
     if (parts[i].size() <= serial_size) {
       jobs.push_back({parts[i], depth + 1, at, i});
     } else {
-      tree.nodes[at].child[i] = static_cast<std::uint32_t>(tree.nodes.size());
+      tree.nodes[at].child[i] = number(tree.nodes.size());
       build_top(builder, parts[i], depth + 1, tree, jobs);
     }
   }
@@ -268,9 +281,10 @@ void build_top(const Builder& builder, const Range& range, int depth, Tree& tree
 
 /// Appends a part to the tree and frees it; returns the reference to its root.
 std::uint32_t append(Tree& part, std::uint32_t root, Tree& tree) {
-  const auto nodes = static_cast<std::uint32_t>(tree.nodes.size());
-  const auto leaves = static_cast<std::uint32_t>(tree.leaves.size());
-  const auto moved = [&](std::uint32_t child) { return child + (child & BvhNode::leaf ? leaves : nodes); };
+  const std::uint32_t nodes = number(tree.nodes.size()), leaves = number(tree.leaves.size());
+  const auto moved = [&](std::uint32_t child) {
+    return child + (child & BvhNode::leaf ? leaves : child & BvhNode::placement ? 0 : nodes);
+  };
   for (BvhNode& node : part.nodes) {
     for (std::size_t i = 0; i < BvhNode::width; ++i)
       if (node.bound[0][0][i] <= node.bound[1][0][i]) node.child[i] = moved(node.child[i]);
@@ -281,12 +295,10 @@ std::uint32_t append(Tree& part, std::uint32_t root, Tree& tree) {
   return moved(root);
 }
 
-Tree build(std::span<const ShadowCaster> casters, std::size_t& triangles) {
-  Range all;
-  std::vector<Reference> references = make_references(casters, all);
-  triangles = references.size();
-  Tree tree;
-  if (references.empty()) return tree;
+/// Appends the tree of these references, and frees them; returns its root, a node.
+std::uint32_t append_tree(std::span<const ShadowCaster> casters, std::vector<Reference> references, const Range& all,
+                          Tree& tree) {
+  const std::uint32_t root = number(tree.nodes.size());
   const Builder builder{casters, references};
   std::vector<Job> jobs;
   build_top(builder, all, 0, tree, jobs);
@@ -297,19 +309,101 @@ Tree build(std::span<const ShadowCaster> casters, std::size_t& triangles) {
     growing("shadow rays' triangles", [&] { roots[i] = builder.build(jobs[i].range, jobs[i].depth, parts[i]); });
   });
   references = {};
-  std::size_t nodes = tree.nodes.size(), leaves = 0;
+  std::size_t nodes = tree.nodes.size(), leaves = tree.leaves.size();
   for (const Tree& part : parts) nodes += part.nodes.size(), leaves += part.leaves.size();
   reserve_large(tree.nodes, nodes), reserve_large(tree.leaves, leaves);
   for (std::size_t i = 0; i < jobs.size(); ++i)
     tree.nodes[jobs[i].node].child[jobs[i].child] = append(parts[i], roots[i], tree);
-  return tree;
+  return root;
+}
+
+/// The greatest sum of magnitudes in a coordinate of a placed tree: below it, nothing overflows.
+constexpr float max_placed = 1e30f;
+/// A mesh has a tree of its own if more triangles than these need not be stored.
+constexpr std::size_t min_saved = std::size_t{1} << 16;
+
+/// Casters of one mesh.
+using Casters = std::vector<std::uint32_t>;
+
+/// The casters with common triangles, in the order of their first ones.
+std::vector<Casters> repeated(std::span<const ShadowCaster> casters) {
+  std::vector<Casters> groups;
+  std::map<std::pair<const float3*, const std::uint32_t*>, std::size_t> known;
+  for (std::size_t c = 0; c < casters.size(); ++c) {
+    if (casters[c].index.empty()) continue;
+    const auto [found, is_new] =
+        known.try_emplace({casters[c].position.data(), casters[c].index.data()}, groups.size());
+    if (is_new) groups.emplace_back();
+    groups[found->second].push_back(number(c));
+  }
+  std::erase_if(groups, [&](const Casters& group) {
+    return (group.size() - 1) * (casters[group[0]].index.size() / 3) < min_saved;
+  });
+  return groups;
+}
+
+/// The tree of a caster with the root `root`, and its box in the world.
+std::pair<BvhPlacement, WideBox> place(const ShadowCaster& caster, std::size_t instance, const Tree& tree,
+                                       std::uint32_t root) {
+  BvhPlacement placement{.root = root, .instance = number(instance), .translucent = caster.is_translucent ? 15u : 0u};
+  const auto& column = caster.world_from_object.column;
+  for (std::size_t c = 0; c < 4; ++c)
+    for (int r = 0; r < 3; ++r)
+      placement.world_from_object[r][c] = r == 0 ? column[c].x : r == 1 ? column[c].y : column[c].z;
+  BvhNode node;
+  stages::place<scalar::Float>(tree.nodes[root], placement, node);
+  WideBox box;
+  for (std::size_t i = 0; i < BvhNode::width; ++i)
+    box.add({{node.bound[0][0][i], node.bound[0][1][i], node.bound[0][2][i], 0},
+             {node.bound[1][0][i], node.bound[1][1][i], node.bound[1][2][i], 0}});
+  return {placement, box};
+}
+
+bool is_within(const WideBox& box, float limit) {
+  bool is = true;
+  for (int a = 0; a < 3; ++a) is = is && box.low[a] > -limit && box.high[a] < limit;
+  return is;
 }
 
 }  // namespace
 
-Bvh::Bvh(std::span<const ShadowCaster> casters) {
+Bvh::Bvh(std::span<const ShadowCaster> casters, std::size_t max_expanded) {
   growing("shadow rays' triangles", [&] {
-    Tree tree = build(casters, triangles_);
+    std::size_t all_triangles = 0;
+    for (const ShadowCaster& caster : casters) all_triangles += caster.index.size() / 3;
+    std::vector<ShadowCaster> expanded(casters.begin(), casters.end());
+    Tree tree;
+    Range placed;
+    std::vector<Reference> boxes;
+    for (const Casters& group : all_triangles > max_expanded ? repeated(casters) : std::vector<Casters>()) {
+      ShadowCaster mesh = casters[group[0]];
+      mesh.world_from_object = {};
+      Range all;
+      std::vector<Reference> references = make_references({&mesh, 1}, all);
+      if (references.empty()) continue;
+      const std::size_t triangles = references.size();
+      const std::uint32_t root = append_tree({&mesh, 1}, std::move(references), all, tree);
+      for (const std::uint32_t c : group) {
+        const auto [placement, box] = place(casters[c], c, tree, root);
+        if (!is_within(box, max_placed)) continue;
+        add_reference({box}, placements_.size(), 0, boxes, placed);
+        placements_.push_back(placement);
+        triangles_ += triangles;
+        expanded[c].index = {};
+      }
+    }
+    Range all;
+    std::vector<Reference> references = make_references(expanded, all);
+    triangles_ += references.size();
+    const bool has_triangles = !references.empty();
+    if (has_triangles) root_ = append_tree(expanded, std::move(references), all, tree);
+    if (!placements_.empty()) {
+      const std::uint32_t of_triangles = root_, stand_in = BvhNode::placement + number(placements_.size());
+      if (has_triangles) add_reference({all.box}, placements_.size(), 0, boxes, placed);
+      root_ = append_tree({}, std::move(boxes), placed, tree);
+      for (std::size_t i = root_; has_triangles && i < tree.nodes.size(); ++i)
+        std::ranges::replace(tree.nodes[i].child, stand_in, of_triangles);
+    }
     nodes_ = std::move(tree.nodes), leaves_ = std::move(tree.leaves);
   });
 }
@@ -317,7 +411,7 @@ Bvh::Bvh(std::span<const ShadowCaster> casters) {
 Box Bvh::bounds() const {
   Box box;
   if (nodes_.empty()) return box;
-  const auto& bound = nodes_[0].bound;
+  const auto& bound = nodes_[root_].bound;
   for (std::size_t i = 0; i < BvhNode::width; ++i)
     box.add(Box{{bound[0][0][i], bound[0][1][i], bound[0][2][i]}, {bound[1][0][i], bound[1][1][i], bound[1][2][i]}});
   return box;

@@ -35,12 +35,14 @@ struct OpacityOfHits {
 struct BvhView {
   const BvhNode* nodes = nullptr;  ///< null: no triangles
   const BvhLeaf* leaves = nullptr;
+  const BvhPlacement* placements = nullptr;
+  std::uint32_t root = 0;
 };
 inline BvhView view_of(const Bvh& bvh) {
-  return {bvh.nodes().empty() ? nullptr : bvh.nodes().data(), bvh.leaves().data()};
+  return {bvh.nodes().empty() ? nullptr : bvh.nodes().data(), bvh.leaves().data(), bvh.placements().data(), bvh.root()};
 }
 
-/// The parts of a tree that rays of one origin can meet: nodes whose children are nodes and leaves of that tree.
+/// The parts of a tree that rays of one origin can meet: nodes whose children are those of that tree's nodes.
 struct BvhTop {
   static constexpr int capacity = 6;
   int count = 0;

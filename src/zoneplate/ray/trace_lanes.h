@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "zoneplate/ray/placement_lanes.h"
 #include "zoneplate/ray/trace.h"
 
 /// The queries of ray/trace.h over the lane types of math/lanes.h: `F` for the children of a node, `G` for the
@@ -141,13 +142,44 @@ template <class G>
 
 /// The nodes and leaves that are still to be visited: at most the children of each node on the path.
 struct RayStack {
-  static constexpr int capacity = Bvh::max_depth * BvhNode::width;
+  static constexpr int capacity = 2 * Bvh::max_depth * BvhNode::width;
+};
+
+/// A node, leaf or placement that is visited, and the placement that it is in; null: in none.
+struct BvhVisit {
+  std::uint32_t child;
+  const BvhPlacement* placement;
+
+  bool is_leaf() const { return child & BvhNode::leaf; }
+
+  /// Goes from a placement to the root of its tree.
+  [[gnu::always_inline]] void enter(const BvhView& bvh) {
+    if (!is_leaf() && (child & BvhNode::placement))
+      placement = bvh.placements + (child - BvhNode::placement), child = placement->root;
+  }
+  /// The node or leaf in world space: itself, or `placed`, which is set.
+  template <class F>
+  [[gnu::always_inline]] const BvhNode& node(const BvhView& bvh, BvhNode& placed) const {
+    const BvhNode& own = bvh.nodes[child];
+    if (placement == nullptr) return own;
+    place<F>(own, *placement, placed);
+    return placed;
+  }
+  template <class G>
+  [[gnu::always_inline]] const BvhLeaf& leaf(const BvhView& bvh, BvhLeaf& placed) const {
+    const BvhLeaf& own = bvh.leaves[child - BvhNode::leaf];
+    if (placement == nullptr) return own;
+    place<G>(own, *placement, placed);
+    return placed;
+  }
 };
 
 /// Fetches a child that is visited later: most of a node, or the vertices of a leaf.
 [[gnu::always_inline]] inline void prefetch(const BvhView& bvh, std::uint32_t child) {
   const char* const at = child & BvhNode::leaf ? reinterpret_cast<const char*>(bvh.leaves + (child - BvhNode::leaf))
-                                               : reinterpret_cast<const char*>(bvh.nodes + child);
+                         : child & BvhNode::placement
+                             ? reinterpret_cast<const char*>(bvh.placements + (child - BvhNode::placement))
+                             : reinterpret_cast<const char*>(bvh.nodes + child);
   constexpr int line = 64;
   for (int i = 0; i < 3; ++i) __builtin_prefetch(at + i * line);
 }
@@ -155,9 +187,8 @@ struct RayStack {
 /// Rays of a PreparedRays, as bits.
 using RayBits = std::uint32_t;
 
-/// A node or leaf with the rays that meet its box.
-struct StreamEntry {
-  std::uint32_t child;
+/// What is to be visited, with the rays that meet its box.
+struct StreamEntry : BvhVisit {
   RayBits rays;
 };
 
@@ -177,11 +208,13 @@ RayBits trace_visibility(const BvhView& bvh, const BvhNode* tops, int top_count,
   RayBits veiled = 0, unsure = 0;  // meet a translucent triangle; meet several
   StreamEntry stack[RayStack::capacity];
   int height = 0;
-  StreamEntry at{0, which};
+  StreamEntry at{{0, nullptr}, which};
   const BvhNode* top = tops + --top_count;  // null: `at` is to be visited
   while (true) {
-    if (top == nullptr && (at.child & BvhNode::leaf)) {
-      const BvhLeaf& leaf = bvh.leaves[at.child - BvhNode::leaf];
+    if (top == nullptr) at.enter(bvh);
+    if (top == nullptr && at.is_leaf()) {
+      BvhLeaf placed;
+      const BvhLeaf& leaf = at.leaf<G>(bvh, placed);
       for (RayBits left = at.rays; left != 0; left &= left - 1) {
         const int r = lowest_bit(left);
         const RayBits bit = left & -left;
@@ -199,7 +232,8 @@ RayBits trace_visibility(const BvhView& bvh, const BvhNode* tops, int top_count,
         }
       }
     } else {
-      const BvhNode& node = top != nullptr ? *top : bvh.nodes[at.child];
+      BvhNode placed;
+      const BvhNode& node = top != nullptr ? *top : at.node<F>(bvh, placed);
       top = nullptr;
       alignas(32) std::int32_t met[BvhNode::width];
       unsigned children = 0;
@@ -218,7 +252,7 @@ RayBits trace_visibility(const BvhView& bvh, const BvhNode* tops, int top_count,
         const auto push = [&](unsigned bits) {
           const int c = lowest_bit(bits);
           prefetch(bvh, node.child[c]);
-          stack[height++] = {node.child[c], static_cast<RayBits>(met[c])};
+          stack[height++] = {{node.child[c], at.placement}, static_cast<RayBits>(met[c])};
         };
         for (unsigned rest = children & (children - 1); rest != 0; rest &= rest - 1) push(rest);
         push(children);
@@ -229,7 +263,7 @@ RayBits trace_visibility(const BvhView& bvh, const BvhNode* tops, int top_count,
         at = stack[--height];
       } else {
         if (top_count == 0) return unsure & open;
-        top = tops + --top_count, at.rays = which;
+        top = tops + --top_count, at = {{0, nullptr}, which};
       }
       at.rays &= open;
       if (open == 0) return 0;
@@ -252,13 +286,13 @@ template <class F, class G>
     const RayBits all = ~RayBits{0} >> (PreparedRays<F>::capacity - n);
     RayBits unsure = trace_visibility<F, G>(bvh, tops, top_count, prepared, all, opacity, visible + first);
     for (; unsure != 0; unsure &= unsure - 1)
-      trace_visibility<F, G>(bvh, bvh.nodes, 1, prepared, unsure & -unsure, opacity, visible + first);
+      trace_visibility<F, G>(bvh, bvh.nodes + bvh.root, 1, prepared, unsure & -unsure, opacity, visible + first);
   }
 }
 
 template <class F, class G>
 void visibility(const BvhView& bvh, const Ray* rays, std::size_t count, const OpacityOfHits& opacity, float* visible) {
-  visibility_from<F, G>(bvh, bvh.nodes, bvh.nodes == nullptr ? 0 : 1, rays, count, opacity, visible);
+  visibility_from<F, G>(bvh, bvh.nodes + bvh.root, bvh.nodes == nullptr ? 0 : 1, rays, count, opacity, visible);
 }
 
 template <class F, class G>
@@ -299,7 +333,7 @@ void collect_top(const BvhView& bvh, const HalfBall& within, BvhTop& top) {
     nothing.bound[0][a][0] = std::numeric_limits<float>::infinity(),
     nothing.bound[1][a][0] = -std::numeric_limits<float>::infinity();
   nothing.child[0] = 0;
-  std::uint32_t open[BvhTop::capacity * BvhNode::width] = {0};
+  std::uint32_t open[BvhTop::capacity * BvhNode::width] = {bvh.root};
   int height = bvh.nodes == nullptr ? 0 : 1, places = 0;
   while (height > 0) {
     const BvhNode& node = bvh.nodes[open[--height]];
@@ -327,7 +361,7 @@ void collect_top(const BvhView& bvh, const HalfBall& within, BvhTop& top) {
         continue;
       // A node that is opened has eight children, as have those that wait and the rest of this one.
       const bool has_room = places + (height + 2) * BvhNode::width <= BvhTop::capacity * BvhNode::width;
-      if (is_about_origin && !(child & BvhNode::leaf) && has_room)
+      if (is_about_origin && !(child & (BvhNode::leaf | BvhNode::placement)) && has_room)
         open[height++] = child;
       else
         set_child(places++, node, c);
@@ -337,10 +371,9 @@ void collect_top(const BvhView& bvh, const HalfBall& within, BvhTop& top) {
   for (; places % BvhNode::width != 0; ++places) set_child(places, nothing, 0);
 }
 
-/// A child with the t at which the ray enters its box.
-struct RayEntry {
+/// What is to be visited, with the t at which the ray enters its box.
+struct RayEntry : BvhVisit {
   float t;
-  std::uint32_t child;
 };
 
 /// The nearest hit of ray r.
@@ -349,12 +382,14 @@ template <class F, class G>
   RayEntry stack[RayStack::capacity];
   int height = 0;
   RayHit best;
-  std::uint32_t at = 0;
+  BvhVisit at{bvh.root, nullptr};
   // Boxes that begin within rounding of the nearest hit may contain a nearer one.
   float end = rays.end[r];
   while (true) {
-    if (at & BvhNode::leaf) {
-      const BvhLeaf& leaf = bvh.leaves[at - BvhNode::leaf];
+    at.enter(bvh);
+    if (at.is_leaf()) {
+      BvhLeaf placed;
+      const BvhLeaf& leaf = at.leaf<G>(bvh, placed);
       for (int i = 0; i < BvhLeaf::width; i += G::lanes) {
         EdgeFunctions<G> e;
         for (unsigned bits = meets(leaf, i, rays, r, e); bits != 0; bits &= bits - 1) {
@@ -365,7 +400,8 @@ template <class F, class G>
         }
       }
     } else {
-      const BvhNode& node = bvh.nodes[at];
+      BvhNode placed;
+      const BvhNode& node = at.node<F>(bvh, placed);
       alignas(32) float entry[BvhNode::width];
       unsigned children = 0;
       for (int i = 0; i < BvhNode::width; i += F::lanes) {
@@ -379,14 +415,14 @@ template <class F, class G>
         const int i = lowest_bit(children);
         int k = height++;
         for (; k > bottom && stack[k - 1].t <= entry[i]; --k) stack[k] = stack[k - 1];
-        stack[k] = {entry[i], node.child[i]};
+        stack[k] = {{node.child[i], at.placement}, entry[i]};
       }
     }
     do {
       if (height == 0) return best;
       --height;
     } while (stack[height].t > end);
-    at = stack[height].child;
+    at = stack[height];
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <vector>
 
 #include "zoneplate/ray/casters_for_test.h"
@@ -185,12 +186,13 @@ TEST(Trace, RaysTogetherAreRaysAlone) { compare_with_single_rays(400000); }
 TEST(Trace, DISABLED_OneHundredMillionRaysTogetherAreRaysAlone) { compare_with_single_rays(34000000); }
 
 /// Compares rays over the surfaces of a mesh and of its neighbours by collect_top with those by the whole tree.
-void compare_with_whole_tree(std::uint32_t receivers) {
+void compare_with_whole_tree(std::uint32_t receivers, std::size_t max_expanded = Bvh::max_expanded) {
   const TestMesh sphere = bumpy_sphere(100), soup = triangle_soup(20000, 0.05f);
-  ShadowCaster casters[] = {sphere.caster(), soup.caster()};
+  std::vector<ShadowCaster> casters{sphere.caster(), soup.caster()};
   casters[1].is_translucent = true;
+  for (int i = 0; max_expanded == 0 && i < 4; ++i) casters.push_back(casters[0]);  // enough for a tree that is placed
   const OpacityOfHits weights{[](const void*, const RayHit& hit) { return 0.7f * hit.b1; }, nullptr};
-  const Bvh bvh(casters);
+  const Bvh bvh(casters, max_expanded);
   const RayKernels& kernels = RayKernels::of();
   std::uint32_t free = 0, hit_count = 0;
   for (std::uint32_t k = 0; k < receivers; ++k) {
@@ -229,8 +231,86 @@ void compare_with_whole_tree(std::uint32_t receivers) {
 }
 
 TEST(Trace, TopsLeaveOutNothingThatRaysMeet) { compare_with_whole_tree(16000); }
+TEST(Trace, TopsOfPlacedTreesLeaveOutNothingThatRaysMeet) { compare_with_whole_tree(4000, 0); }
 
 TEST(Trace, DISABLED_TopsLeaveOutNothingThatOneHundredMillionRaysMeet) { compare_with_whole_tree(1600000); }
+
+/// Placements of a mesh at random, mirrored, flat and so far away that nothing is hit among them, and a soup.
+std::vector<ShadowCaster> repeated_casters(const TestMesh& mesh, const TestMesh& soup, int count) {
+  std::vector<ShadowCaster> casters{soup.caster()};
+  for (int i = 0; i < count; ++i) {
+    ShadowCaster caster = mesh.caster();
+    const auto k = static_cast<std::uint32_t>(i);
+    for (std::uint32_t c = 0; c < 4; ++c) {
+      const float4 r = random_numbers(k, 31 + c);
+      caster.world_from_object.column[c] = {r.x - 0.5f, r.y - 0.5f, r.z - 0.5f, c == 3 ? 1.0f : 0.0f};
+    }
+    if (i == 1) caster.world_from_object.column[1] = {0, 0, 0, 0};
+    if (i == 2) caster.world_from_object.column[3] = {1e34f, 0, 0, 1};
+    if (i == 3) caster.world_from_object.column[3] = {1e5f, 2e5f, 0, 1};
+    casters.push_back(caster);
+  }
+  return casters;
+}
+
+TEST(Trace, PlacedTreesAreHitAsExpandedOnes) {
+  const TestMesh sphere = bumpy_sphere(75), soup = triangle_soup(2000, 0.1f);
+  std::vector<ShadowCaster> casters = repeated_casters(sphere, soup, 12);
+  std::vector<Ray> rays = random_rays(8000);
+  for (std::uint32_t i = 0; i < 1000; ++i) {  // to the one far away, past the edges of its triangles too
+    const float4 r = random_numbers(i, 41);
+    rays.push_back({{1e5f, 2e5f, 3}, {r.x - 0.5f, r.y - 0.5f, -3}});
+  }
+  const std::vector<Ray> related = rays_of_receivers(0, 6400);
+  rays.insert(rays.end(), related.begin(), related.end());
+  const Bvh expanded(casters), placed(casters, 0);
+  EXPECT_TRUE(expanded.placements().empty());
+  EXPECT_EQ(placed.placements().size(), 11u);
+  EXPECT_EQ(placed.triangles(), expanded.triangles());
+  EXPECT_LT(placed.leaves().size(), expanded.leaves().size() / 5);
+  const std::vector<RayHit> expected = nearest(expanded, rays);
+  std::set<std::uint32_t> instances;
+  for (const Isa isa : supported_isas()) {
+    const std::vector<RayHit> hits = nearest(placed, rays, RayKernels::of(isa));
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      ASSERT_EQ(hits[i].instance, expected[i].instance) << i;
+      ASSERT_EQ(hits[i].primitive, expected[i].primitive) << i;
+      ASSERT_EQ(hits[i].t, expected[i].t);
+      ASSERT_EQ(hits[i].b1, expected[i].b1);
+      ASSERT_EQ(hits[i].b2, expected[i].b2);
+      instances.insert(hits[i].instance);
+    }
+    EXPECT_EQ(visibility(placed, rays, {}, RayKernels::of(isa)), visibility(expanded, rays));
+  }
+  EXPECT_GE(instances.size(), 12u);
+  // Light through several surfaces is multiplied in the order of the tree.
+  for (ShadowCaster& caster : casters) caster.is_translucent = true;
+  const OpacityOfHits weights{[](const void*, const RayHit& hit) { return 0.5f * hit.b1; }, nullptr};
+  const Bvh placed_veil(casters, 0);
+  const std::vector<float> veil = visibility(Bvh(casters), rays, weights),
+                           same = visibility(placed_veil, rays, weights);
+  for (std::size_t i = 0; i < rays.size(); ++i) ASSERT_NEAR(same[i], veil[i], 1e-6f);
+  for (const Isa isa : supported_isas()) EXPECT_EQ(visibility(placed_veil, rays, weights, RayKernels::of(isa)), same);
+}
+
+// 10^9 triangles: each has its box in the world, none is stored there.
+TEST(Trace, TenThousandPlacementsTakeLittleMemory) {
+  const TestMesh sphere = bumpy_sphere(224);
+  std::vector<ShadowCaster> casters;
+  for (int i = 0; i < 10000; ++i) {
+    ShadowCaster caster = sphere.caster();
+    caster.world_from_object.column[3] = {3.0f * static_cast<float>(i % 100), 0, 3.0f * static_cast<float>(i / 100), 1};
+    casters.push_back(caster);
+  }
+  const Bvh bvh(casters);
+  EXPECT_EQ(bvh.triangles(), 10000 * sphere.index.size() / 3);
+  EXPECT_LT(bvh.nodes().size_bytes() + bvh.leaves().size_bytes() + bvh.placements().size_bytes(), 20'000'000u);
+  std::vector<Ray> rays;
+  for (int i = 0; i < 10000; ++i)
+    rays.push_back({{3.0f * static_cast<float>(i % 100), 5, 3.0f * static_cast<float>(i / 100)}, {0.01f, -1, 0.02f}});
+  const std::vector<RayHit> hits = nearest(bvh, rays);
+  for (std::size_t i = 0; i < rays.size(); ++i) ASSERT_EQ(hits[i].instance, i);
+}
 
 TEST(TraceBits, TopsAreTheSameForAllInstructionSets) {
   const TestMesh sphere = bumpy_sphere(60);
