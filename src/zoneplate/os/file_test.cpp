@@ -102,6 +102,9 @@ TEST_F(File, HasTheSameBytesAfterItForgotThem) {
 }
 
 TEST_F(File, ReclaimablePagesAreNoMemoryOfTheProcess) {
+#if defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer takes memory of its own";
+#endif
   save_bytes(path("a.bin"), made(1 << 24));
   const auto size_under_limit = [&](auto open) {
     const pid_t child = ::fork();
