@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Speed of building a BVH and of rays against it, on one thread, beside Embree (robust mode) where it is installed:
-// nanoseconds a ray. Primary rays go from an eye through the pixels of an image row by row; shadow rays from what those
-// hit towards a light; occlusion rays from there into the hemisphere, at most as far as a third of the model, one from
-// each point, or 64 from every 64th.
+// Speed of building a BVH and of rays against it, on one thread, beside Embree (robust mode; single rays and packets)
+// where it is installed: nanoseconds a ray. Primary rays go from an eye through the pixels of an image row by row;
+// shadow rays from what those hit towards a light; occlusion rays from there into the hemisphere, at most as far as a
+// third of the model, one from each point, or 64 from every 64th.
 #include <benchmark/benchmark.h>
 
 #include <cmath>
@@ -143,6 +143,35 @@ void embree_occlusion(benchmark::State& state) { time_embree(state, scene(state.
 BENCHMARK(embree_occlusion)->Arg(170)->Arg(708);
 void embree_hemispheres(benchmark::State& state) { time_embree(state, scene(state.range(0)).hemispheres); }
 BENCHMARK(embree_hemispheres)->Arg(170)->Arg(708);
+
+/// Packets of 16, in both of Embree's traversals: `coherent` and not.
+template <class Trace>
+void time_packets(benchmark::State& state, const std::vector<Ray>& rays, Trace trace) {
+  const EmbreeScene& embree = embree_of(state.range(0));
+  const std::vector<RTCRayHit16> packets = embree_packets(rays);
+  for (auto _ : state)
+    for (RTCRayHit16 packet : packets) {
+      trace(embree, packet, state.range(1) != 0);
+      benchmark::DoNotOptimize(packet);
+    }
+  per_ray(state, rays.size());
+}
+void embree_packets_primary(benchmark::State& state) {
+  time_packets(state, scene(state.range(0)).primary,
+               [](const EmbreeScene& s, RTCRayHit16& rays, bool is_coherent) { s.intersect(rays, is_coherent); });
+}
+void time_occluded(benchmark::State& state, const std::vector<Ray>& rays) {
+  time_packets(state, rays,
+               [](const EmbreeScene& s, RTCRayHit16& packet, bool is_coherent) { s.occlude(packet.ray, is_coherent); });
+}
+void embree_packets_shadow(benchmark::State& state) { time_occluded(state, scene(state.range(0)).shadow); }
+void embree_packets_occlusion(benchmark::State& state) { time_occluded(state, scene(state.range(0)).occlusion); }
+void embree_packets_hemispheres(benchmark::State& state) { time_occluded(state, scene(state.range(0)).hemispheres); }
+const std::vector<std::string> packet_arguments = {"triangles", "coherent"};
+BENCHMARK(embree_packets_primary)->ArgNames(packet_arguments)->ArgsProduct({{170, 708}, {0, 1}});
+BENCHMARK(embree_packets_shadow)->ArgNames(packet_arguments)->ArgsProduct({{170, 708}, {0, 1}});
+BENCHMARK(embree_packets_occlusion)->ArgNames(packet_arguments)->ArgsProduct({{170, 708}, {0, 1}});
+BENCHMARK(embree_packets_hemispheres)->ArgNames(packet_arguments)->ArgsProduct({{170, 708}, {0, 1}});
 #endif
 
 }  // namespace

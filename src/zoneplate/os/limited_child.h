@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "zoneplate/base/error.h"
+
 namespace zoneplate {
 
 /// The stream to which a child process writes its answer.

@@ -367,7 +367,7 @@ bool is_within(const WideBox& box, float limit) {
 
 }  // namespace
 
-Bvh::Bvh(std::span<const ShadowCaster> casters, std::size_t max_expanded) {
+Bvh::Bvh(std::span<const ShadowCaster> casters, std::size_t max_triangles) {
   growing("shadow rays' triangles", [&] {
     std::size_t all_triangles = 0;
     for (const ShadowCaster& caster : casters) all_triangles += caster.index.size() / 3;
@@ -375,7 +375,7 @@ Bvh::Bvh(std::span<const ShadowCaster> casters, std::size_t max_expanded) {
     Tree tree;
     Range placed;
     std::vector<Reference> boxes;
-    for (const Casters& group : all_triangles > max_expanded ? repeated(casters) : std::vector<Casters>()) {
+    for (const Casters& group : all_triangles > max_triangles ? repeated(casters) : std::vector<Casters>()) {
       ShadowCaster mesh = casters[group[0]];
       mesh.world_from_object = {};
       Range all;

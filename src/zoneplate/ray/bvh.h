@@ -49,7 +49,7 @@ struct ShadowCaster {
 /// Both faces of a triangle are hit. Triangles with a vertex that is not finite are left out. Vertices are transformed
 /// by transform_point, so that triangles with common vertices keep common edges.
 ///
-/// Where the casters have more triangles than `max_expanded`, a mesh that is placed often has one tree in object space.
+/// Where the casters have more than `max_triangles`, a mesh that is placed often has one tree in object space.
 /// Its nodes and leaves are placed in the world when rays visit them: the hits have the same bits, and take more time.
 /// Exact     the same tree for any number of threads: splits depend on the triangles only.
 /// Errors    OutOfMemory("shadow rays' triangles").
@@ -62,7 +62,7 @@ class Bvh {
   static constexpr std::size_t max_expanded = std::size_t{1} << 19;
 
   /// Built on the threads of the innermost `with_threads`.
-  explicit Bvh(std::span<const ShadowCaster> casters, std::size_t max_expanded = Bvh::max_expanded);
+  explicit Bvh(std::span<const ShadowCaster> casters, std::size_t max_triangles = max_expanded);
 
   /// Empty: there are no triangles.
   std::span<const BvhNode> nodes() const { return nodes_; }

@@ -25,10 +25,10 @@ struct OptionSetter {
   double low = 0, high = 0;  ///< of Number and Whole
 
   OptionSetter() = default;
-  OptionSetter(std::function<void(const std::string&)> set, ValueKind kind, double low = 0, double high = 0)
-      : set(std::move(set)), kind(kind), low(low), high(high) {}
+  OptionSetter(std::function<void(const std::string&)> setter, ValueKind value_kind, double min = 0, double max = 0)
+      : set(std::move(setter)), kind(value_kind), low(min), high(max) {}
   template <class Set>
-  requires std::is_invocable_v<const Set&, const std::string&> OptionSetter(Set set) : set(std::move(set)) {}
+  requires std::is_invocable_v<const Set&, const std::string&> OptionSetter(Set setter) : set(std::move(setter)) {}
   void operator()(const std::string& text) const { set(text); }
 };
 
