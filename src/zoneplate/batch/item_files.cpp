@@ -11,6 +11,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/sha256.h"
 #include "zoneplate/batch/whole_file.h"
+#include "zoneplate/codec/save.h"
 #include "zoneplate/job/check.h"
 #include "zoneplate/job/environment_file.h"
 #include "zoneplate/job/picture.h"
