@@ -61,6 +61,11 @@ add_test(NAME out_of_core CONFIGURATIONS Long
          COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=OutOfCoreProgram.DISABLED_*)
 set_tests_properties(out_of_core PROPERTIES TIMEOUT 3600 FAIL_REGULAR_EXPRESSION "Running 0 tests")
 
+# The most bytes that a prepared environment can have.
+add_test(NAME largest_environment CONFIGURATIONS Long
+         COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=PreparedEnvironment.DISABLED_*)
+set_tests_properties(largest_environment PROPERTIES TIMEOUT 3600 FAIL_REGULAR_EXPRESSION "Running 0 tests")
+
 # The tables of docs/environment.md.
 add_test(NAME environment_error CONFIGURATIONS Long
          COMMAND zoneplate_tests --gtest_also_run_disabled_tests --gtest_filter=EnvironmentError.*)

@@ -176,7 +176,7 @@ class VerbOptions : public ProgramTest {
   std::map<std::string, Trace> plain_;  ///< without the option; many rows share it
 };
 
-TEST_F(VerbOptions, EachVerbHasRows) {
+TEST(VerbRows, AreThoseOfEachVerb) {
   std::set<std::string> verbs, listed;
   for (const cli::Verb& verb : cli::all_verbs()) {
     if (verb.subcommands == nullptr) verbs.insert(std::string(verb.name));

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Installs the package, takes the library program out of README.md, builds it against the static library and the programs
 # of examples/ against the shared one, and runs them. One program is built by pkg-config. Instead, with `headers`, each
-# installed header is compiled alone, which takes as long as all that.
+# installed header is compiled alone, which takes as long as all that, and Clang compiles the programs.
 #
 # Given: build (the project's build folder), source, compiler, flags, headers (or nothing).
 set(place ${build}/consumer${headers})
@@ -25,6 +25,24 @@ function(build_project folder binary)
       -DCMAKE_CXX_FLAGS_RELEASE=-O1 ${ARGN})
   run(${CMAKE_COMMAND} --build ${binary})
 endfunction()
+# The calls of docs/api.md are one program, which compiles as a user's own sources do, with warnings.
+function(compile_calls compiler)
+  file(STRINGS ${source}/docs/api.md rows REGEX "^\\| [^|]+ \\| `[a-z/_0-9]+\\.h` \\| `.*[;}]` \\|$")
+  set(includes "#include <cstdio>\n")
+  set(calls "")
+  list(LENGTH rows count)
+  foreach(row IN LISTS rows)
+    string(REGEX MATCH "`([a-z/_0-9]+\\.h)` \\| `(.*)`" found "${row}")
+    string(APPEND includes "#include \"zoneplate/${CMAKE_MATCH_1}\"\n")
+    string(APPEND calls "  ${CMAKE_MATCH_2}\n")
+  endforeach()
+  if(count LESS 30)
+    message(FATAL_ERROR "docs/api.md has ${count} calls")
+  endif()
+  file(WRITE ${place}/calls.cpp "${includes}using namespace zoneplate;\nint main() {\n${calls}}\n")
+  run(${compiler} -std=c++20 -Wall -Wextra -Werror -Wno-unused-variable -Wno-unused-but-set-variable -fsyntax-only
+      -I${place}/installed/include ${place}/calls.cpp)
+endfunction()
 # Fails if a picture is missing or empty.
 function(expect_picture name)
   file(SIZE ${place}/${name} bytes)
@@ -41,43 +59,21 @@ if(headers)
     file(WRITE ${place}/headers/${name}.cpp "#include \"${header}\"\n")
   endforeach()
   build_project(${source}/tests/consumer/headers ${place}/headers_build -DHEADERS=${place}/headers)
+  find_program(clang NAMES clang++ clang++-14)
+  if(clang)
+    compile_calls(${clang})
+    foreach(program load_and_save arrays_to_pixels textured_shader several_shaders course_shaders own_method)
+      run(${clang} -std=c++20 -Wall -Wextra -Werror -fsyntax-only -I${place}/installed/include
+          ${source}/examples/${program}.cpp)
+    endforeach()
+  endif()
   return()
 endif()
 build_project(${source}/tests/consumer ${place}/build)
 run(${place}/build/triangle)
 expect_picture(triangle.png)
 
-# The calls of docs/api.md are one program; each compiles as a user's own sources do, with the warnings of both compilers.
-file(STRINGS ${source}/docs/api.md rows REGEX "^\\| [^|]+ \\| `[a-z/_0-9]+\\.h` \\| `.*[;}]` \\|$")
-set(includes "#include <cstdio>\n")
-set(calls "")
-set(count 0)
-foreach(row IN LISTS rows)
-  string(REGEX MATCH "`([a-z/_0-9]+\\.h)` \\| `(.*)`" found "${row}")
-  string(APPEND includes "#include \"zoneplate/${CMAKE_MATCH_1}\"\n")
-  string(APPEND calls "  ${CMAKE_MATCH_2}\n")
-  math(EXPR count "${count} + 1")
-endforeach()
-if(count LESS 30)
-  message(FATAL_ERROR "docs/api.md has ${count} calls")
-endif()
-file(WRITE ${place}/calls.cpp "${includes}using namespace zoneplate;\nint main() {\n${calls}}\n")
-find_program(clang NAMES clang++ clang++-14)
-set(compilers ${compiler})
-if(clang)
-  list(APPEND compilers ${clang})
-endif()
-foreach(each IN LISTS compilers)
-  run(${each} -std=c++20 -Wall -Wextra -Werror -Wno-unused-variable -Wno-unused-but-set-variable -fsyntax-only
-      -I${place}/installed/include ${place}/calls.cpp)
-  if(each STREQUAL compiler)
-    continue() # builds the examples with these warnings below
-  endif()
-  foreach(program load_and_save arrays_to_pixels textured_shader several_shaders course_shaders own_method)
-    run(${each} -std=c++20 -Wall -Wextra -Werror -fsyntax-only -I${place}/installed/include
-        ${source}/examples/${program}.cpp)
-  endforeach()
-endforeach()
+compile_calls(${compiler})
 
 build_project(${source}/examples ${place}/examples -DBUILD_SHARED_LIBS=ON
               "-DCMAKE_CXX_FLAGS=${flags} -Wall -Wextra -Werror")
