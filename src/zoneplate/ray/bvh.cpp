@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <utility>
@@ -402,7 +403,7 @@ Bvh::Bvh(std::span<const ShadowCaster> casters, std::size_t max_triangles) {
       if (has_triangles) add_reference({all.box}, placements_.size(), 0, boxes, placed);
       root_ = append_tree({}, std::move(boxes), placed, tree);
       for (std::size_t i = root_; has_triangles && i < tree.nodes.size(); ++i)
-        std::ranges::replace(tree.nodes[i].child, stand_in, of_triangles);
+        std::replace(std::begin(tree.nodes[i].child), std::end(tree.nodes[i].child), stand_in, of_triangles);
     }
     nodes_ = std::move(tree.nodes), leaves_ = std::move(tree.leaves);
   });
