@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <memory>
 #include <utility>
 
 #include "zoneplate/base/clock.h"
@@ -50,19 +52,32 @@ std::vector<std::uint8_t> bytes_read(std::uint64_t size, std::uint64_t most, con
   return bytes;
 }
 
-/// Passes a file on in parts, so that a large one is never in memory as a whole.
-void save_parts(const std::string& path, std::uint64_t size, const ItemEvents::Read& read) {
-  std::vector<std::uint8_t> part(static_cast<std::size_t>(std::min<std::uint64_t>(size, 1 << 20)));
-  FileWriter file(path);
-  for (std::uint64_t left = size; left > 0;) {
-    const std::span<std::uint8_t> some(part.data(),
-                                       static_cast<std::size_t>(std::min<std::uint64_t>(left, part.size())));
-    read(some);
-    file.write(some);
-    left -= some.size();
+/// The files that a process has delivered, which it may deliver again when it is restarted.
+class DeliveredFiles {
+ public:
+  /// Passes a file on in parts, so that a large one is never in memory as a whole.
+  void add(const std::string& path, std::uint64_t size, const ItemEvents::Read& read) {
+    std::vector<std::uint8_t> part(static_cast<std::size_t>(std::min<std::uint64_t>(size, 1 << 20)));
+    FileWriter& file = begin(path);
+    for (std::uint64_t left = size; left > 0;) {
+      const std::span<std::uint8_t> some(part.data(),
+                                         static_cast<std::size_t>(std::min<std::uint64_t>(left, part.size())));
+      read(some);
+      file.write(some);
+      left -= some.size();
+    }
   }
-  file.commit();
-}
+  void add(const std::string& path, std::span<const std::uint8_t> bytes) { begin(path).write(bytes); }
+  /// Only now they are there: none of a process that fails.
+  void commit() {
+    for (const auto& [path, file] : files_) file->commit();
+    files_.clear();
+  }
+
+ private:
+  FileWriter& begin(const std::string& path) { return *(files_[path] = std::make_unique<FileWriter>(path)); }
+  std::map<std::string, std::unique_ptr<FileWriter>> files_;
+};
 
 /// `readable` and the fonts of figures.
 std::vector<std::string> with_fonts(std::vector<std::string> readable) {
@@ -106,6 +121,7 @@ std::vector<std::uint8_t> run_confined(const ConfinedRun& run, const std::functi
     if (!run.take) throw Error(ErrorKind::Failed, run.name + ": its process sent a file that is not expected");
     run.take(name, std::move(bytes));
   };
+  DeliveredFiles files;
   ItemEvents events;
   events.progress = [&](std::string_view stage, double done) {
     if (run.progress) run.progress->begin(stage, done);
@@ -117,8 +133,9 @@ std::vector<std::uint8_t> run_confined(const ConfinedRun& run, const std::functi
     if (kind == TextKind::Warning) say_warning(text);
   };
   events.named_file = [&](const std::string& name, std::uint64_t size, const ItemEvents::Read& read) {
-    if (is_output(name)) return save_parts(name, size, read);
-    take(name, bytes_read(size, load.memory, run.name, read));
+    if (!is_output(name)) return take(name, bytes_read(size, load.memory, run.name, read));
+    files.add(name, size, read);
+    if (run.are_results) files.commit();
   };
   events.plots = [&](const std::string& name, std::uint64_t size, const ItemEvents::Read& read) {
     const std::vector<std::uint8_t> packed = bytes_read(size, load.memory, run.name, read);
@@ -129,7 +146,7 @@ std::vector<std::uint8_t> run_confined(const ConfinedRun& run, const std::functi
       if (watch.ms() / 1000 < run.limits.seconds) throw;
       throw Error(ErrorKind::Failed, late_item(run.name, run.limits.seconds));
     }
-    is_output(name) ? save_bytes(name, bytes) : take(name, std::move(bytes));
+    is_output(name) ? files.add(name, bytes) : take(name, std::move(bytes));
   };
   if (run.take_environment)
     events.environment = [&](std::uint64_t key, std::uint64_t size, const ItemEvents::Read& read) {
@@ -137,6 +154,7 @@ std::vector<std::uint8_t> run_confined(const ConfinedRun& run, const std::functi
     };
 
   const std::vector<std::uint8_t> answer = process.next(std::move(events));
+  files.commit();
   Unpacker unpacker(answer);
   const auto ending = unpacker.value<std::uint8_t>();
   const std::string text = unpacker.text();

@@ -17,6 +17,7 @@ struct ConfinedRun {
   ReadingLimits limits;
   std::vector<std::string> readable;  ///< files and folders
   std::vector<std::string> outputs;   ///< the files that it may save
+  bool are_results = false;           ///< each output is a result: saved at once. Else all when the work ends, or none
   Progress* progress = nullptr;       ///< where it reports its progress
   std::function<void()> open = {};    ///< runs in the process before it is confined
   /// Takes the files of other names than `outputs`; throws for a name that it does not accept. Null: there are none.

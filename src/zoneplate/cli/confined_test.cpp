@@ -73,6 +73,31 @@ TEST_F(Confined, PrintsAndSavesInOrderAndReturnsTheResult) {
   EXPECT_EQ(text("out"), "file");
 }
 
+TEST_F(Confined, SavesAllFilesOrNoneUnlessEachIsAResult) {
+  ConfinedRun run = small_run();
+  run.outputs.push_back(at("out2"));
+  const auto save_both = [&](Delivery& out) { out.save(at("out"), "one"), out.save(at("out2"), "two"); };
+  const auto fail = [&](Delivery& out) {
+    save_both(out);
+    throw Error(ErrorKind::Failed, "late");
+  };
+  EXPECT_EQ(refusal(run, fail), std::to_string(static_cast<int>(ErrorKind::Failed)) + " late");
+  EXPECT_FALSE(fs::exists(at("out")) || fs::exists(at("out2")));
+  EXPECT_EQ(refusal(run, save_both), "");
+  EXPECT_EQ(text("out") + text("out2"), "onetwo");
+  fs::remove(at("out")), fs::remove(at("out2"));
+  run.are_results = true;
+  EXPECT_NE(refusal(run, fail), "");
+  EXPECT_EQ(text("out") + text("out2"), "onetwo");
+  EXPECT_THROW(run_confined(small_run(),
+                            [&](Delivery& out) {
+                              out.save(at("out"), "differs");
+                              throw Difference("the images differ");
+                            }),
+               Difference);
+  EXPECT_EQ(text("out"), "differs");
+}
+
 TEST_F(Confined, WarnsOfADamagedImageUnlessItsLimitsAreStrict) {
   ConfinedRun run = small_run();
   const auto read = [&](const std::string& flaw) {

@@ -176,7 +176,11 @@ Syntax make_syntax(FilterArgs& args) {
 }
 
 ConfinedRun confined_run(const FilterWork& work, const ReadingLimits& limits) {
-  ConfinedRun run{.name = work.items.front().input, .limits = limits, .readable = {work.args.jitter}, .outputs = {}};
+  ConfinedRun run{.name = work.items.front().input,
+                  .limits = limits,
+                  .readable = {work.args.jitter},
+                  .outputs = {},
+                  .are_results = true};
   for (const FilterItem& item : work.items) run.readable.push_back(item.input), run.outputs.push_back(item.output);
   for (const std::vector<std::string>& files : {work.passes.depth, work.passes.motion})
     run.readable.insert(run.readable.end(), files.begin(), files.end());
