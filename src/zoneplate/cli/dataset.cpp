@@ -188,11 +188,10 @@ void run_dataset(std::span<const std::string> arguments) {
   for (const std::string& scene : args.scenes)
     if (!check_builtin_scene(scene) && !std::filesystem::exists(scene, ignored))
       throw Error(ErrorKind::Input, scene + ": is neither a file nor a built-in scene (zoneplate list scenes)");
-  // Once for the processes of all sequences, which are forked where no threads are left.
-  with_threads(args.threads, [&] { args.sequence.studio = prepared_studio(environment_cache()); });
   with_threads(args.threads, [&] {
     Progress progress(args.progress ? *args.progress : parse_progress("auto"));
     double done = 0;
+    args.sequence.studio = prepared_studio(environment_cache());  // once for the processes of all sequences
     const double count =
         static_cast<double>(args.shard.size_of(static_cast<std::uint64_t>(args.sequences))) * args.sequence.frames;
     for (int number = 0; number < args.sequences; ++number) {

@@ -11,6 +11,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/out_of_memory.h"
+#include "zoneplate/base/parallel.h"
 #include "zoneplate/formats/import/image_file.h"
 #include "zoneplate/formats/import/import_budget.h"
 #include "zoneplate/job/import_time.h"
@@ -169,7 +170,8 @@ void Environments::complete(Job& job, const Store& store, const Progress& progre
 
 std::function<Map()> prepared_studio(const std::string& cache) {
   const auto store = [&](std::uint64_t key, auto bytes) { store_environment(cache, key, bytes); };
-  const Map studio = find_or_make(cache, studio_key_number(), store, prepare_studio);
+  Map studio;
+  with_threads(thread_limit(), [&] { studio = find_or_make(cache, studio_key_number(), store, prepare_studio); });
   return [studio] { return studio; };
 }
 

@@ -25,7 +25,7 @@ void store_environment(const std::string& cache, std::uint64_t key, std::span<co
 inline constexpr std::uint64_t max_cache_bytes = std::uint64_t{256} << 20;
 
 /// The studio of the default light, from that folder or stored there; for processes that are forked afterwards and
-/// share it.
+/// share it: the threads that prepare it have ended then.
 std::function<std::shared_ptr<const PreparedEnvironment>()> prepared_studio(const std::string& cache);
 
 /// The environments of jobs, one after the other.

@@ -99,10 +99,8 @@ void run_contact_sheet(std::span<const std::string> arguments) {
   Rendered sheet;
   std::size_t failed = 0;
   Json::Array items;
-  const auto prepare = [&] {
-    if (args.render.hdri_file.empty()) use_studio(args.render);
-  };
   const auto render_all = [&] {
+    if (args.render.hdri_file.empty()) use_studio(args.render);
     Progress progress(args.render.verbosity == Verbosity::Quiet ? ProgressKind::None
                       : args.render.progress                    ? *args.render.progress
                                                                 : parse_progress("auto"));
@@ -122,10 +120,7 @@ void run_contact_sheet(std::span<const std::string> arguments) {
     progress.clear();
     sheet.image = compose(lay_out(args, args.render, std::move(panels)), {.text_px = 12, .gap_px = 10});
   };
-  with_isa(args.render.isa, [&] {
-    with_threads(args.render.threads, prepare);  // the processes of the cells are forked where no threads are left
-    with_threads(args.render.threads, render_all);
-  });
+  with_isa(args.render.isa, [&] { with_threads(args.render.threads, render_all); });
   save_bytes(args.output, encode_picture(sheet, args.output, args.render.file));
   if (args.render.prints_json)
     print_report(Json(Json::Object{{"format", "zoneplate-contact-sheet"},

@@ -120,7 +120,7 @@ template <class Code>
 struct WeightedSum {
   TexelSum<Code> color[3] = {}, alpha = 0;
 
-  /// Does not read the colour of a transparent texel, which need not be finite, and which another thread may write.
+  /// Does not read the colour of a transparent texel, which another thread may write.
   void add(const Code* texel, std::uint64_t weight) {
     const auto by = static_cast<TexelSum<Code>>(weight) * static_cast<TexelSum<Code>>(term(texel[3]));
     if (by == 0) return;
