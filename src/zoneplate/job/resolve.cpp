@@ -24,7 +24,9 @@ float4 background_of(const Job& job) {
 
 /// Whether a view that is not chosen is that of the scene's first camera.
 bool has_own_view(const Job& job, const Scene& scene) {
-  return is_builtin(job) && !scene.cameras.empty() && (!job.sequence.is_sequence() || !scene.animations.empty());
+  const SequenceArgs& sequence = job.sequence;
+  const bool moves_camera = sequence.turntable || !sequence.views.empty() || sequence.camera_path;
+  return is_builtin(job) && !scene.cameras.empty() && (!moves_camera || !scene.animations.empty());
 }
 
 }  // namespace

@@ -64,6 +64,16 @@ TEST_F(SequenceRun, AWarmUpGivesTheBitsOfTheWholeSequence) {
   }
 }
 
+// A built-in scene that does not move is seen as its still image.
+TEST_F(SequenceRun, FramesOfAStillSceneAreItsStillImage) {
+  for (const std::string scene : {"wires", "near-axis", "sphere"}) {
+    ASSERT_EQ(run(scene + " --size 40x30 -o still.png").code, 0);
+    ASSERT_EQ(run(scene + " --frames 2 --size 40x30 -o frame.##.png").code, 0);
+    expect_equal("still.png", "frame.00.png");
+    expect_equal("still.png", "frame.01.png");
+  }
+}
+
 TEST_F(SequenceRun, PartsHaveTheExposureOfTheWhole) {
   for (const std::string scene : {"light-switch", "teapot:divisions=4 --turntable 21"}) {
     const std::string usual = scene + " --exposure auto --aa none --size 32x24";
