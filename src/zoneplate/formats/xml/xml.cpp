@@ -79,6 +79,7 @@ struct XmlParser::State {
   std::vector<XmlAttribute> attributes{};
   std::vector<Declaration> declarations{};
   std::uint64_t fed = 0, depth = 0, charged = 0;
+  std::uint64_t parsed = 0;  ///< the bytes before the tag or text that was parsed last
 
   /// Charges the memory that expat uses now.
   void charge() {
@@ -191,8 +192,9 @@ void XmlParser::parse(std::span<const std::uint8_t> bytes, bool is_last) {
     }
     s.charge();
     s.fed += piece.size();
-    const XML_Index at = XML_GetCurrentByteIndex(s.parser);
-    if (at >= 0 && s.fed > static_cast<std::uint64_t>(at) + max_of_a_tag) throw s.wrong("has a tag of more than 4 MiB");
+    // Newer versions wait for more of an unfinished tag before they parse it again, and then know no index.
+    if (const XML_Index at = XML_GetCurrentByteIndex(s.parser); at >= 0) s.parsed = static_cast<std::uint64_t>(at);
+    if (s.fed > s.parsed + max_of_a_tag) throw s.wrong("has a tag of more than 4 MiB");
   } while (!bytes.empty());
 }
 
