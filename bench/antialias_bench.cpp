@@ -22,6 +22,7 @@
 #include "zoneplate/antialias/post/ddaa/ddaa.h"
 #include "zoneplate/antialias/post/dlaa/dlaa.h"
 #include "zoneplate/antialias/post/fxaa/fxaa.h"
+#include "zoneplate/antialias/post/learned_smaa/learned_smaa.h"
 #include "zoneplate/antialias/post/mlaa/mlaa.h"
 #include "zoneplate/antialias/post/smaa/smaa.h"
 #include "zoneplate/base/parallel.h"
@@ -104,6 +105,7 @@ void register_all() {
        [](const Rgba8Image& i, Rgba8Image m) {
          return apply_smaa(i, nullptr, {.edges = SmaaOptions::Edges::Color}, std::move(m));
        }},
+      {"learned_smaa", [](const Rgba8Image& i, Rgba8Image) { return apply_learned_smaa(i); }},
       {"mlaa", [](const Rgba8Image& i, Rgba8Image m) { return apply_mlaa(i, {}, std::move(m)); }},
       {"mlaa_reshetov",
        [](const Rgba8Image& i, Rgba8Image m) {

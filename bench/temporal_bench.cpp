@@ -87,6 +87,10 @@ int main(int argc, char** argv) {
                                    "sgsr2:scale=2",
                                    "taau:scale=2",
                                    "learned:scale=2",
+                                   "learned:scale=1",
+                                   "learned-table:scale=2",
+                                   "learned-still:scale=2",
+                                   "learned-table-still:scale=2",
                                    "taau:scale=2,preset=karis"})
     for (const std::string scene : {"city", "panning-wires"})
       benchmark::RegisterBenchmark((scene + "/" + method).c_str(),

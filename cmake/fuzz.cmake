@@ -43,6 +43,10 @@ add_executable(fuzz_item fuzz/item_fuzz.cpp src/zoneplate/process/item_messages.
                src/zoneplate/process/percents.cpp)
 target_link_libraries(fuzz_item PRIVATE zoneplate_fuzzed)
 target_link_options(fuzz_item PRIVATE -fsanitize=fuzzer)
+add_executable(fuzz_weights fuzz/weights_fuzz.cpp src/zoneplate/network/network.cpp src/zoneplate/network/network_rows.cpp
+               src/zoneplate/upscale/table/filter_table.cpp src/zoneplate/upscale/table/table_rows.cpp)
+target_link_libraries(fuzz_weights PRIVATE zoneplate_fuzzed)
+target_link_options(fuzz_weights PRIVATE -fsanitize=fuzzer)
 add_executable(fuzz_seeds fuzz/seeds.cpp)
 find_library(tiff_library tiff REQUIRED)
 target_link_libraries(fuzz_seeds PRIVATE zoneplate_fuzzed ${tiff_library})

@@ -64,11 +64,12 @@ class Gltf:
             material["extensions"] = {"KHR_materials_unlit": {}}
         return self.add("materials", material)
 
-    def mesh(self, positions, indices, material, uv=None, colors=None):
+    def mesh(self, positions, indices, material, uv=None, colors=None, normals=None):
+        """Without normals those of +z."""
         positions = np.asarray(positions, np.float32)
-        normals = np.zeros_like(positions)
-        normals[:, 2] = 1
-        attributes = {"POSITION": self.accessor(positions), "NORMAL": self.accessor(normals)}
+        if normals is None:
+            normals = np.tile([0, 0, 1], (len(positions), 1))
+        attributes = {"POSITION": self.accessor(positions), "NORMAL": self.accessor(np.asarray(normals, np.float32))}
         if uv is not None:
             attributes["TEXCOORD_0"] = self.accessor(np.asarray(uv, np.float32))
         if colors is not None:

@@ -47,14 +47,14 @@ class Network(nn.Module):
 
     LAYERS = ("wide0", "wide1", "wide2", "own", "joined", "out")
 
-    def __init__(self):
+    def __init__(self, features=FEATURES, outputs=4 * OUTPUTS):
         super().__init__()
-        self.wide0 = Convolution(FEATURES, 16, 3, 2, gain=1.5)
+        self.wide0 = Convolution(features, 16, 3, 2, gain=1.5)
         self.wide1 = Convolution(16, 16, 3, gain=1.5)
         self.wide2 = Convolution(16, 24, 3, gain=1.5)
-        self.own = Convolution(FEATURES, 8, 1, gain=1.5)
+        self.own = Convolution(features, 8, 1, gain=1.5)
         self.joined = Convolution(14, 16, 3, gain=1.5)
-        self.out = Convolution(16, 4 * OUTPUTS, 1, gain=0.0)
+        self.out = Convolution(16, outputs, 1, gain=0.0)
 
     def forward(self, x):
         h, w = x.shape[2:]

@@ -62,7 +62,7 @@ std::string sequence_method(const FilterArgs& args) {
   if (has_data && !is_temporal && !has_history)
     throw Error(ErrorKind::Usage,
                 "--motion, --depth and --jitter are for methods with history: --aa taa or --upscale "
-                "fsr2, fsr3, sgsr2, taau or learned");
+                "fsr2, fsr3, sgsr2, taau, learned or learned-table");
   return is_temporal ? args.upscaler : has_history ? args.method : "";
 }
 

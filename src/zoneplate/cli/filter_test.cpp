@@ -121,7 +121,7 @@ TEST_F(FilterVerb, WhatCannotBeFilteredIsRefused) {
   EXPECT_EQ(output_,
             "zoneplate: error: --anti-aliasing: msaa needs a scene, expected a filter of images: fxaa, smaa, "
             "smaa-exact, mlaa, "
-            "cmaa2, dlaa, ddaa, taa, history-guided\n");
+            "cmaa2, dlaa, ddaa, learned-smaa, taa, history-guided\n");
   for (const char* method : {"smaa:edges=depth", "smaa:mode=s2x", "analytic:order=display", "none"})
     EXPECT_EQ(run(std::string("filter a.png -o b.png --aa ") + method), 2) << method;
   EXPECT_EQ(run("filter a.png -o b.png"), 2);
@@ -348,7 +348,7 @@ TEST_F(FilterVerb, SequencesThatDoNotFitAreRefused) {
       << output_;
   EXPECT_NE(message("raw.####.exr --upscale oracle-taau -o out", 2)
                 .find("--upscale: oracle-taau needs a scene, expected one of bilinear, bicubic, lanczos, fsr1, nis, "
-                      "sgsr1, fsr2, fsr3, sgsr2, taau, learned"),
+                      "sgsr1, learned-still, learned-table-still, fsr2, fsr3, sgsr2, taau, learned, learned-table"),
             std::string::npos)
       << output_;
   EXPECT_NE(message("raw.####.exr --aa taa --upscale fsr2 -o out", 2).find("antialiases itself"), std::string::npos)

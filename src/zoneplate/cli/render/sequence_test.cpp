@@ -46,7 +46,7 @@ std::string animation(GltfMaker& m, const std::string& target, const std::string
 TEST_F(SequenceRun, AWarmUpGivesTheBitsOfTheWholeSequence) {
   for (const std::string method :
        {"taa", "history-guided", "oracle-taa", "smaa:mode=t2x", "fsr2:scale=2", "fsr2:scale=1", "fsr3:scale=2", "sgsr2",
-        "taau", "learned", "oracle-taau", "taa+fsr1"}) {
+        "taau", "learned", "learned:scale=1", "learned-table", "oracle-taau", "taa+fsr1"}) {
     const std::string usual = "teapot:divisions=4 --turntable 24 --size 40x30 --aa " + method;
     ASSERT_EQ(run(usual + " -s 0 -e 3 -o whole.##.png").code, 0) << method;
     const ProgramAnswer part = run(usual + " -s 3 -e 3 --warm-up 3 -o part.##.png");

@@ -17,6 +17,7 @@
 #include <fmt/format.h>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/base/parallel.h"
 #include "zoneplate/upscale/learned/learned_mean.h"
 #include "zoneplate/upscale/taau/taau_method.h"
 #include "zoneplate/upscale/upscaler.h"
@@ -24,24 +25,53 @@
 namespace zoneplate::upscale {
 namespace {
 
-constexpr int scales[] = {2};
+constexpr int scales[] = {1, 2};
 constexpr Param params[] = {{.name = scale_param.name, .meaning = scale_param.meaning, .value = 2, .choices = scales},
                             bias_param(-1)};
 
-class LearnedMethod : public TaauMethod<LearnedMean> {
+/// LearnedMean of images of the frames' size: its pixels are means of 2 × 2 of one that has twice the size.
+class LearnedBox {
  public:
-  explicit LearnedMethod(double bias) : TaauMethod("learned", 2, bias) {}
+  static constexpr int settling_periods = LearnedMean::settling_periods, grain = 2;
+
+  LearnedBox(int width, int height) : mean_(grain * width, grain * height) {}
+
+  LinearImage accumulate(const TaauInput& frame) {
+    const LinearImage fine = mean_.accumulate(frame);
+    LinearImage out(fine.width() / grain, fine.height() / grain);
+    parallel_ranges(static_cast<std::size_t>(out.height()), 16, [&](std::size_t begin, std::size_t end) {
+      for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y)
+        for (int x = 0; x < out.width(); ++x)
+          out(x, y) =
+              (fine(2 * x, 2 * y) + fine(2 * x + 1, 2 * y) + fine(2 * x, 2 * y + 1) + fine(2 * x + 1, 2 * y + 1)) *
+              0.25f;
+    });
+    return out;
+  }
+
+ private:
+  LearnedMean mean_;
+};
+
+template <class Core>
+class LearnedMethod : public TaauMethod<Core> {
+ public:
+  LearnedMethod(int scale, double bias) : TaauMethod<Core>("learned", scale, bias), scale_(scale) {}
 
   Request request(const FrameContext& context) override {
-    const ImageExtent half = zoneplate::frame_size(context.image, 2), frame = upscale::frame_size(context, 2);
-    if (frame.width != half.width || frame.height != half.height)
-      throw Error(
-          ErrorKind::Usage,
-          fmt::format("learned makes images of twice the frames' size: for {} x {} pixels it needs frames of "
-                      "{} x {}, not of {} x {}",
-                      context.image.width, context.image.height, half.width, half.height, frame.width, frame.height));
-    return TaauMethod::request(context);
+    const ImageExtent small = zoneplate::frame_size(context.image, scale_),
+                      frame = upscale::frame_size(context, scale_);
+    if (frame.width != small.width || frame.height != small.height)
+      throw Error(ErrorKind::Usage,
+                  fmt::format("learned makes images of {}the frames' size: for {} x {} pixels it needs frames of "
+                              "{} x {}, not of {} x {}",
+                              scale_ == 1 ? "" : "twice ", context.image.width, context.image.height, small.width,
+                              small.height, frame.width, frame.height));
+    return TaauMethod<Core>::request(context);
   }
+
+ private:
+  int scale_;
 };
 
 }  // namespace
@@ -52,7 +82,9 @@ Upscaler learned() {
           .source = "Zoneplate, train/",
           .params = params,
           .make_temporal = [](const Settings& s) -> std::unique_ptr<Resolver> {
-            return std::make_unique<LearnedMethod>(s.number("bias"));
+            const double bias = s.number("bias");
+            if (s.integer("scale") == 1) return std::make_unique<LearnedMethod<LearnedBox>>(1, bias);
+            return std::make_unique<LearnedMethod<LearnedMean>>(2, bias);
           },
           .is_specification_only = true};
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/network/trained.h"
 #include "zoneplate/upscale/learned/learned_rows.h"
 #include "zoneplate/upscale/taau/taau_axis.h"
 
@@ -60,14 +61,14 @@ struct Histories {
 struct LearnedMean::Work {
   LinearImage current;
   Histories near, own;
-  NetworkFrame network;
+  network::NetworkFrame network;
   Plane<float> unrest, past_unrest;
 
   Work(int width, int height, int frame_width, int frame_height)
       : current(width, height),
         near(width, height),
         own(width, height),
-        network(frame_width, frame_height),
+        network(frame_width, frame_height, LearnedNetwork::features),
         unrest(frame_width, frame_height),
         past_unrest(frame_width, frame_height) {}
   void describe(const Known& known, const Halves& across, const Halves& down);
@@ -124,7 +125,12 @@ void LearnedMean::Work::describe(const Known& known, const Halves& across, const
   });
 }
 
-LearnedMean::LearnedMean(int width, int height, const Network& network)
+const network::Network& LearnedNetwork::trained() {
+  static const network::Network network(network::trained_weights(network::Trained::Learned), form, "the program's own");
+  return network;
+}
+
+LearnedMean::LearnedMean(int width, int height, const network::Network& network)
     : SampleMean(width, height), network_(network) {}
 LearnedMean::~LearnedMean() = default;
 
@@ -151,16 +157,17 @@ LinearImage LearnedMean::resolved(const Known& known, Plane<float>& count) {
   for_output_rows(known, [&](const SampleMeanFrame& frame, SampleMeanRow& row) {
     const auto y = static_cast<std::size_t>(row.y);
     row.resolved = &out.row(row.y).data()->r, row.count = count.row(row.y).data();
-    float corrections[(part / 2 + 4) * Network::per_pixel];
+    const int half = down.half[y];
+    float corrections[(part / 2 + 4) * LearnedNetwork::per_pixel];
     std::int32_t middle[part];
     for (std::size_t begin = 0; begin < pixels; begin += part) {
       const std::size_t end = std::min(begin + part, pixels);
       const std::int32_t* const of = columns.around[1].data();
-      network_.correct(work.network, of[begin], rows.around[1][y], of[end - 1] - of[begin] + 1, down.half[y],
-                       corrections);
+      network_.write(work.network, of[begin], rows.around[1][y], of[end - 1] - of[begin] + 1,
+                     LearnedNetwork::first[half], LearnedNetwork::per_pixel, corrections);
       for (std::size_t x = begin; x < end; ++x)
-        middle[x - begin] = (of[x] - of[begin]) * Network::per_pixel + Network::begins[down.half[y]] +
-                            Network::corrections * across.half[x];
+        middle[x - begin] = (of[x] - of[begin]) * LearnedNetwork::per_pixel + LearnedNetwork::begins[half] +
+                            LearnedNetwork::corrections * across.half[x];
       LearnedKernels::of().blend(frame, row, work.row(row.y),
                                  {.begin = begin, .corrections = corrections, .middle = middle}, end - begin);
     }

@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "zoneplate/upscale/learned/network.h"
+#include "zoneplate/upscale/learned/learned_network.h"
 #include "zoneplate/upscale/taau/sample_mean.h"
 
 namespace zoneplate::upscale {
@@ -14,7 +14,7 @@ namespace zoneplate::upscale {
 /// Exact     the same bits for any number of threads and any instruction set; one colour stays that colour.
 class LearnedMean : public SampleMean {
  public:
-  LearnedMean(int width, int height, const Network& network = Network::trained());
+  LearnedMean(int width, int height, const network::Network& network = LearnedNetwork::trained());
   ~LearnedMean() override;
 
  private:
@@ -22,7 +22,7 @@ class LearnedMean : public SampleMean {
 
   struct Work;
 
-  const Network& network_;
+  const network::Network& network_;
   std::unique_ptr<Work> work_;
 };
 

@@ -33,14 +33,14 @@ struct FeatureRow {
   GatheredRow above, below;
   const std::int32_t *left, *right;
 
-  std::int16_t* features;  ///< out: Network::features numbers per pixel
+  std::int16_t* features;  ///< out: LearnedNetwork::features numbers per pixel
   float* unrest;           ///< out: the mean over few frames of the difference of history and samples
 };
 
 /// What the network says about a part of an output row.
 struct CorrectionRow {
   std::size_t begin;           ///< its first pixel
-  const float* corrections;    ///< as Network::correct writes them
+  const float* corrections;    ///< as Network::write writes them
   const std::int32_t* middle;  ///< where in them those of each output pixel begin
 };
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "zoneplate/upscale/learned/learned_network.h"
 #include "zoneplate/upscale/learned/learned_rows.h"
-#include "zoneplate/upscale/learned/network.h"
 #include "zoneplate/upscale/taau/sample_mean_rows_lanes.h"
 
 /// LearnedKernels over a lane type of math/lanes.h.
@@ -13,7 +13,7 @@ namespace zoneplate::stages {
 
 namespace learned {
 
-using upscale::Network;
+using upscale::LearnedNetwork;
 
 template <class F>
 [[gnu::always_inline]] inline void store(const sample_mean::Past<F>& past, const HistoryRow& out, std::ptrdiff_t i) {
@@ -57,13 +57,13 @@ template <class F>
 template <class F>
 class Features {
  public:
-  [[gnu::always_inline]] Features(std::int16_t* out, std::ptrdiff_t i) : out_(out + i * Network::features) {}
+  [[gnu::always_inline]] Features(std::int16_t* out, std::ptrdiff_t i) : out_(out + i * LearnedNetwork::features) {}
   /// A feature in [0, 1], as a whole number.
   [[gnu::always_inline]] void add(F value) {
     using Int = typename F::Int;
-    static_assert(Network::features % 8 == 0);
+    static_assert(LearnedNetwork::features % 8 == 0);
     const F limited = min(max(value, F(0.0f)), F(1.0f));
-    const Int whole = truncate(limited * F(Network::levels) + F(0.5f));
+    const Int whole = truncate(limited * F(network::Network::levels) + F(0.5f));
     const int at = next_ % 8 / 2;
     if (next_++ % 2 == 0) {
       even_ = whole;
@@ -74,7 +74,7 @@ class Features {
     float each[4 * F::lanes];
     F::store_fours(pairs_, each);
     for (int lane = 0; lane < F::lanes; ++lane)
-      std::memcpy(out_ + lane * Network::features + next_ - 8, each + 4 * lane, 4 * sizeof(float));
+      std::memcpy(out_ + lane * LearnedNetwork::features + next_ - 8, each + 4 * lane, 4 * sizeof(float));
   }
 
  private:
@@ -170,7 +170,7 @@ template <class F>
   for (const F& d : difference) out.add(half + strength * d);
   for (const F& l : past_light) out.add(half + strength * (l - mean));
   for (const F& b : beyond) out.add(b / (one + b));
-  const F kept = F::load(row.kept + i), count_at_rest(Network::count_at_rest);
+  const F kept = F::load(row.kept + i), count_at_rest(LearnedNetwork::count_at_rest);
   count = count * quarter * kept;
   out.add(count / (count_at_rest + count));
   out.add(apart_colors * F(1.0f / 12));
@@ -212,11 +212,11 @@ template <class F>
 [[gnu::always_inline]] inline void blend(const SampleMeanFrame& frame, const SampleMeanRow& row,
                                          const GatheredRow& known, const CorrectionRow& corrections, std::ptrdiff_t i) {
   const F zero(0.0f), one(1.0f), least(1e-4f);
-  F correction[Network::corrections];  // the last quad overlaps the one before
+  F correction[LearnedNetwork::corrections];  // the last quad overlaps the one before
   std::int32_t places[F::lanes];
   F::Int::load(corrections.middle + i - static_cast<std::ptrdiff_t>(corrections.begin)).store(places);
   for (int k = 0; k < 4; ++k) {
-    const int first = std::min(4 * k, Network::corrections - 4);
+    const int first = std::min(4 * k, LearnedNetwork::corrections - 4);
     F quad[4];
     load_pixels<F>([&](int lane) { return corrections.corrections + places[lane] + first; }, quad);
     for (int c = 0; c < 4; ++c) correction[first + c] = quad[c];
@@ -224,7 +224,7 @@ template <class F>
   const auto limited = [](F value, float low, float high) { return min(max(value, F(low)), F(high)); };
   const sample_mean::FramePixels<F> pixels(row, i);
   const typename F::Int column = F::Int::load(row.columns[1] + i);
-  const F kept_by_rule = F::gather(row.kept, column), count_at_rest(Network::count_at_rest);
+  const F kept_by_rule = F::gather(row.kept, column), count_at_rest(LearnedNetwork::count_at_rest);
   const F freedom = F(0.5f) * (count_at_rest / (count_at_rest + F::load(known.near.count + i) * kept_by_rule));
   F usual(0.0f), changed;
   const auto weight_of = [&](int k) {

@@ -10,9 +10,8 @@
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/random.h"
+#include "zoneplate/network/trained.h"
 #include "zoneplate/upscale/learned/learned_mean.h"
-#include "zoneplate/upscale/learned/network.h"
-#include "zoneplate/upscale/learned/trained.h"
 #include "zoneplate/upscale/taau/taau_frames_for_test.h"
 #include "zoneplate/upscale/upscaler.h"
 
@@ -20,6 +19,11 @@ namespace zoneplate::upscale {
 namespace {
 
 using namespace taau_frames;
+using network::Activations;
+using network::Network;
+using network::NetworkFrame;
+
+std::span<const std::uint8_t> learned_weights() { return network::trained_weights(network::Trained::Learned); }
 
 /// Inputs, outputs, side and stride of the layers.
 constexpr int forms[][4] = {{40, 16, 3, 2}, {16, 16, 3, 1}, {16, 24, 3, 1},
@@ -54,7 +58,7 @@ std::vector<Layer> layers_of(std::span<const std::uint8_t> file) {
 
 /// A network whose corrections are 0.
 std::vector<std::uint8_t> without_corrections() {
-  const auto trained = trained_weights();
+  const auto trained = learned_weights();
   std::vector<std::uint8_t> out(trained.begin(), trained.end());
   const std::size_t products = 16 * 56;
   std::fill(out.end() - static_cast<std::ptrdiff_t>(products + 56 * 4), out.end(), std::uint8_t{0});
@@ -74,7 +78,7 @@ LinearImage after_learned(int frames, const LightAt& light, float2 motion, const
 }
 
 TEST(Learned, WithoutCorrectionsItIsTaau) {
-  const Network none(without_corrections(), "test");
+  const Network none(without_corrections(), LearnedNetwork::form, "test");
   for (const float2 motion : {float2{0, 0}, float2{0.4f, -0.3f}}) {
     const LinearImage expected = after<SampleMean>(6, wires, motion), found = after_learned(6, wires, motion, none);
     for (std::size_t i = 0; i < found.values().size(); ++i)
@@ -176,20 +180,20 @@ class FloatTwin {
 
 /// Of all pixels of a frame, by pixel, output pixel and correction.
 std::vector<float> corrections_of(NetworkFrame& frame) {
-  const Network& network = Network::trained();
+  const Network& network = LearnedNetwork::trained();
   const int width = frame.features.width, height = frame.features.height;
   network.read(frame);
-  std::vector<float> out, row(static_cast<std::size_t>(width) * Network::per_pixel);
-  constexpr int of_half = 2 * Network::corrections;
+  std::vector<float> out, row(static_cast<std::size_t>(width) * LearnedNetwork::per_pixel);
+  constexpr int of_half = 2 * LearnedNetwork::corrections;
   for (int y = 0; y < height; ++y) {
     std::vector<float> halves[2];
     for (int half = 0; half < 2; ++half) {
-      network.correct(frame, 0, y, width, half, row.data());
+      network.write(frame, 0, y, width, LearnedNetwork::first[half], LearnedNetwork::per_pixel, row.data());
       halves[half] = row;
     }
     for (int x = 0; x < width; ++x)
       for (int half = 0; half < 2; ++half) {
-        const float* const first = halves[half].data() + x * Network::per_pixel + Network::begins[half];
+        const float* const first = halves[half].data() + x * LearnedNetwork::per_pixel + LearnedNetwork::begins[half];
         out.insert(out.end(), first, first + of_half);
       }
   }
@@ -197,18 +201,18 @@ std::vector<float> corrections_of(NetworkFrame& frame) {
 }
 
 NetworkFrame random_frame(int w, int h) {
-  NetworkFrame frame(w, h);
+  NetworkFrame frame(w, h, LearnedNetwork::features);
   Activations& out = frame.features;
   for (int y = 0; y < h; ++y)
     for (int x = 0; x < w; ++x)
-      for (int c = 0; c < Network::features; ++c)
+      for (int c = 0; c < LearnedNetwork::features; ++c)
         out.at(x, y)[c] =
             static_cast<std::int16_t>(hash(static_cast<std::uint32_t>(y * w + x), static_cast<std::uint32_t>(c)) % 128);
   return frame;
 }
 
 TEST(Network, IntegersAgreeWithFloats) {
-  const FloatTwin twin(trained_weights());
+  const FloatTwin twin(learned_weights());
   NetworkFrame frame = random_frame(21, 13);
   const std::vector<float> found = corrections_of(frame);
   const std::vector<double> expected = twin.corrections_of(frame.features);
@@ -232,7 +236,7 @@ TEST(Network, SameBitsOnEveryInstructionSetAndThreadCount) {
 
 std::string refusal_of(std::span<const std::uint8_t> bytes) {
   try {
-    Network(bytes, "w.bin");
+    Network(bytes, LearnedNetwork::form, "w.bin");
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::Input);
     return e.what();
@@ -241,7 +245,7 @@ std::string refusal_of(std::span<const std::uint8_t> bytes) {
 }
 
 TEST(Network, ReadsNoOtherFiles) {
-  const auto trained = trained_weights();
+  const auto trained = learned_weights();
   EXPECT_EQ(refusal_of(trained), "accepted");
   for (std::size_t size = 0; size < trained.size(); size += 37)
     EXPECT_NE(refusal_of(trained.first(size)).find("ends too early"), std::string::npos) << size;
@@ -277,12 +281,15 @@ TEST(Learned, RefusesOtherRatios) {
     return std::string("accepted");
   };
   EXPECT_NE(refusal([] { make_method("learned:scale=1.5"); }).find("scale"), std::string::npos);
-  const auto request = [](int frame_width) {
+  const auto request = [](int frame_width, const char* method = "learned") {
     FrameContext context{.image = {160, 120, std::nullopt}};
     context.given = GivenFrame{.width = frame_width, .height = 60};
-    make_method("learned")->request(context);
+    make_method(method)->request(context);
   };
   EXPECT_EQ(refusal([&] { request(80); }), "accepted");
+  EXPECT_EQ(refusal([&] { request(160, "learned:scale=1"); }),
+            "learned makes images of the frames' size: for 160 x 120 pixels it needs frames of 160 x 120, not of 160 x "
+            "60");
   EXPECT_EQ(refusal([&] { request(100); }),
             "learned makes images of twice the frames' size: for 160 x 120 pixels it needs frames of 80 x 60, not of "
             "100 x 60");

@@ -21,6 +21,7 @@ class SampleMean {
  public:
   /// The frames after which a still image has settled, in periods of the jitter.
   static constexpr int settling_periods = 1;
+  static constexpr int grain = 1;
 
   SampleMean(int width, int height) : width_(width), height_(height) {}
   virtual ~SampleMean() = default;

@@ -23,6 +23,7 @@ class Taau {
  public:
   /// The frames after which a still image has settled, in periods of the jitter: the first frame's share is then 6 %.
   static constexpr int settling_periods = 8;
+  static constexpr int grain = 1;
 
   Taau(int width, int height) : width_(width), height_(height) {}
 

@@ -13,13 +13,14 @@
 
 namespace zoneplate::upscale {
 
-/// Requests jittered frames, and accumulates them in a `Core`, as Taau.
+/// Requests jittered frames, and accumulates them in a `Core`, as Taau. `Core::grain` is the number of pixels of its
+/// history per output pixel, along one axis.
 template <class Core>
 class TaauMethod : public Resolver {
  public:
   /// `name` is for messages.
   TaauMethod(std::string_view name, double scale, double bias)
-      : name_(name), scale_(scale), bias_(bias), jitter_(halton_sequence(phases(scale))) {}
+      : name_(name), scale_(scale), bias_(bias), jitter_(halton_sequence(phases(Core::grain * scale))) {}
 
   bool has_history() const override { return true; }
   Request request(const FrameContext& context) override {
@@ -51,7 +52,7 @@ class TaauMethod : public Resolver {
   }
 
  private:
-  /// 8 samples per output pixel.
+  /// 8 samples per pixel of the history.
   static int phases(double scale) { return std::max(static_cast<int>(8 * scale * scale), 1); }
 
   std::string_view name_;

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace zoneplate::upscale {
+namespace zoneplate::network {
 
 /// A frame's features or activations, by row, column and channel: whole numbers, with a border of one pixel that
 /// repeats the outermost ones.
@@ -32,7 +32,7 @@ struct Activations {
 struct NetworkFrame {
   Activations features;
 
-  NetworkFrame(int width, int height);
+  NetworkFrame(int width, int height, int features);
 
  private:
   friend class Network;
@@ -47,40 +47,37 @@ struct Convolution {
   std::vector<std::int16_t> weights;  ///< by row, pair of a row's inputs, output and input
 };
 
-/// The network of `learned`: from features of a frame's pixels to corrections of its output pixels.
+/// The numbers that a network reads of each pixel of a frame, and those that it says of it.
+struct NetworkForm {
+  int features, outputs;
+};
+
+/// A small network: from features of a frame's pixels, 0 to 127, to outputs of each, which are real numbers.
 ///
 /// Exact     the same bits on every instruction set: all sums are of integers, below 2^24, which floats hold exactly.
-/// Source    trained by train/; all numbers are in weights.bin.
+/// Source    trained by train/
 class Network {
  public:
-  static constexpr int features = 40;
-  static constexpr int corrections = 14;  ///< for each of four output pixels
-  /// The numbers that `correct` writes for a frame pixel, and where in them the two output pixels above and below its
-  /// sample begin.
-  static constexpr int per_pixel = 32, begins[2] = {0, 4};
   static constexpr float levels = 127;  ///< the activation that stands for 1
-  /// The number of the history's samples at which corrections of weights change half as much as without history.
-  static constexpr float count_at_rest = 4;
-
-  /// The network that the program contains.
-  static const Network& trained();
 
   /// Reads a file of weights; `name` is for messages.
   ///
+  /// Requires  features are even, and outputs a multiple of 8.
   /// Errors    ErrorKind::Input if it is not a network of this form, or its sums are not exact.
-  Network(std::span<const std::uint8_t> bytes, std::string_view name);
+  Network(std::span<const std::uint8_t> bytes, NetworkForm form, std::string_view name);
 
   /// Applies all layers but the last to the features.
   ///
   /// Requires  features are in [0, 127].
   void read(NetworkFrame& frame) const;
-  /// Applies the last layer to `count` frame pixels from (x, y) on, and writes the corrections of their output pixels
-  /// above the samples (half 0) or below (1), by pixel and correction.
-  void correct(const NetworkFrame& frame, int x, int y, int count, int half, float* out) const;
+  /// Applies the last layer to `count` pixels from (x, y) on, and writes for each the `outputs` from `first` on.
+  ///
+  /// Requires  `outputs` is a multiple of 8.
+  void write(const NetworkFrame& frame, int x, int y, int count, int first, int outputs, float* out) const;
 
  private:
   enum Layer { Wide0, Wide1, Wide2, Own, Joined, Out, layer_count };
   Convolution layers_[layer_count];
 };
 
-}  // namespace zoneplate::upscale
+}  // namespace zoneplate::network

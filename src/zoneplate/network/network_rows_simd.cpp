@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/math/lanes_simd.h"
-#include "zoneplate/upscale/learned/network_rows_lanes.h"
+#include "zoneplate/network/network_rows_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace zoneplate {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "zoneplate/upscale/learned/network_rows.h"
+#include "zoneplate/network/network_rows.h"
 
 #include "zoneplate/math/lanes.h"
-#include "zoneplate/upscale/learned/network_rows_lanes.h"
+#include "zoneplate/network/network_rows_lanes.h"
 
 namespace zoneplate {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstring>
 
-#include "zoneplate/upscale/learned/network_rows.h"
+#include "zoneplate/network/network_rows.h"
 
 /// NetworkKernels over a lane type of math/lanes.h, whose lanes are output channels. `Products` is a sum of products of
 /// integers for each lane: of pairs of weights, which lie side by side for each lane, with one pair of inputs.

@@ -6,22 +6,21 @@
 // Numbers are integers of 16 bits, of whose products an instruction adds two (pmaddwd). A sum of at most 360 products
 // of integers up to 127, with its bias, is below 2^24, so that a float holds it; the constructor checks this. The one
 // product with a scale is rounded once.
-#include "zoneplate/upscale/learned/network.h"
+#include "zoneplate/network/network.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <string>
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
-#include "zoneplate/upscale/learned/network_rows.h"
-#include "zoneplate/upscale/learned/trained.h"
+#include "zoneplate/network/network_rows.h"
 
-namespace zoneplate::upscale {
+namespace zoneplate::network {
 namespace {
 
 constexpr std::string_view signature = "ZPLEARN1";
@@ -29,10 +28,8 @@ constexpr std::string_view signature = "ZPLEARN1";
 constexpr int of_each = 6, own = 8;  ///< the activations of a pixel that the two branches make
 int halved(int size) { return (size + 1) / 2; }
 
-/// The form of each layer: inputs, outputs, side and stride.
-constexpr std::uint8_t forms[][4] = {
-    {Network::features, 16, 3, 2}, {16, 16, 3, 1}, {16, 24, 3, 1},
-    {Network::features, 8, 1, 1},  {14, 16, 3, 1}, {16, 4 * Network::corrections, 1, 1}};
+/// Inputs, outputs, side and stride of a layer.
+using LayerForm = std::array<std::uint8_t, 4>;
 
 /// Reads little-endian numbers, and throws at the end.
 class Bytes {
@@ -58,9 +55,9 @@ class Bytes {
   std::string_view name_;
 };
 
-Convolution read_layer(Bytes& file, const std::uint8_t (&form)[4]) {
+Convolution read_layer(Bytes& file, const LayerForm& form) {
   const auto found = file.take(4);
-  if (!std::equal(found.begin(), found.end(), form))
+  if (!std::ranges::equal(found, form))
     file.fail(fmt::format("a layer has {} inputs, {} outputs, side {} and stride {}, expected {}, {}, {} and {}",
                           found[0], found[1], found[2], found[3], form[0], form[1], form[2], form[3]));
   Convolution out{.inputs = form[0], .outputs = form[1], .side = form[2], .stride = form[3]};
@@ -133,12 +130,10 @@ void Activations::close() {
   std::copy_n(at(-1, height - 1), row, at(-1, height));
 }
 
-const Network& Network::trained() {
-  static const Network network(trained_weights(), "the program's own");
-  return network;
-}
-
-Network::Network(std::span<const std::uint8_t> bytes, std::string_view name) {
+Network::Network(std::span<const std::uint8_t> bytes, NetworkForm form, std::string_view name) {
+  const auto features = static_cast<std::uint8_t>(form.features), outputs = static_cast<std::uint8_t>(form.outputs);
+  const LayerForm forms[] = {{features, 16, 3, 2}, {16, 16, 3, 1}, {16, 24, 3, 1},
+                             {features, 8, 1, 1},  {14, 16, 3, 1}, {16, outputs, 1, 1}};
   Bytes file(bytes, name);
   const auto start = file.take(signature.size());
   if (!std::equal(start.begin(), start.end(), signature.begin())) file.fail("does not begin with ZPLEARN1");
@@ -147,8 +142,8 @@ Network::Network(std::span<const std::uint8_t> bytes, std::string_view name) {
   if (!file.is_empty()) file.fail("goes on after the last layer");
 }
 
-NetworkFrame::NetworkFrame(int width, int height)
-    : features(width, height, Network::features),
+NetworkFrame::NetworkFrame(int width, int height, int channels)
+    : features(width, height, channels),
       half_{{halved(width), halved(height), 16},
             {halved(width), halved(height), 16},
             {halved(width), halved(height), 24}},
@@ -176,22 +171,20 @@ void Network::read(NetworkFrame& frame) const {
   convolve(layers_[Joined], frame.joined_, frame.last_, 0);
 }
 
-void Network::correct(const NetworkFrame& frame, int x, int y, int count, int half, float* out) const {
+void Network::write(const NetworkFrame& frame, int x, int y, int count, int first, int outputs, float* out) const {
   const Convolution& layer = layers_[Out];
-  const std::ptrdiff_t first = std::ptrdiff_t{half} * (layer.outputs - per_pixel);
-  static_assert(begins[1] == 2 * corrections - (4 * corrections - per_pixel));
   const ConvolutionRow row{.input = {frame.last_.at(x, y)},
                            .inputs = layer.inputs,
-                           .outputs = per_pixel,
+                           .outputs = outputs,
                            .side = 1,
                            .stride = 1,
-                           .weights = layer.weights.data() + 2 * first,
+                           .weights = layer.weights.data() + std::ptrdiff_t{2} * first,
                            .scale = layer.scale.data() + first,
                            .bias = layer.bias.data() + first,
                            .all_outputs = layer.outputs,
                            .sums = out,
-                           .channels = per_pixel};
+                           .channels = outputs};
   NetworkKernels::of().convolve(row, static_cast<std::size_t>(count));
 }
 
-}  // namespace zoneplate::upscale
+}  // namespace zoneplate::network

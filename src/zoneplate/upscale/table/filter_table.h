@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "zoneplate/image/rgb.h"
+
+namespace zoneplate::upscale {
+
+/// Filters of 5 × 5 pixels by class of pixel, found by least squares: the class is the direction, strength and
+/// coherence of the gradient around, and a group that the caller chooses.
+///
+/// Colour    square roots of light, about as it is seen
+/// Source    Romano, Isidoro and Milanfar, RAISR: Rapid and Accurate Image Super Resolution, IEEE Trans. Computational
+///           Imaging 3(1), 2017: hashed gradients and filters by least squares. What differs: 5 × 5 pixels, 8
+///           directions, all channels, and results within the extremes of 3 × 3 pixels in place of a blend by census.
+class FilterTable {
+ public:
+  static constexpr int directions = 8, strengths = 4, coherences = 3;
+  static constexpr int classes = directions * strengths * coherences;
+  static constexpr int side = 5, taps = side * side - 1;  ///< without the middle
+
+  /// Reads a table of `groups` groups; `name` is for messages.
+  ///
+  /// Errors    ErrorKind::Input if it is not one.
+  FilterTable(std::span<const std::uint8_t> bytes, int groups, std::string_view name);
+
+  /// By tap, what the difference of a pixel to the middle one counts, for group after group the classes.
+  const float* weights() const { return weights_.data(); }
+
+ private:
+  std::vector<float> weights_;
+};
+
+/// An image as filters of a table read it: square roots of light, continued by two pixels beyond each side, and the
+/// class of each pixel.
+class TableInput {
+ public:
+  static constexpr int border = FilterTable::side / 2;
+
+  explicit TableInput(const LinearImage& image);
+
+  int width() const { return classes_.width(); }
+  int height() const { return classes_.height(); }
+  /// The class within a group of each pixel of a row.
+  const std::int32_t* classes(int y) const { return classes_.row(y).data(); }
+  /// A row of a channel, from two pixels before the first one on; rows from -2 on.
+  const float* roots(int channel, int y) const { return roots_[channel].row(y + border).data() + margin - border; }
+
+ private:
+  static constexpr int margin = border + 1;  ///< of what is stored, on the left and on the right
+
+  Plane<float> roots_[3];
+  Plane<std::int32_t> classes_;
+};
+
+/// The image that a table makes; `group` is the group of each pixel. Alpha stays.
+///
+/// Exact     the same bits for any number of threads and any instruction set; one colour stays that colour.
+LinearImage filtered(const LinearImage& image, const FilterTable& table, const Plane<std::uint8_t>& group);
+
+/// The least squares by which a table is made. Sums are of doubles, in the order of the calls and of the pixels.
+///
+/// Exact     the same bytes on every machine.
+class TableFit {
+ public:
+  explicit TableFit(int groups);
+  /// Adds the pixels of an image that is to become `truth`.
+  void add(const LinearImage& image, const Plane<std::uint8_t>& group, const LinearImage& truth);
+  /// The table as FilterTable reads it: per class a float32 scale and 24 int8 weights. A class that few pixels have had
+  /// changes little: the squares of its weights count too.
+  std::vector<std::uint8_t> bytes() const;
+
+ private:
+  static constexpr int taps = FilterTable::taps, products = taps * (taps + 1) / 2;
+  struct Sums {
+    std::array<double, products> squares{};  ///< the lower triangle, by row
+    std::array<double, taps> changes{};
+  };
+  std::vector<Sums> sums_;
+};
+
+}  // namespace zoneplate::upscale
