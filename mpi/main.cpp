@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <ctime>
 #include <optional>
 #include <string>
 #include <thread>
@@ -144,15 +145,17 @@ std::optional<PartsJob> parse_parts(MpiArgs& args, std::vector<std::string> argu
   return PartsJob{args, args.inputs, args.partition};
 }
 
-void report(const MpiArgs& args, const Ranks& ranks, const Summary& summary, const PartTimes& times) {
+void report(const MpiArgs& args, const MpiRanks& ranks, const Summary& summary, const PartTimes& times) {
   for (const std::string& warning : summary.warnings)
     if (args.verbosity != Verbosity::Quiet) say_warning(warning);
   if (args.verbosity != Verbosity::Verbose) return;
   std::string steps;
   for (const auto& [name, ms] : summary.times) steps += fmt::format(", {} {:.1f} ms", name, ms);
-  say_note(fmt::format("rank {} of {}: visibility {:.1f} ms, merge {:.1f} ms, shading {:.1f} ms, resolve {:.1f} ms{}",
-                       ranks.rank(), ranks.count(), times.visibility, times.merge, times.shading, times.resolve,
-                       steps));
+  const double processor = 1000.0 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+  say_note(fmt::format("rank {} of {}: visibility {:.1f} ms, merge {:.1f} ms, shading {:.1f} ms, resolve {:.1f} ms{}; "
+                       "processor {:.1f} ms, sent {} bytes",
+                       ranks.rank(), ranks.count(), times.visibility, times.merge, times.shading, times.resolve, steps,
+                       processor, ranks.sent_bytes()));
 }
 
 void run(MpiRanks& ranks, std::vector<std::string> arguments) {

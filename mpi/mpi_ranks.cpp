@@ -43,6 +43,7 @@ std::vector<ByteBuffer> MpiRanks::exchange(std::span<const ByteBuffer> to) {
   for (int r = 0; r < count_; ++r) {
     if (r == rank_) continue;
     const ByteBuffer& buffer = to[static_cast<std::size_t>(r)];
+    sent_bytes_ += buffer.size();
     for_pieces(buffer.size(), [&](std::size_t at, int size) {
       MPI_Isend(buffer.bytes().data() + at, size, MPI_BYTE, r, 0, MPI_COMM_WORLD, &requests.emplace_back());
     });

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "zoneplate/base/ranks/ranks.h"
@@ -19,9 +20,12 @@ class MpiRanks : public Ranks {
 
   /// The number of ranks on this machine.
   int count_on_machine() const;
+  /// The bytes that this rank has sent to others.
+  std::uint64_t sent_bytes() const { return sent_bytes_; }
 
  private:
   int rank_ = 0, count_ = 1;
+  std::uint64_t sent_bytes_ = 0;
 };
 
 }  // namespace zoneplate
