@@ -37,7 +37,7 @@ target_compile_options(zoneplate_playground_flags INTERFACE -include ${CMAKE_CUR
 add_library(zoneplate_readers STATIC ${readers})
 add_library(zoneplate_lessons STATIC ${lessons} ${figures})
 add_executable(zoneplate_playground web/playground/session.cpp web/playground/files.cpp web/file_bytes.cpp
-               web/no_system.cpp web/playground/figures.cpp web/playground/truetype.cpp)
+               web/no_system.cpp web/playground/figures.cpp web/playground/truetype.cpp web/playground/weights.cpp)
 target_link_libraries(zoneplate_playground PRIVATE zoneplate_lessons zoneplate_readers)
 # What takes time is in the library; a page that is smaller is there sooner.
 foreach(target zoneplate_readers zoneplate_lessons zoneplate_playground)

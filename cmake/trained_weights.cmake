@@ -7,4 +7,6 @@ foreach(name IN ITEMS learned learned_smaa learned_still learned_table learned_t
   string(REGEX REPLACE "(..)" "0x\\1," weights_${name} "${weights_${name}}")
 endforeach()
 configure_file(cmake/trained_weights.cpp.in ${generated}/trained_weights.cpp @ONLY)
+# Compiled alone: the page defines the function itself.
+set_source_files_properties(${generated}/trained_weights.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 list(APPEND library_sources ${generated}/trained_weights.cpp)

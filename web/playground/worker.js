@@ -30,6 +30,22 @@ async function setFont() {
   FS.writeFile(`${folder}/DejaVuSans.ttf`, new Uint8Array(await answer.arrayBuffer()));
 }
 
+/// The weights of networks and tables, where weights.cpp reads them.
+let weights;
+async function setWeights() {
+  const names = ['learned', 'learned_smaa', 'learned_still', 'learned_table', 'learned_table_still'];
+  const files = await Promise.all(names.map(async (name) => {
+    const answer = await fetch(new URL(`./weights/${name}.bin`, import.meta.url));
+    if (!answer.ok) throw new Error(`weights/${name}.bin is missing`);
+    return new Uint8Array(await answer.arrayBuffer());
+  }));
+  const { FS } = (await ready).module;
+  FS.mkdirTree('/weights');
+  files.forEach((bytes, i) => FS.writeFile(`/weights/${names[i]}.bin`, bytes));
+}
+/// Fetches them if a text names a method that needs them.
+const weightsFor = (text) => (text.includes('learned') ? (weights ??= setWeights()) : undefined);
+
 /// Calls a function of session.cpp that returns JSON.
 async function call(name, types = [], args = []) {
   const { module, session } = await ready;
@@ -98,6 +114,7 @@ const requests = {
   /// A lesson as a scene of a viewer, and its images.
   async figure(text, panel) {
     await (font ??= setFont());
+    await weightsFor(text);
     const { scene, images } = await call('draw_figure', ['string', 'number'], [text, panel]), memory = memoryOf((await ready).module);
     return { scene, images: images.map(({ at, width, height }) => ({ width, height, data: memory.slice(at, at + 4 * width * height) })) };
   },
@@ -105,6 +122,7 @@ const requests = {
   /// `options` are those of the command, [NAME, VALUE], or [NAME, ''] of a switch; `frame` is -1 for a still image.
   async render({ options, frame = -1 }) {
     const text = options.map(([name, value]) => (value === '' ? name : `${name}=${value}`)).join('\n');
+    await weightsFor(text);
     const counts = await callReading('render_frame', ['string', 'number'], [text, frame]);
     const { module, session } = await ready;
     const at = module.ccall('pixels_of', 'number', ['number'], [session]);

@@ -126,6 +126,10 @@ function copyPlayground() {
     fs.copyFileSync(path.join(threads, name), at('playground/threads', name));
   }
   fs.copyFileSync(path.join(threads, 'zoneplate_playground.worker.js'), at('playground/threads/zoneplate_playground.worker.js'));
+  const weights = path.join(root, 'src/zoneplate/network/weights');
+  fs.mkdirSync(at('playground/weights'));
+  for (const name of fs.readdirSync(weights).filter((file) => file.endsWith('.bin')))
+    fs.copyFileSync(path.join(weights, name), at('playground/weights', name));
   // The font of drawings in lessons, with its licence.
   fs.copyFileSync(font, at('playground/DejaVuSans.ttf'));
   fs.copyFileSync('/usr/share/doc/fonts-dejavu-core/copyright', at('playground/DejaVuSans.txt'));
