@@ -62,14 +62,14 @@ DisplayImage upscale_opaque(const DisplayImage& image, const UpscaleGrid& grid) 
   const Rgba8Image codes = quantize8(image), smooth_codes = antialias::apply_smaa(codes, nullptr, {});
   const LinearImage smooth = decoded(
       antialias::filter_encoded(image, antialias::Mixing::Linear, [&](const Rgba8Image&) { return smooth_codes; }));
-  const antialias::StillCorrections corrections(codes, smooth_codes, grid.x, grid.y, network::Trained::Still, outputs);
   const Crop made = grid.made();
   const NearestPixels columns(made.x, made.width, grid.to.width, grid.width),
       rows(made.y, made.height, grid.to.height, grid.height);
   DisplayImage out(made.width, made.height);
-  antialias::for_rows(made.height, [&](int o) {
+  const auto row_of = [&](int o) { return rows.places[static_cast<std::size_t>(o)].pixel - grid.y; };
+  const auto make_row = [&](const antialias::StillCorrections& corrections, int o) {
     const NearestPixels::Place& down = rows.places[static_cast<std::size_t>(o)];
-    const int y = down.pixel - grid.y;
+    const int y = row_of(o);
     std::vector<float> of_row(static_cast<std::size_t>(image.width()) * outputs);
     corrections.write_row(y, of_row.data());
     for (int p = 0; p < made.width; ++p) {
@@ -93,7 +93,14 @@ DisplayImage upscale_opaque(const DisplayImage& image, const UpscaleGrid& grid) 
       const Linear light = total > 1e-3f ? sum * (1 / total) : smooth(x, y);
       out(p, o) = {encode_srgb(light.r), encode_srgb(light.g), encode_srgb(light.b), 1};
     }
-  });
+  };
+  for (int o = 0; o < made.height;) {
+    const int first = row_of(o), begin = o;
+    while (o < made.height && row_of(o) < first + antialias::StillCorrections::band) ++o;
+    const antialias::StillCorrections corrections(codes, smooth_codes, grid.x, grid.y, first, network::Trained::Still,
+                                                  outputs);
+    antialias::for_rows(o - begin, [&](int i) { make_row(corrections, begin + i); });
+  }
   return out;
 }
 

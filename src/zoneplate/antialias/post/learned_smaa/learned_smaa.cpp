@@ -52,15 +52,19 @@ class LearnedSmaa : public Resolver {
 
 Rgba8Image apply_learned_smaa(const Rgba8Image& image, int x, int y) {
   if (image.empty()) return image;
-  Rgba8Image out = apply_smaa(image, nullptr, SmaaOptions{});
-  const StillCorrections corrections(image, out, x, y, network::Trained::Smaa, outputs);
-  for_rows(image.height(), [&](int row) {
-    std::vector<float> weights(static_cast<std::size_t>(image.width()) * outputs);
-    corrections.write_row(row, weights.data());
-    for (int column = 0; column < image.width(); ++column)
-      out(column, row) =
-          corrected(image, column, row, out(column, row), weights.data() + std::ptrdiff_t{outputs} * column);
-  });
+  const Rgba8Image smooth = apply_smaa(image, nullptr, SmaaOptions{});
+  Rgba8Image out(image.width(), image.height());
+  for (int first = 0; first < image.height(); first += StillCorrections::band) {
+    const StillCorrections corrections(image, smooth, x, y, first, network::Trained::Smaa, outputs);
+    for_rows(std::min(StillCorrections::band, image.height() - first), [&](int i) {
+      const int row = first + i;
+      std::vector<float> weights(static_cast<std::size_t>(image.width()) * outputs);
+      corrections.write_row(row, weights.data());
+      for (int column = 0; column < image.width(); ++column)
+        out(column, row) =
+            corrected(image, column, row, smooth(column, row), weights.data() + std::ptrdiff_t{outputs} * column);
+    });
+  }
   return out;
 }
 

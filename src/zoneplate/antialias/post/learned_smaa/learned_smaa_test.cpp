@@ -41,6 +41,18 @@ TEST(LearnedSmaa, APartHasTheBitsOfTheWhole) {
   }
 }
 
+// Rows are made in bands, which another origin moves.
+TEST(LearnedSmaa, BandsLeaveNoTrace) {
+  constexpr int cut = 200;
+  const Rgba8Image image = random_shapes(40, 3 * StillCorrections::band, 4), whole = apply_learned_smaa(image);
+  Rgba8Image part(image.width(), image.height() - cut);
+  for (int y = 0; y < part.height(); ++y)
+    for (int x = 0; x < part.width(); ++x) part(x, y) = image(x, cut + y);
+  const Rgba8Image out = apply_learned_smaa(part, 0, cut);
+  for (int y = learned_smaa_radius(); y < part.height(); ++y)
+    for (int x = 0; x < part.width(); ++x) ASSERT_EQ(out(x, y), whole(x, cut + y)) << x << ',' << y;
+}
+
 /// Discs and bars of random colours.
 class Shapes {
  public:

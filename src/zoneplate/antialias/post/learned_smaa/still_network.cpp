@@ -27,22 +27,22 @@ void luma_row(const Rgba8Image& image, int y, std::vector<int>& out) {
 
 }  // namespace
 
-StillCorrections::StillCorrections(const Rgba8Image& image, const Rgba8Image& smooth, int x, int y,
+StillCorrections::StillCorrections(const Rgba8Image& image, const Rgba8Image& smooth, int x, int y, int first,
                                    network::Trained network, int outputs)
     : network_(network::trained_weights(network), {features, outputs}, "the program's own"),
       outputs_(outputs),
       width_(image.width()),
-      height_(image.height()),
+      begin_(std::max(first - radius, 0)),
       left_(x % 2),
-      top_(y % 2),
-      frame_(width_ + left_, height_ + top_, features) {
+      top_((y + begin_) % 2),
+      frame_(width_ + left_, std::min(first + band + radius, image.height()) - begin_ + top_, features) {
   describe(image, smooth);
   network_.read(frame_);
 }
 
 void StillCorrections::describe(const Rgba8Image& image, const Rgba8Image& smooth) {
   for_rows(frame_.features.height, [&](int at) {
-    const int y = std::max(at - top_, 0);
+    const int y = begin_ + std::max(at - top_, 0);
     const auto size = static_cast<std::size_t>(width_) + 2;
     std::vector<int> rows[3] = {std::vector<int>(size), std::vector<int>(size), std::vector<int>(size)};
     for (int k = 0; k < 3; ++k) luma_row(image, y + k - 1, rows[k]);
@@ -66,7 +66,7 @@ void StillCorrections::describe(const Rgba8Image& image, const Rgba8Image& smoot
 }
 
 void StillCorrections::write_row(int y, float* out) const {
-  network_.write(frame_, left_, y + top_, width_, 0, outputs_, out);
+  network_.write(frame_, left_, y - begin_ + top_, width_, 0, outputs_, out);
 }
 
 }  // namespace zoneplate::antialias

@@ -19,19 +19,26 @@ class StillCorrections {
   /// How many pixels away corrections depend on the images.
   static constexpr int radius = 10;
 
-  /// `smooth` is the image after SMAA. Both are a part of an image from its pixel (x, y) on.
-  StillCorrections(const Rgba8Image& image, const Rgba8Image& smooth, int x, int y, network::Trained network,
+  /// Rows of an image whose corrections are in memory at once: some 100 bytes per pixel.
+  static constexpr int band = 256;
+
+  /// Of the `band` rows from `first` on. `smooth` is the image after SMAA; both are a part of an image from its pixel
+  /// (x, y) on.
+  StillCorrections(const Rgba8Image& image, const Rgba8Image& smooth, int x, int y, int first, network::Trained network,
                    int outputs);
 
   /// Writes the outputs of all pixels of row y, by pixel and output.
+  ///
+  /// Requires  the row is one of the band's.
   void write_row(int y, float* out) const;
 
  private:
   void describe(const Rgba8Image& image, const Rgba8Image& smooth);
 
   network::Network network_;
-  int outputs_, width_, height_;
-  int left_, top_;  ///< 1 where the part begins at an odd pixel, since the network halves the whole image
+  int outputs_, width_;
+  int begin_;       ///< the first row that the network reads
+  int left_, top_;  ///< 1 where it begins at an odd pixel, since the network halves the whole image
   network::NetworkFrame frame_;
 };
 
