@@ -2,9 +2,10 @@
 # The fuzz targets of libFuzzer, fuzz_<format>, and the program that writes their seeds. They need clang.
 #
 # They take in the readers alone, and no child process, which would hide from the sanitizers (fuzz/child_seam.cpp).
-set(fuzzed_rooms base os math image signal sdf codec scene formats)
+set(fuzzed_rooms base os math image signal sdf codec scene formats network upscale/table)
 sources_of(fuzzed_sources ${fuzzed_rooms})
-list(REMOVE_ITEM fuzzed_sources src/zoneplate/formats/gltf/draco.cpp src/zoneplate/os/limited_child.cpp)
+list(REMOVE_ITEM fuzzed_sources src/zoneplate/formats/gltf/draco.cpp src/zoneplate/os/limited_child.cpp
+                           src/zoneplate/upscale/table/learned_table.cpp)
 list(APPEND fuzzed_sources ${generated}/builtin_makers_table.cpp)
 list(TRANSFORM fuzzed_rooms REPLACE "(.+)" "src/zoneplate/\\1/*_simd.cpp" OUTPUT_VARIABLE fuzzed_kernels)
 file(GLOB_RECURSE fuzzed_simd_sources RELATIVE ${CMAKE_CURRENT_SOURCE_DIR} CONFIGURE_DEPENDS ${fuzzed_kernels})
@@ -43,8 +44,7 @@ add_executable(fuzz_item fuzz/item_fuzz.cpp src/zoneplate/process/item_messages.
                src/zoneplate/process/percents.cpp)
 target_link_libraries(fuzz_item PRIVATE zoneplate_fuzzed)
 target_link_options(fuzz_item PRIVATE -fsanitize=fuzzer)
-add_executable(fuzz_weights fuzz/weights_fuzz.cpp src/zoneplate/network/network.cpp src/zoneplate/network/network_rows.cpp
-               src/zoneplate/upscale/table/filter_table.cpp src/zoneplate/upscale/table/table_rows.cpp)
+add_executable(fuzz_weights fuzz/weights_fuzz.cpp)
 target_link_libraries(fuzz_weights PRIVATE zoneplate_fuzzed)
 target_link_options(fuzz_weights PRIVATE -fsanitize=fuzzer)
 add_executable(fuzz_seeds fuzz/seeds.cpp)

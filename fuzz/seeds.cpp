@@ -281,6 +281,23 @@ void write_shapes(const std::string& root) {
           {"stroke":"\u0023fff","width":2.5,"shape":{"shrink":[1,{"regular-polygon":[9,9,8,5]}]}}]})"));
 }
 
+/// A network and a table whose weights are small, of the forms that weights_fuzz.cpp reads.
+void write_weights(const std::string& root) {
+  Bytes network = bytes_of("ZPLEARN1");
+  constexpr int forms[][4] = {{12, 16, 3, 2}, {16, 16, 3, 1}, {16, 24, 3, 1},
+                              {12, 8, 1, 1},  {14, 16, 3, 1}, {16, 16, 1, 1}};
+  for (const auto& [inputs, outputs, side, stride] : forms) {
+    for (const int number : {inputs, outputs, side, stride}) network.push_back(static_cast<std::uint8_t>(number));
+    for (int o = 0; o < outputs; ++o) network.insert(network.end(), {0, 0, 0x80, 0x3b});  // 1 / 256
+    network.resize(network.size() + 4 * static_cast<std::size_t>(outputs));
+    for (int k = 0; k < outputs * side * side * inputs; ++k) network.push_back(static_cast<std::uint8_t>(k % 5));
+  }
+  write(root + "/weights", "network", network);
+  Bytes table = bytes_of("ZPTABLE1");
+  table.resize(table.size() + std::size_t{2} * 96 * 28, 1);
+  write(root + "/weights", "table", table);
+}
+
 /// Packages of few bytes, stored, so that a fuzzer reaches their XML; and AMF.
 void write_printed(const std::string& root) {
   using namespace maker_3mf;
@@ -357,4 +374,5 @@ int main(int, char** argv) {
   write_answers(root);
   write_manifests(root);
   write_shapes(root);
+  write_weights(root);
 }

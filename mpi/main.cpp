@@ -152,10 +152,11 @@ void report(const MpiArgs& args, const MpiRanks& ranks, const Summary& summary, 
   std::string steps;
   for (const auto& [name, ms] : summary.times) steps += fmt::format(", {} {:.1f} ms", name, ms);
   const double processor = 1000.0 * static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
-  say_note(fmt::format("rank {} of {}: visibility {:.1f} ms, merge {:.1f} ms, shading {:.1f} ms, resolve {:.1f} ms{}; "
-                       "processor {:.1f} ms, sent {} bytes",
-                       ranks.rank(), ranks.count(), times.visibility, times.merge, times.shading, times.resolve, steps,
-                       processor, ranks.sent_bytes()));
+  say_note(
+      fmt::format("rank {} of {}: visibility {:.1f} ms, merge {:.1f} ms, shading {:.1f} ms, resolve {:.1f} ms{}; "
+                  "processor {:.1f} ms, sent {} bytes",
+                  ranks.rank(), ranks.count(), times.visibility, times.merge, times.shading, times.resolve, steps,
+                  processor, ranks.sent_bytes()));
 }
 
 void run(MpiRanks& ranks, std::vector<std::string> arguments) {
