@@ -368,11 +368,11 @@ int main(int, char** argv) {
   write(root + "/ply", "big.ply", binary_ply(true));
   write(root + "/stl", "ascii.stl", bytes_of(ascii_stl));
   write(root + "/stl", "binary.stl", binary_stl());
+  write_weights(root);
   write_printed(root);
   write_images(root);
   write_light(root);
   write_answers(root);
   write_manifests(root);
   write_shapes(root);
-  write_weights(root);
 }
