@@ -100,7 +100,8 @@ TEST(FilterTable, ItsBytesAreTheSameOnEveryInstructionSet) {
 
 TEST(FilterTable, SameBitsOnEveryInstructionSetAndThreadCount) {
   const FilterTable table(blurring_table(), 2, "test");
-  for (const auto& [w, h] : {std::pair(67, 41), std::pair(1, 1), std::pair(2, 9)}) {
+  for (const auto& size : {std::pair(67, 41), std::pair(1, 1), std::pair(2, 9)}) {
+    const int w = size.first, h = size.second;
     const LinearImage image = noise(w, h, 3);
     const LinearImage expected = with_isa(Isa::Scalar, [&] { return filtered(image, table, halves(w, h)); });
     for (const Isa isa : supported_isas())
