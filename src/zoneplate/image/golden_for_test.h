@@ -59,8 +59,8 @@ void expect_golden(std::string name, const Image& image, std::uint64_t hash) {
   const std::uint64_t found = hash_of(image);
   const char* const all = std::getenv("ZONEPLATE_GOLDENS");
   if (found == hash && all == nullptr) return;
-  std::ranges::replace_if(
-      name, [](char c) { return std::string(" /:,=").find(c) != std::string::npos; }, '-');
+  for (char& c : name)
+    if (std::string(" /:,=").find(c) != std::string::npos) c = '-';
   const std::filesystem::path folder = all == nullptr ? "goldens" : all, place = folder / (name + ending_of(image));
   std::filesystem::create_directories(folder);
   std::ofstream file(place, std::ios::binary);
