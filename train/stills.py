@@ -23,6 +23,7 @@ import torch.nn.functional as F
 
 import chart
 from gltf import png
+from mean import around
 from network import LEVELS, InwardClamp, Network
 from scenes import make_scene
 from solids import make_shapes, make_solids
@@ -140,12 +141,6 @@ def decode(codes):
 
 def encode(x):
     return torch.where(x <= 0.0031308, 12.92 * x, 1.055 * x.clamp(min=1e-8)**(1 / 2.4) - 0.055)
-
-
-def around(x):
-    """The 3 x 3 pixels around each: (batch, channels, 9, height, width)."""
-    b, c, h, w = x.shape
-    return F.unfold(F.pad(x, (1, 1, 1, 1), mode="replicate"), 3).view(b, c, 9, h, w)
 
 
 def features(image, smooth):
@@ -275,9 +270,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--program", default="./zoneplate")
     parser.add_argument("-o", "--output", default="out/stills")
-    parser.add_argument("--scenes", type=int, default=1000)
+    parser.add_argument("--scenes", type=int, default=1600)
     parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--steps", type=int, default=4000)
+    parser.add_argument("--steps", type=int, default=5000)
     parser.add_argument("--batch", type=int, default=12)
     parser.add_argument("--crop", type=lambda text: tuple(map(int, text.split("x"))), default=(96, 64))
     parser.add_argument("--rate", type=float, default=3e-3)

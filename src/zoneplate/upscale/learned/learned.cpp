@@ -10,6 +10,8 @@
 // renderers. Weaknesses: it is trained for scale 2 alone, on generated scenes without transparent surfaces, shadows and
 // reflections (train/README.md).
 //
+// At scale 1 the image is the mean of 2 × 2 pixels of one of twice the size.
+//
 // A crop renders the whole image, since motion may bring any pixel into it.
 //
 // Source: the kernels that networks predict are of Bako et al., Kernel-Predicting Convolutional Networks for Denoising
@@ -78,7 +80,7 @@ class LearnedMethod : public TaauMethod<Core> {
 
 Upscaler learned() {
   return {.name = "learned",
-          .summary = "taau, whose weights a small network corrects per pixel; scale 2",
+          .summary = "taau, whose weights a small network corrects per pixel; scale 1 or 2",
           .source = "Zoneplate, train/",
           .params = params,
           .make_temporal = [](const Settings& s) -> std::unique_ptr<Resolver> {

@@ -64,10 +64,10 @@ LinearImage blurred(const LinearImage& image, bool is_across) {
   return out;
 }
 
-/// A table that blurs group 0 across and group 1 downwards.
-std::vector<std::uint8_t> blurring_table() {
+/// A table that blurs group 0 across and group 1 downwards, the more exactly, the more images it is made of.
+std::vector<std::uint8_t> blurring_table(std::uint32_t images = 6) {
   TableFit fit(2);
-  for (std::uint32_t seed = 0; seed < 6; ++seed) {
+  for (std::uint32_t seed = 0; seed < images; ++seed) {
     const LinearImage image = noise(90, 70, 100 * seed);
     fit.add(image, Plane<std::uint8_t>(90, 70, std::uint8_t{0}), blurred(image, true));
     fit.add(image, Plane<std::uint8_t>(90, 70, std::uint8_t{1}), blurred(image, false));
@@ -76,7 +76,7 @@ std::vector<std::uint8_t> blurring_table() {
 }
 
 TEST(FilterTable, LeastSquaresFindTheFilterOfEachGroup) {
-  const FilterTable table(blurring_table(), 2, "test");
+  const FilterTable table(blurring_table(150), 2, "test");
   const LinearImage image = noise(80, 60, 7777), out = filtered(image, table, halves(80, 60));
   const LinearImage across = blurred(image, true), down = blurred(image, false);
   double error = 0, before = 0;
@@ -90,12 +90,12 @@ TEST(FilterTable, LeastSquaresFindTheFilterOfEachGroup) {
 }
 
 TEST(FilterTable, ItsBytesAreTheSameOnEveryInstructionSet) {
-  const std::vector<std::uint8_t> expected = with_isa(Isa::Scalar, blurring_table);
+  const std::vector<std::uint8_t> expected = with_isa(Isa::Scalar, [] { return blurring_table(); });
   for (const Isa isa : supported_isas())
     with_isa(isa, [&] { with_threads(3, [&] { EXPECT_EQ(blurring_table(), expected) << name_of(isa); }); });
   Rgba8Image pixels(static_cast<int>(expected.size() / sizeof(Rgba8)), 1);
   std::memcpy(pixels.values().data(), expected.data(), pixels.values().size_bytes());
-  EXPECT_EQ(hash_of(pixels), 0x5b1a17b0b7f13af2u);
+  EXPECT_EQ(hash_of(pixels), 0xe1715aa4c771a586u);
 }
 
 TEST(FilterTable, SameBitsOnEveryInstructionSetAndThreadCount) {

@@ -9,8 +9,9 @@ namespace zoneplate::upscale {
 
 /// The groups of `learned-table`: by the number of samples that a pixel of SampleMean rests on.
 struct CountGroups {
-  static constexpr float bounds[] = {0.6f, 1.2f, 2, 3.2f, 8};
-  static constexpr int groups = 6;
+  /// All of them are reached often in films of 24 frames, of which the table is made.
+  static constexpr float bounds[] = {0.6f, 1.2f, 2, 3.2f};
+  static constexpr int groups = 5;
 
   static Plane<std::uint8_t> of(const Plane<float>& counts);
 };
