@@ -13,6 +13,7 @@
 #include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/antialias/post/learned_smaa/learned_smaa.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/network/trained.h"
 #include "zoneplate/upscale/alpha.h"
 #include "zoneplate/upscale/upscaler.h"
 
@@ -22,6 +23,12 @@ namespace {
 constexpr int outputs = 40, taps = 9;  ///< nine weights for each of four output pixels, and four that do not count
 constexpr float greatest = 4;
 constexpr Param params[] = {real_param(scale_param.name, scale_param.meaning, 2, scale_param.low, scale_param.high)};
+
+const network::Network& trained() {
+  static const network::Network network(network::trained_weights(network::Trained::Still),
+                                        {antialias::StillCorrections::features, outputs}, "the program's own");
+  return network;
+}
 
 /// The nearest input pixel of each output pixel along one axis, on which side of its centre it is, and the weights of
 /// that pixel and its neighbours in linear interpolation.
@@ -97,8 +104,7 @@ DisplayImage upscale_opaque(const DisplayImage& image, const UpscaleGrid& grid) 
   for (int o = 0; o < made.height;) {
     const int first = row_of(o), begin = o;
     while (o < made.height && row_of(o) < first + antialias::StillCorrections::band) ++o;
-    const antialias::StillCorrections corrections(codes, smooth_codes, grid.x, grid.y, first, network::Trained::Still,
-                                                  outputs);
+    const antialias::StillCorrections corrections(codes, smooth_codes, grid.x, grid.y, first, trained(), outputs);
     antialias::for_rows(o - begin, [&](int i) { make_row(corrections, begin + i); });
   }
   return out;

@@ -16,12 +16,19 @@
 
 #include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/antialias/post/post_process.h"
+#include "zoneplate/network/trained.h"
 
 namespace zoneplate::antialias {
 namespace {
 
 constexpr int outputs = 16, taps = 9;  ///< of the outputs the first nine are weights
 constexpr float greatest = 4;
+
+const network::Network& trained() {
+  static const network::Network network(network::trained_weights(network::Trained::Smaa),
+                                        {StillCorrections::features, outputs}, "the program's own");
+  return network;
+}
 
 /// The mean of a pixel of SMAA and 3 × 3 pixels of the image, with weights.
 Rgba8 corrected(const Rgba8Image& image, int x, int y, Rgba8 smooth, const float* weights) {
@@ -55,7 +62,7 @@ Rgba8Image apply_learned_smaa(const Rgba8Image& image, int x, int y) {
   const Rgba8Image smooth = apply_smaa(image, nullptr, SmaaOptions{});
   Rgba8Image out(image.width(), image.height());
   for (int first = 0; first < image.height(); first += StillCorrections::band) {
-    const StillCorrections corrections(image, smooth, x, y, first, network::Trained::Smaa, outputs);
+    const StillCorrections corrections(image, smooth, x, y, first, trained(), outputs);
     for_rows(std::min(StillCorrections::band, image.height() - first), [&](int i) {
       const int row = first + i;
       std::vector<float> weights(static_cast<std::size_t>(image.width()) * outputs);

@@ -28,8 +28,8 @@ void luma_row(const Rgba8Image& image, int y, std::vector<int>& out) {
 }  // namespace
 
 StillCorrections::StillCorrections(const Rgba8Image& image, const Rgba8Image& smooth, int x, int y, int first,
-                                   network::Trained network, int outputs)
-    : network_(network::trained_weights(network), {features, outputs}, "the program's own"),
+                                   const network::Network& network, int outputs)
+    : network_(network),
       outputs_(outputs),
       width_(image.width()),
       begin_(std::max(first - radius, 0)),

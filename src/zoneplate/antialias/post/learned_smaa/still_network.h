@@ -3,7 +3,6 @@
 
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/network/network.h"
-#include "zoneplate/network/trained.h"
 
 namespace zoneplate::antialias {
 
@@ -24,8 +23,8 @@ class StillCorrections {
 
   /// Of the `band` rows from `first` on. `smooth` is the image after SMAA; both are a part of an image from its pixel
   /// (x, y) on.
-  StillCorrections(const Rgba8Image& image, const Rgba8Image& smooth, int x, int y, int first, network::Trained network,
-                   int outputs);
+  StillCorrections(const Rgba8Image& image, const Rgba8Image& smooth, int x, int y, int first,
+                   const network::Network& network, int outputs);
 
   /// Writes the outputs of all pixels of row y, by pixel and output.
   ///
@@ -35,7 +34,7 @@ class StillCorrections {
  private:
   void describe(const Rgba8Image& image, const Rgba8Image& smooth);
 
-  network::Network network_;
+  const network::Network& network_;
   int outputs_, width_;
   int begin_;       ///< the first row that the network reads
   int left_, top_;  ///< 1 where it begins at an odd pixel, since the network halves the whole image
