@@ -8,13 +8,13 @@
 namespace zoneplate {
 namespace {
 
-const long double pi_l = std::acos(-1.0L);
+const long double long_pi = std::acos(-1.0L);
 
 TEST(Functions, SinAndCosAgreeWithLongDouble) {
   for (int i = -4000; i <= 4000; ++i) {
     const double x = i * 0.001237;
-    EXPECT_NEAR(sin_pi(x), static_cast<double>(std::sin(pi_l * x)), 3e-16) << x;
-    EXPECT_NEAR(cos_pi(x), static_cast<double>(std::cos(pi_l * x)), 3e-16) << x;
+    EXPECT_NEAR(sin_pi(x), static_cast<double>(std::sin(long_pi * x)), 3e-16) << x;
+    EXPECT_NEAR(cos_pi(x), static_cast<double>(std::cos(long_pi * x)), 3e-16) << x;
     EXPECT_EQ(sin_pi(-x), -sin_pi(x));
     EXPECT_EQ(cos_pi(-x), cos_pi(x));
   }
@@ -30,7 +30,7 @@ TEST(Functions, UnitRootsAgreeWithLongDoubleAndAreExactAtTheAxes) {
   for (std::uint64_t n : {1u, 2u, 3u, 4u, 7u, 8u, 12u, 97u, 1000u, 4096u})
     for (std::uint64_t k = 0; k < n; ++k) {
       const SineCosine w = unit_root(k, n);
-      const long double a = 2 * pi_l * static_cast<long double>(k) / static_cast<long double>(n);
+      const long double a = 2 * long_pi * static_cast<long double>(k) / static_cast<long double>(n);
       EXPECT_NEAR(w.cosine, static_cast<double>(std::cos(a)), 2.3e-16);
       EXPECT_NEAR(w.sine, static_cast<double>(std::sin(a)), 2.3e-16);
     }

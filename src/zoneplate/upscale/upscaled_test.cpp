@@ -17,7 +17,7 @@
 namespace zoneplate::upscale {
 namespace {
 
-constexpr int width = 161, height = 121;  // no multiple of any scale
+constexpr int odd_width = 161, odd_height = 121;  // no multiple of any scale
 
 PreparedScene prepared(const std::string& name) {
   Scene scene = *make_builtin_scene(name);
@@ -27,7 +27,7 @@ PreparedScene prepared(const std::string& name) {
 
 Camera camera_of(const PreparedScene& prepared) {
   const Scene& scene = prepared.scene();
-  return scene.cameras.empty() ? fit_camera(scene, static_cast<float>(width) / height, {}) : scene.cameras[0];
+  return scene.cameras.empty() ? fit_camera(scene, static_cast<float>(odd_width) / odd_height, {}) : scene.cameras[0];
 }
 
 RenderedImage rendered(const PreparedScene& scene, std::string_view method, const RenderSettings& settings) {
@@ -35,7 +35,7 @@ RenderedImage rendered(const PreparedScene& scene, std::string_view method, cons
 }
 
 RenderSettings settings_with(std::optional<Crop> crop, Planes planes = {}) {
-  return {.options = {.width = width, .height = height, .crop = crop}, .planes = planes};
+  return {.options = {.width = odd_width, .height = odd_height, .crop = crop}, .planes = planes};
 }
 
 TEST(Upscaled, ACropHasTheBitsOfTheWholeImage) {
@@ -43,8 +43,8 @@ TEST(Upscaled, ACropHasTheBitsOfTheWholeImage) {
   for (const char* method : {"smaa+fsr1:scale=2", "msaa:n=4+bicubic", "fxaa+lanczos:scale=1.7", "bilinear:scale=3",
                              "smaa+fsr1:scale=1.3,sharpen=none", "none+nis:scale=2", "none+sgsr1"}) {
     const Rgba8Image whole = rendered(scene, method, settings_with({})).display;
-    ASSERT_EQ(whole.width(), width) << method;
-    ASSERT_EQ(whole.height(), height) << method;
+    ASSERT_EQ(whole.width(), odd_width) << method;
+    ASSERT_EQ(whole.height(), odd_height) << method;
     for (const Crop& crop : {Crop{0, 0, 33, 21}, Crop{60, 40, 50, 31}, Crop{140, 100, 21, 21}}) {
       const Rgba8Image part = rendered(scene, method, settings_with(crop)).display;
       ASSERT_EQ(part.width(), crop.width) << method;
@@ -74,8 +74,8 @@ TEST(Upscaled, SurfacesStayInPlace) {
   const auto error = [&](int shift) {
     const Rgba8Image image = rendered(scene, "ssaa:n=4+bilinear:scale=1.5", settings_with({})).display;
     double sum = 0;
-    for (int y = 0; y < height; ++y)
-      for (int x = 1; x < width - 1; ++x) sum += std::abs(int{image(x + shift, y).g} - int{direct(x, y).g});
+    for (int y = 0; y < odd_height; ++y)
+      for (int x = 1; x < odd_width - 1; ++x) sum += std::abs(int{image(x + shift, y).g} - int{direct(x, y).g});
     return sum;
   };
   EXPECT_LT(1.8 * error(0), error(1));
@@ -107,7 +107,7 @@ TEST(Upscaled, TexturesAreFilteredForThePixelsOfTheImage) {
   Plane<float> levels;
   Renderer(scene, std::make_unique<Levels>(make_method("bilinear:scale=2"), levels))
       .render(camera_of(scene), settings_with({}));
-  ASSERT_EQ(levels.width(), width / 2);
+  ASSERT_EQ(levels.width(), odd_width / 2);
   EXPECT_NEAR(levels(40, 50), whole.mip_level(81, 101), 0.1f);
 }
 

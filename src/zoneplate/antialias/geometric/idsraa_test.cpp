@@ -11,13 +11,13 @@
 namespace zoneplate::antialias {
 namespace {
 
-LinearImage shot(const char* name, const char* method) { return antialias::shot(*make_builtin_scene(name), method); }
+LinearImage shot_by(const char* name, const char* method) { return antialias::shot(*make_builtin_scene(name), method); }
 
 TEST(IdSraa, WithOneColourATriangleItIsMultisampling) {
   for (const char* name : {"triangles", "cyclic"})
     for (const auto& [own, multi] :
          {std::pair{"idsraa:n=4", "msaa:n=4"}, {"idsraa", "msaa:n=8"}, {"idsraa:n=16", "msaa:n=16"}}) {
-      const LinearImage a = shot(name, own), b = shot(name, multi);
+      const LinearImage a = shot_by(name, own), b = shot_by(name, multi);
       int differing = 0, partial = 0;
       for (std::size_t i = 0; i < a.values().size(); ++i) {
         const Linear p = a.values()[i], q = b.values()[i];
@@ -59,8 +59,8 @@ TEST(IdSraa, PicturesWithinASurfaceKeepTheirBits) {
 
 TEST(IdSraa, ThreadsLeaveNoTrace) {
   LinearImage one, many;
-  with_threads(1, [&] { one = shot("cyclic", "idsraa"); });
-  with_threads(5, [&] { many = shot("cyclic", "idsraa"); });
+  with_threads(1, [&] { one = shot_by("cyclic", "idsraa"); });
+  with_threads(5, [&] { many = shot_by("cyclic", "idsraa"); });
   EXPECT_EQ(one, many);
 }
 

@@ -12,7 +12,7 @@ namespace zoneplate::antialias {
 namespace {
 
 using antialias::shot;
-LinearImage shot(const char* name, const std::string& method) { return shot(*make_builtin_scene(name), method); }
+LinearImage shot_of(const char* name, const std::string& method) { return shot(*make_builtin_scene(name), method); }
 
 std::uint64_t shaded(const Scene& scene, const char* method) {
   RenderCounts counts;
@@ -20,7 +20,7 @@ std::uint64_t shaded(const Scene& scene, const char* method) {
   return counts.shaded;
 }
 
-double max_difference(const LinearImage& a, const LinearImage& b) {
+double max_channel_difference(const LinearImage& a, const LinearImage& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.values().size(); ++i) {
     const Linear p = a.values()[i], q = b.values()[i];
@@ -43,7 +43,8 @@ Scene veil(float alpha) {
 TEST(Ssaa, ABoxOverThePixelIsThePlainMean) {
   // 64 samples in four rounds: their footprint is that of all samples together.
   for (const char* scene : {"cyclic", "checkerboard"})
-    EXPECT_LT(max_difference(shot(scene, "ssaa:n=8"), shot(scene, "ssaa:n=8,filter=box,radius=0.5")), 2e-6);
+    EXPECT_LT(max_channel_difference(shot_of(scene, "ssaa:n=8"), shot_of(scene, "ssaa:n=8,filter=box,radius=0.5")),
+              2e-6);
   const Scene scene = *make_builtin_scene("cyclic");
   EXPECT_EQ(shaded(scene, "ssaa:n=8"), shaded(scene, "ssaa:n=8,filter=tent"));
 }
@@ -80,9 +81,9 @@ TEST(Adaptive, WhereNothingDisagreesOneRoundIsEnough) {
 }
 
 TEST(Csaa, WithASlotForEachSurfaceItIsMultisampling) {
-  EXPECT_LT(max_difference(shot("cyclic", "csaa:n=8,slots=8"), shot("cyclic", "msaa:n=8")), 1e-6);
+  EXPECT_LT(max_channel_difference(shot_of("cyclic", "csaa:n=8,slots=8"), shot_of("cyclic", "msaa:n=8")), 1e-6);
   // With two slots, only pixels of three or more surfaces differ.
-  const LinearImage two = shot("cyclic", "csaa:n=8,slots=2"), all = shot("cyclic", "msaa:n=8");
+  const LinearImage two = shot_of("cyclic", "csaa:n=8,slots=2"), all = shot_of("cyclic", "msaa:n=8");
   int differing = 0;
   for (std::size_t i = 0; i < all.values().size(); ++i)
     differing += std::abs(all.values()[i].g - two.values()[i].g) > 1e-5f;
@@ -114,19 +115,19 @@ TEST(Msaa, APlaneLooksTheSameHoweverManyTrianglesItIsMadeOf) {
   // the image are 1e-3.
   for (const char* n : {"4", "8"}) {
     const std::string mean = std::string("msaa:n=") + n, first = mean + ",centroid=first";
-    EXPECT_LT(max_difference(shot(slope_of(4), mean), shot(slope_of(40), mean)), 5e-6) << n;
-    EXPECT_GT(max_difference(shot(slope_of(4), first), shot(slope_of(40), first)), 5e-5) << n;
+    EXPECT_LT(max_channel_difference(shot(slope_of(4), mean), shot(slope_of(40), mean)), 5e-6) << n;
+    EXPECT_GT(max_channel_difference(shot(slope_of(4), first), shot(slope_of(40), first)), 5e-5) << n;
   }
   // With shading at the pixel's centre, the triangles of a plane are not visible either, except at the plane's own
   // sides.
   const std::string centre = "msaa:n=4,centroid=centre";
-  EXPECT_LT(max_difference(shot(slope_of(4), centre), shot(slope_of(8), centre)), 5e-4);
+  EXPECT_LT(max_channel_difference(shot(slope_of(4), centre), shot(slope_of(8), centre)), 5e-4);
 }
 
 TEST(SharedSamples, SmoothEdgesAndKeepFlatColours) {
-  const LinearImage none = shot("cyclic", "none"), truth = shot("cyclic", "ssaa:n=16");
+  const LinearImage none = shot_of("cyclic", "none"), truth = shot_of("cyclic", "ssaa:n=16");
   for (const char* method : {"quincunx", "flipquad"}) {
-    const LinearImage own = shot("cyclic", method);
+    const LinearImage own = shot_of("cyclic", method);
     EXPECT_LT(mean_error(own, truth), 0.75 * mean_error(none, truth)) << method;
     // Away from edges, which is most of the image, nothing changes.
     int same = 0;
@@ -191,8 +192,8 @@ TEST(AlphaToCoverage, AsManySamplesAsAlphaSays) {
 }
 
 TEST(AlphaToCoverage, SamplesAndSharpAreNearerToSupersamplingThanATestAPixelAndPlainCoverageIsNot) {
-  const LinearImage reference = shot("foliage", "ssaa:n=8");
-  const auto error = [&](const std::string& method) { return mean_error(shot("foliage", method), reference); };
+  const LinearImage reference = shot_of("foliage", "ssaa:n=8");
+  const auto error = [&](const std::string& method) { return mean_error(shot_of("foliage", method), reference); };
   const double tested = error("msaa:n=8");
   EXPECT_LT(error("msaa:n=8,alpha=samples"), 0.85 * tested);
   EXPECT_LT(error("msaa:n=8,alpha=sharp"), 0.95 * tested);

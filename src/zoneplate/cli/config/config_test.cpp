@@ -9,20 +9,20 @@
 namespace zoneplate::cli {
 namespace {
 
-struct Settings {
+struct ConfigSettings {
   int size = 0;
   bool is_clear = false;
   Syntax syntax;
 
-  Settings() {
+  ConfigSettings() {
     syntax.verb = "render";
     syntax.options = {{"--resolution,--size", "N", "Size", "Image", true,
                        [this](const std::string& text) { size = parse_whole(text, 1, 1000); }},
                       {"--no-background", "", "Clear", "Image", true, [this](const std::string&) { is_clear = true; }},
                       {"--preset", "NAME", "Preset", "Image", true, [](const std::string&) {}}};
   }
-  Settings(const Settings&) = delete;
-  Settings& operator=(const Settings&) = delete;
+  ConfigSettings(const ConfigSettings&) = delete;
+  ConfigSettings& operator=(const ConfigSettings&) = delete;
 };
 
 constexpr const char* text =
@@ -38,7 +38,7 @@ constexpr const char* text =
 TEST(Config, AppliesWhatPrecedesThePresetsAndThenOneOfThem) {
   const Config config = parse_config(text, "config");
   EXPECT_EQ(config.presets, (std::vector<std::string>{"thumbnail", "large"}));
-  Settings usual, small;
+  ConfigSettings usual, small;
   apply_config(config, "", usual.syntax);
   EXPECT_EQ(usual.size, 512);
   EXPECT_FALSE(usual.is_clear);
@@ -49,7 +49,7 @@ TEST(Config, AppliesWhatPrecedesThePresetsAndThenOneOfThem) {
 
 std::string refusal(const std::string& content, const std::string& preset = "") {
   try {
-    Settings settings;
+    ConfigSettings settings;
     apply_config(parse_config(content, "config"), preset, settings.syntax);
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::Usage);

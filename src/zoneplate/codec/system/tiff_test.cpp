@@ -37,7 +37,7 @@ std::vector<Pixel> pixels_of(const StoredImage& image) {
   const auto values = std::get<Plane<Pixel>>(image.pixels).values();
   return {values.begin(), values.end()};
 }
-std::string error_of(const Bytes& file) {
+std::string tiff_error(const Bytes& file) {
   try {
     decode_tiff(file, "a.tif", 1 << 20);
     return "";
@@ -216,17 +216,17 @@ TEST(Tiff, TheProfileIsFound) {
 
 TEST(Tiff, OtherKindsAreNamed) {
   const auto refusal = [](std::uint16_t photometric, std::uint16_t samples) {
-    return error_of(
+    return tiff_error(
         tiff_of({.width = 1, .height = 1, .samples = samples, .photometric = photometric, .data = {0, 0, 0, 0}}));
   };
   EXPECT_EQ(refusal(PHOTOMETRIC_SEPARATED, 4),
             "a.tif: TIFF: its image is of inks (CMYK), expected grey, RGB or a palette");
   EXPECT_EQ(refusal(PHOTOMETRIC_CIELAB, 3), "a.tif: TIFF: its image is in CIE L*a*b*, expected grey, RGB or a palette");
   EXPECT_EQ(
-      error_of(tiff_of({.width = 1, .height = 1, .bits = 32, .data = Bytes(12)})),
+      tiff_error(tiff_of({.width = 1, .height = 1, .bits = 32, .data = Bytes(12)})),
       "a.tif: TIFF: 32 bits per channel, expected codes of 8 or 16 bits, of 1, 2 or 4 without colours, or floats");
   EXPECT_EQ(
-      error_of(tiff_of({.width = 1, .height = 1, .kind = SAMPLEFORMAT_INT, .data = Bytes(3)})),
+      tiff_error(tiff_of({.width = 1, .height = 1, .kind = SAMPLEFORMAT_INT, .data = Bytes(3)})),
       "a.tif: TIFF: 8 bits per channel of signed or complex numbers, expected codes of 8 or 16 bits, of 1, 2 or 4 "
       "without colours, or floats");
 }
@@ -234,13 +234,13 @@ TEST(Tiff, OtherKindsAreNamed) {
 TEST(Tiff, LiesAboutSizesAndDamageAreErrors) {
   Bytes file =
       tiff_of({.width = 5, .height = 4, .compression = COMPRESSION_LZW, .rows_per_strip = 2, .data = noise(60)});
-  EXPECT_EQ(error_of(file), "");
+  EXPECT_EQ(tiff_error(file), "");
   for (std::size_t size = 0; size < file.size(); size += 3)
-    EXPECT_NE(error_of({file.begin(), file.begin() + static_cast<std::ptrdiff_t>(size)}), "") << size;
+    EXPECT_NE(tiff_error({file.begin(), file.begin() + static_cast<std::ptrdiff_t>(size)}), "") << size;
   for (std::uint32_t i = 0; i < 400; ++i) {
     Bytes changed = file;
     changed[4 + hash(i) % (changed.size() - 4)] = static_cast<std::uint8_t>(hash(i + 1000));
-    EXPECT_EQ(error_of(changed).find('\n'), std::string::npos) << i;
+    EXPECT_EQ(tiff_error(changed).find('\n'), std::string::npos) << i;
   }
   const Bytes wide = tiff_of({.width = 5, .height = 4, .mode = "wb", .data = noise(60)});
   for (std::size_t i = 0; i + 12 < wide.size(); ++i) {
@@ -249,7 +249,7 @@ TEST(Tiff, LiesAboutSizesAndDamageAreErrors) {
       continue;
     Bytes lie = wide;
     lie[i + 3] = 4, lie[i + 8] = 0x7f;  // 2130706432 + 5 * 65536 columns
-    EXPECT_TRUE(error_of(lie).ends_with("x 4 pixels, at most 1048576 are allowed")) << error_of(lie);
+    EXPECT_TRUE(tiff_error(lie).ends_with("x 4 pixels, at most 1048576 are allowed")) << tiff_error(lie);
   }
 }
 

@@ -17,14 +17,14 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 using Texts = std::vector<std::string>;
 
-Scene load(const Bytes& bytes, const LoadLimits& limits = {}) {
+Scene loaded_amf(const Bytes& bytes, const LoadLimits& limits = {}) {
   const MemoryFile file;
   Scene scene = load_amf(file.write(bytes), limits);
   expect_sound(scene);
   return scene;
 }
-Scene load(const std::string& text, const LoadLimits& limits = {}) {
-  return load(Bytes(text.begin(), text.end()), limits);
+Scene loaded_amf(const std::string& text, const LoadLimits& limits = {}) {
+  return loaded_amf(Bytes(text.begin(), text.end()), limits);
 }
 
 std::string refusal(const std::string& text, const LoadLimits& limits = {}) {
@@ -38,7 +38,7 @@ std::string refusal(const std::string& text, const LoadLimits& limits = {}) {
   return "";
 }
 
-Texts warnings_of(const Scene& scene) {
+Texts amf_warnings(const Scene& scene) {
   Texts out;
   for (const std::string& w : scene.warnings) out.push_back(w.substr(w.find(": ") + 2));
   return out;
@@ -66,25 +66,25 @@ std::string amf(const std::string& content, const std::string& unit = "millimete
 }
 std::string plain() { return amf(object(0, square(), volume(triangle(0, 1, 2) + triangle(0, 2, 3)))); }
 
-const Material& material_of(const Scene& s, std::size_t mesh) {
+const Material& amf_material(const Scene& s, std::size_t mesh) {
   return s.materials.at(static_cast<std::size_t>(s.meshes.at(mesh).material));
 }
 
 // A plain file, without colours, is not black, as by assimp 5.2. Printers have +Z up.
 TEST(LoadAmf, APlainFileIsUprightAndGrey) {
-  for (const Scene& s : {load(plain()), load(zip_of({{"a.txt", "?"}, {"a.amf", plain(), true}}))}) {
+  for (const Scene& s : {loaded_amf(plain()), loaded_amf(zip_of({{"a.txt", "?"}, {"a.amf", plain(), true}}))}) {
     EXPECT_EQ(s.up, (float3{0, 0, 1}));
     EXPECT_EQ(s.bounds().high, (float3{1, 1, 3}));
     EXPECT_EQ(s.meshes.at(0).primitives(), 2u);
     EXPECT_TRUE(s.meshes[0].color.empty());
-    EXPECT_TRUE(material_of(s, 0).is_default);
-    EXPECT_EQ(warnings_of(s), Texts{});
+    EXPECT_TRUE(amf_material(s, 0).is_default);
+    EXPECT_EQ(amf_warnings(s), Texts{});
   }
 }
 
 TEST(LoadAmf, ColoursOfMaterialsObjectsVolumesVerticesAndTriangles) {
   const std::string vertices = vertex(0, 0, 0, color(0, 1, 0)) + vertex(1, 0, 0) + vertex(1, 1, 0) + vertex(0, 1, 3);
-  const Scene s = load(amf(
+  const Scene s = loaded_amf(amf(
       object(1, vertices,
              volume(triangle(1, 2, 3) + triangle(0, 1, 2) + triangle(1, 3, 2, color(0, 0, 1)), "materialid=\"2\"")) +
       object(2, square(), volume(triangle(0, 1, 2), "materialid=\"2\"") + volume(triangle(0, 2, 3), "", color(1, 1, 0)),
@@ -95,8 +95,8 @@ TEST(LoadAmf, ColoursOfMaterialsObjectsVolumesVerticesAndTriangles) {
   for (std::size_t m = 0; m < 2; ++m) {
     const Mesh& mesh = s.meshes[m];
     if (mesh.color.empty()) {
-      EXPECT_EQ(material_of(s, m).name, "red");
-      EXPECT_EQ(material_of(s, m).base_color, (float4{1, 0, 0, 1}));
+      EXPECT_EQ(amf_material(s, m).name, "red");
+      EXPECT_EQ(amf_material(s, m).base_color, (float4{1, 0, 0, 1}));
       EXPECT_EQ(mesh.primitives(), 1u);
       continue;
     }
@@ -126,7 +126,7 @@ TEST(LoadAmf, VerticesWithoutAColourAreThoseBelowAndAreShared) {
                                                   {"materialid=\"3\"", plain_material("").base_color},
                                                   {"", plain_material("").base_color}};
   for (const auto& [attribute, below] : cases) {
-    const Scene s = load(amf(object(0, vertices, volume(triangles, attribute)) + material));
+    const Scene s = loaded_amf(amf(object(0, vertices, volume(triangles, attribute)) + material));
     const Mesh& mesh = s.meshes.at(0);
     EXPECT_EQ(mesh.position.size(), std::size_t{n * n});
     for (std::size_t i = 0; i < mesh.position.size(); ++i)
@@ -135,12 +135,12 @@ TEST(LoadAmf, VerticesWithoutAColourAreThoseBelowAndAreShared) {
 }
 
 TEST(LoadAmf, ConstellationsPlaceObjects) {
-  const Scene s =
-      load(amf(object(1, square(), volume(triangle(0, 1, 2))) +
-                   "<constellation id=\"5\"><instance objectid=\"1\"><deltax>10</deltax><rz>90</rz></instance>"
-                   "<instance objectid=\"1\"><deltay>5</deltay><rx>180</rx><rz>90</rz></instance></constellation>"
-                   "<constellation id=\"6\"><instance objectid=\"5\"><deltaz>1</deltaz></instance></constellation>",
-               "inch"));
+  const Scene s = loaded_amf(
+      amf(object(1, square(), volume(triangle(0, 1, 2))) +
+              "<constellation id=\"5\"><instance objectid=\"1\"><deltax>10</deltax><rz>90</rz></instance>"
+              "<instance objectid=\"1\"><deltay>5</deltay><rx>180</rx><rz>90</rz></instance></constellation>"
+              "<constellation id=\"6\"><instance objectid=\"5\"><deltaz>1</deltaz></instance></constellation>",
+          "inch"));
   ASSERT_EQ(s.instances.size(), 2u);
   const auto corner = [&](std::size_t i) { return s.instances[i].world_from_object * float4{25.4f, 25.4f, 0, 1}; };
   EXPECT_EQ(corner(0), (float4{254 - 25.4f, 25.4f, 25.4f, 1}));
@@ -163,8 +163,8 @@ TEST(LoadAmf, OneFlawDoesNotCostTheModel) {
        "object 3 contains itself: the component is left out"},
       {with("", "<texture id=\"1\">AA==</texture>"), "textures of AMF are not drawn"}};
   for (const auto& [text, warning] : cases) {
-    const Scene s = load(text);
-    EXPECT_EQ(warnings_of(s), Texts{warning});
+    const Scene s = loaded_amf(text);
+    EXPECT_EQ(amf_warnings(s), Texts{warning});
     EXPECT_EQ(s.objects.size(), 1u) << warning;
   }
   EXPECT_EQ(refusal(cases[0].first, {.is_strict = true}), cases[0].second);
@@ -174,11 +174,11 @@ TEST(LoadAmf, AnObjectInsideAnotherOneIsSafe) {
   for (const std::string inner : {"<object id=\"2\"/>", "<object id=\"0\"/>", "<constellation id=\"2\"/>"}) {
     std::string outer = object(0, square(), volume(triangle(0, 1, 2) + triangle(60, 1, 2)));
     outer.insert(outer.find("</object>"), inner);
-    const Scene s = load(amf(outer));
+    const Scene s = loaded_amf(amf(outer));
     EXPECT_EQ(s.warnings.size(), 2u) << inner;
-    EXPECT_TRUE(warnings_of(s).at(0).ends_with("is inside object 0: what follows it there is left out") ||
-                warnings_of(s).at(0).ends_with("is inside object 0: what follows it there is left out (and 1 more)"));
-    EXPECT_EQ(warnings_of(s).at(1), "object 0, triangle 1 uses vertex 60, there are 4: it is dropped");
+    EXPECT_TRUE(amf_warnings(s).at(0).ends_with("is inside object 0: what follows it there is left out") ||
+                amf_warnings(s).at(0).ends_with("is inside object 0: what follows it there is left out (and 1 more)"));
+    EXPECT_EQ(amf_warnings(s).at(1), "object 0, triangle 1 uses vertex 60, there are 4: it is dropped");
     EXPECT_EQ(s.meshes.at(0).primitives(), 1u);
   }
 }

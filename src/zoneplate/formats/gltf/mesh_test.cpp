@@ -12,13 +12,13 @@ namespace zoneplate {
 namespace {
 
 /// The corners of the unit square, (0,0) (1,0) (1,1) (0,1).
-const std::vector<float> square{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
+const std::vector<float> square_points{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
 
 TEST(GltfMesh, EveryAttribute) {
   GltfMaker m;
   const std::string normalized = R"(,"normalized":true)";
   m.materials = R"({"normalTexture":{"index":0}})";
-  m.mesh(R"("POSITION":)" + m.floats("VEC3", square) + R"(,"NORMAL":)" +
+  m.mesh(R"("POSITION":)" + m.floats("VEC3", square_points) + R"(,"NORMAL":)" +
              m.floats("VEC3", {0, 0, 2, 0, 0, 1, 0, 0, 1, 0, 0, 1}) + R"(,"TEXCOORD_0":)" +
              m.floats("VEC2", {0, 0, 1, 0, 1, 1, 0, 1}) + R"(,"TEXCOORD_1":)" +
              m.values<std::uint8_t>("VEC2", {0, 0, 255, 0, 255, 255, 0, 255}, normalized) + R"(,"COLOR_0":)" +
@@ -51,7 +51,7 @@ TEST(GltfMesh, FlatNormalsSplitTheVertices) {
 TEST(GltfMesh, ModesBecomeLists) {
   for (int mode = 0; mode <= 6; ++mode) {
     GltfMaker m;
-    m.mesh(R"("POSITION":)" + m.floats("VEC3", square), R"(,"mode":)" + std::to_string(mode));
+    m.mesh(R"("POSITION":)" + m.floats("VEC3", square_points), R"(,"mode":)" + std::to_string(mode));
     const Mesh mesh = load(m).meshes.at(0);
     const std::size_t wanted[] = {4, 2, 4, 3, 1, 2, 2};
     EXPECT_EQ(mesh.primitives(), wanted[mode]) << mode;
@@ -78,20 +78,20 @@ TEST(GltfMesh, OnlyTheVerticesInTheIndicesRangeAreRead) {
 
 TEST(GltfMesh, IndicesMustNameVertices) {
   GltfMaker m;
-  m.mesh(R"("POSITION":)" + m.floats("VEC3", square),
+  m.mesh(R"("POSITION":)" + m.floats("VEC3", square_points),
          R"(,"indices":)" + m.values<std::uint8_t>("SCALAR", {0, 1, 2, 0, 255, 3}));
   EXPECT_EQ(error_of(m), "mesh 0 primitive 0: index 4 is 255, but POSITION has 4 elements");
 }
 
 TEST(GltfMesh, AttributesMustBeAsLongAsThePositions) {
   GltfMaker m;
-  m.mesh(R"("POSITION":)" + m.floats("VEC3", square) + R"(,"NORMAL":)" + m.floats("VEC3", {0, 0, 1}));
+  m.mesh(R"("POSITION":)" + m.floats("VEC3", square_points) + R"(,"NORMAL":)" + m.floats("VEC3", {0, 0, 1}));
   EXPECT_EQ(error_of(m), "mesh 0 primitive 0: NORMAL has 1 elements, POSITION has 4");
 }
 
 TEST(GltfMesh, WithoutPositionNothingIsDrawn) {
   GltfMaker m;
-  m.mesh(R"("NORMAL":)" + m.floats("VEC3", square));
+  m.mesh(R"("NORMAL":)" + m.floats("VEC3", square_points));
   const Scene s = load(m);
   EXPECT_TRUE(s.meshes.empty());
   ASSERT_EQ(s.warnings.size(), 2u);
@@ -102,7 +102,7 @@ TEST(GltfMesh, WithoutPositionNothingIsDrawn) {
 TEST(GltfMesh, VerticesThatAreNotFiniteDropTheirPrimitives) {
   for (const float bad : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
     GltfMaker m;
-    std::vector<float> points = square;
+    std::vector<float> points = square_points;
     points[11] = bad;
     m.mesh(R"("POSITION":)" + m.floats("VEC3", points), R"(,"mode":6)");
     const Scene s = load(m);

@@ -18,7 +18,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-std::string error_of(const Bytes& bytes) {
+std::string decode_error(const Bytes& bytes) {
   try {
     decode_image(bytes, "tex", 100);
   } catch (const Error& e) {
@@ -63,7 +63,7 @@ TEST(ImageFile, SizeOfAJpegIsWhatLibjpegReadsUpToTheFirstScan) {
   const auto first = std::search(whole.begin(), whole.end(), frame.begin(), frame.end());
   Bytes twice = whole;
   twice.insert(twice.begin() + (first - whole.begin()), first, first + 19);
-  EXPECT_NE(error_of(twice), "no error");
+  EXPECT_NE(decode_error(twice), "no error");
   EXPECT_FALSE(find_image_size(twice));
 }
 
@@ -143,17 +143,17 @@ TEST(ImageFile, WarnsOfWhatIsDrawnSmaller) {
 
 TEST(ImageFile, OtherFormatsAreNamed) {
   const auto bytes = [](const std::string& text) { return Bytes(text.begin(), text.end()); };
-  EXPECT_EQ(error_of(bytes("RIFF....WEBPVP8 ")), "tex: not a sound WebP file");
+  EXPECT_EQ(decode_error(bytes("RIFF....WEBPVP8 ")), "tex: not a sound WebP file");
   EXPECT_EQ(
-      error_of(bytes("\xabKTX 11\xbb\r\n\x1a\n")),
+      decode_error(bytes("\xabKTX 11\xbb\r\n\x1a\n")),
       "tex: is a KTX 1 image, expected PNG, JPEG, WebP, GIF, TIFF, AVIF, JPEG XL, HDR, EXR, PFM, KTX2, BMP or TGA");
-  EXPECT_EQ(error_of(bytes("8BPS")),
+  EXPECT_EQ(decode_error(bytes("8BPS")),
             "tex: is a PSD image, expected PNG, JPEG, WebP, GIF, TIFF, AVIF, JPEG XL, HDR, EXR, PFM, KTX2, BMP or TGA");
   EXPECT_EQ(
-      error_of({}),
+      decode_error({}),
       "tex: is no known image, expected PNG, JPEG, WebP, GIF, TIFF, AVIF, JPEG XL, HDR, EXR, PFM, KTX2, BMP or TGA");
-  EXPECT_NE(error_of(bytes("\x89PNG\r\n\x1a\n")), "no error");
-  EXPECT_NE(error_of(bytes("\xff\xd8\xff")), "no error");
+  EXPECT_NE(decode_error(bytes("\x89PNG\r\n\x1a\n")), "no error");
+  EXPECT_NE(decode_error(bytes("\xff\xd8\xff")), "no error");
 }
 
 }  // namespace

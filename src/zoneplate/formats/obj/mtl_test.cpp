@@ -12,14 +12,14 @@ struct Parsed {
   std::vector<MtlMaterial> materials;
   std::vector<std::string> warnings;
 };
-Parsed parse(const std::string& text) {
+Parsed parsed_mtl(const std::string& text) {
   Parsed p;
   p.materials = parse_mtl(text, "a.mtl", p.warnings);
   return p;
 }
 
 TEST(ParseMtl, ReadsColoursAndValues) {
-  const Parsed p = parse(
+  const Parsed p = parsed_mtl(
       "# all keys\n\nnewmtl dark red #2\r\n\tKd 0.5 0 1\nka .25\nKs 1 1 1\nKe 20 0 0\nNs 96.5\nd 0.5\nTr 0.25\nillum "
       "1\n"
       "Pr 0.2\nPm 0.3\nNi 1.5\nTf 1 1 1\nnewmtl plain");
@@ -40,7 +40,7 @@ TEST(ParseMtl, ReadsColoursAndValues) {
 }
 
 TEST(ParseMtl, ReadsTheOptionsOfMaps) {
-  const Parsed p = parse(
+  const Parsed p = parsed_mtl(
       "newmtl a\nmap_Kd -s 2 3 1 -o 0.5 -clamp on -blendu off -mm 0 1 textures\\my brick 2.png\n"
       "map_d -imfchan m -bm 2 mask.png\nnorm -bm 0.5 n.png\nmap_Ke 7\nmap_Bump -bm 3 b.png\ndisp d.png\nrefl "
       "r.png\nmap_Pr r.png\nmap_Ka "
@@ -57,12 +57,12 @@ TEST(ParseMtl, ReadsTheOptionsOfMaps) {
   EXPECT_EQ(m.bump_map.strength, 3);
   EXPECT_EQ(m.displacement_map.file, "d.png");
   EXPECT_EQ(m.unsupported, (std::vector<std::string>{"refl"}));
-  EXPECT_EQ(parse("newmtl a\nmap_Kd -s 2 3 4\n").materials[0].diffuse_map.file, "4");
+  EXPECT_EQ(parsed_mtl("newmtl a\nmap_Kd -s 2 3 4\n").materials[0].diffuse_map.file, "4");
 }
 
 TEST(ParseMtl, ReadsOptionsAndCommentsBehindTheNameOfAMap) {
   const auto map_of = [](const std::string& line) {
-    return parse("newmtl a\nmap_Kd " + line + "\n").materials.at(0).diffuse_map;
+    return parsed_mtl("newmtl a\nmap_Kd " + line + "\n").materials.at(0).diffuse_map;
   };
   EXPECT_EQ(map_of("q.png -bm 1").file, "q.png");
   const MtlTexture both = map_of("-o 0.5 my wood.png -s 2 3 -clamp on");
@@ -77,14 +77,14 @@ TEST(ParseMtl, ReadsOptionsAndCommentsBehindTheNameOfAMap) {
 }
 
 TEST(ParseMtl, NamesAMapOfKaWithoutOneOfKd) {
-  EXPECT_EQ(parse("newmtl a\nmap_Ka a.png\n").materials[0].unsupported, (std::vector<std::string>{"map_ka"}));
-  EXPECT_TRUE(parse("newmtl a\nmap_Ka a.png\nmap_Kd a.png\nnewmtl b\n").materials[0].unsupported.empty());
-  EXPECT_TRUE(parse("newmtl a\nmap_Ka a.png\nnewmtl b\n").materials[1].unsupported.empty());
+  EXPECT_EQ(parsed_mtl("newmtl a\nmap_Ka a.png\n").materials[0].unsupported, (std::vector<std::string>{"map_ka"}));
+  EXPECT_TRUE(parsed_mtl("newmtl a\nmap_Ka a.png\nmap_Kd a.png\nnewmtl b\n").materials[0].unsupported.empty());
+  EXPECT_TRUE(parsed_mtl("newmtl a\nmap_Ka a.png\nnewmtl b\n").materials[1].unsupported.empty());
 }
 
 TEST(ParseMtl, ReadsTheKeysOfLayers) {
   const Parsed p =
-      parse("newmtl a\nPs 0.1\nPc 0.2\nPcr 0.3\naniso 0.4\nanisor 0.5\nNi 1.33\nmap_Ks s.png\nmap_Ns n.png\n");
+      parsed_mtl("newmtl a\nPs 0.1\nPc 0.2\nPcr 0.3\naniso 0.4\nanisor 0.5\nNi 1.33\nmap_Ks s.png\nmap_Ns n.png\n");
   const MtlMaterial& m = p.materials.at(0);
   EXPECT_EQ(m.sheen, 0.1f);
   EXPECT_EQ(m.clearcoat, 0.2f);
@@ -109,7 +109,7 @@ TEST(ParseMtl, TakesTimeInProportionToALinesLength) {
 }
 
 TEST(ParseMtl, PassesOverWhatIsWrong) {
-  const Parsed p = parse("Kd 1 1 1\nnewmtl a\nKd red\nKs\nNs nan\nwhatever 3\nmap_Kd\nKd spectral x.rfl\n");
+  const Parsed p = parsed_mtl("Kd 1 1 1\nnewmtl a\nKd red\nKs\nNs nan\nwhatever 3\nmap_Kd\nKd spectral x.rfl\n");
   EXPECT_EQ(p.materials.size(), 1u);
   EXPECT_EQ(p.warnings, (std::vector<std::string>{
                             "a.mtl: line 1: kd before newmtl is ignored", "a.mtl: line 3: kd: 'red' is not a number",
@@ -118,7 +118,7 @@ TEST(ParseMtl, PassesOverWhatIsWrong) {
                             "a.mtl: line 8: kd: 'spectral' is not a number"}));
   std::string many = "newmtl a\n";
   for (int i = 0; i < 1000; ++i) many += "bad\n";
-  EXPECT_EQ(parse(many).warnings.size(), 20u);
+  EXPECT_EQ(parsed_mtl(many).warnings.size(), 20u);
 }
 
 TEST(ParseMtl, KeepsTheMaterialsThatAreWanted) {

@@ -366,7 +366,7 @@ TEST_F(ObjModel, TheFirstErrorOfManyIsReported) {
   EXPECT_EQ(refusal(text), "model.obj: line " + std::to_string(line) + ": vertex: 'a' is not a number");
 }
 
-void expect_sound(const Scene& scene) {
+void expect_sound_shapes(const Scene& scene) {
   for (const Mesh& mesh : scene.meshes) {
     ASSERT_LT(static_cast<std::size_t>(mesh.material), scene.materials.size());
     for (const float3 p : mesh.position) ASSERT_TRUE(is_finite(p));
@@ -449,7 +449,7 @@ TEST_F(ObjModel, SurvivesAnyChange) {
     try {
       Scene scene;
       with_threads(1, [&] { scene = load(changed, limits); });
-      expect_sound(scene);
+      expect_sound_shapes(scene);
     } catch (const Error& error) {
       ASSERT_EQ(error.kind(), ErrorKind::Input) << error.what();
     }
@@ -465,7 +465,7 @@ std::size_t triangles_of(const Scene& scene) {
 class SharedObj : public testing::TestWithParam<std::string> {};
 TEST_P(SharedObj, LoadsWithItsTriangles) {
   const Scene scene = load_obj(GetParam());
-  expect_sound(scene);
+  expect_sound_shapes(scene);
   for (const auto& [name, triangles] :
        {std::pair{"spot_triangulated_good.obj", 5856u}, {"teapot.obj", 6320u}, {"suzanne.obj", 968u}})
     if (GetParam().ends_with(std::string("/") + name)) {
@@ -479,7 +479,7 @@ class SharedInvalidObj : public testing::TestWithParam<std::string> {};
 TEST_P(SharedInvalidObj, IsRefusedOrDrawnWithAWarning) {
   try {
     const Scene scene = load_obj(GetParam());
-    expect_sound(scene);
+    expect_sound_shapes(scene);
     EXPECT_FALSE(scene.warnings.empty());
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::Input);

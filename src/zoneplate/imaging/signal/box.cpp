@@ -9,7 +9,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr int steps = 2000;              // points of a curve
+constexpr int response_steps = 2000;     // points of a curve
 constexpr double half_power = 0.442946;  // sinc(x)² = ½
 
 Kernel box_of(int width) { return make_kernel(fmt::format("box:width={}", width)); }
@@ -37,7 +37,8 @@ Plot responses_plot(const BoxOptions& args) {
   for (const int width : args.widths) {
     const Kernel box = box_of(width);
     Curve curve{fmt::format("first zero at 1/{}", width), {}, Curve::Mark::Line};
-    for (int i = 0; i <= steps; ++i) curve.points.emplace_back(0.5 * i / steps, box.response(0.5 * i / steps));
+    for (int i = 0; i <= response_steps; ++i)
+      curve.points.emplace_back(0.5 * i / response_steps, box.response(0.5 * i / response_steps));
     plot.curves.push_back(std::move(curve));
   }
   plot.curves.push_back({"", {{0, 0}, {0.5, 0}}, Curve::Mark::Dashed, Curve::grey});

@@ -16,7 +16,7 @@ namespace zoneplate {
 namespace {
 
 // Kernels are small compared with images; a larger one is most likely an error, and would take hours in space.
-constexpr int max_side = 4097;
+constexpr int max_kernel_side = 4097;
 constexpr std::uint64_t max_file = 1 << 24;
 
 double parse_fraction(const std::string& text) {
@@ -104,9 +104,9 @@ KernelChoice parse_kernel_choice(const std::string& text) {
     const std::vector<double> taps = sampled(make_kernel(text));
     choice = {text, taps, outer_product(taps, taps)};
   }
-  if (choice.weights.width() > max_side || choice.weights.height() > max_side)
+  if (choice.weights.width() > max_kernel_side || choice.weights.height() > max_kernel_side)
     throw Error(ErrorKind::Usage, fmt::format("{}: a kernel of {} × {} weights is too large, expected {} at most", text,
-                                              choice.weights.width(), choice.weights.height(), max_side));
+                                              choice.weights.width(), choice.weights.height(), max_kernel_side));
   return choice;
 }
 

@@ -10,7 +10,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr int steps = 1500;  // points of a curve
+constexpr int wave_steps = 1500;  // points of a curve
 constexpr int aliases_shown = 6;
 
 // Two periods of the slower wave, limited so that there are some samples and the faster wave remains legible.
@@ -22,8 +22,8 @@ double duration_of(const SampleOptions& args) {
 
 Curve wave_curve(const std::string& name, double frequency, double duration, int color) {
   Curve curve{name, {}, Curve::Mark::Line, color};
-  for (int i = 0; i <= steps; ++i) {
-    const double t = duration * i / steps;
+  for (int i = 0; i <= wave_steps; ++i) {
+    const double t = duration * i / wave_steps;
     curve.points.emplace_back(t, sin_pi(2 * frequency * t));
   }
   return curve;
@@ -55,8 +55,8 @@ Plot copies_plot(const SampleOptions& args) {
   Curve copies{"its replicas", {}, Curve::Mark::Area, 5}, overlap{"where they overlap", {}, Curve::Mark::Area, 1, 0.6};
   const int reach = 2 + static_cast<int>(std::min(100.0, args.frequency / args.rate));
   double most = 0;
-  for (int i = 0; i <= steps; ++i) {
-    const double f = -edge + 2 * edge * i / steps, own = spectrum_at(args, f);
+  for (int i = 0; i <= wave_steps; ++i) {
+    const double f = -edge + 2 * edge * i / wave_steps, own = spectrum_at(args, f);
     double others = 0;
     for (int k = -reach; k <= reach; ++k)
       if (k != 0) others = std::max(others, spectrum_at(args, f - k * args.rate));

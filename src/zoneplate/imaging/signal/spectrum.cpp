@@ -169,7 +169,7 @@ Json::Object json_of(const std::string& input, const SpectrumOptions& args, cons
   return json;
 }
 
-constexpr PlotSize plot_size{panel_px, panel_px * 3 / 4};
+constexpr PlotSize spectrum_size{panel_px, panel_px * 3 / 4};
 
 Figure figure_of(const std::string& input, const SpectrumOptions& args, const Analysis& a) {
   LinearImage grey(a.plane.width(), a.plane.height());
@@ -203,7 +203,7 @@ void save(const std::string& input, const SpectrumOptions& args, const Analysis&
     case SpectrumView::Radial:
       return out.save_plots(args.output, std::vector{radial_plot(profile_of(a.spectrum), args.range_db)}, 1, {});
     case SpectrumView::Everything:
-      return out.save_figure(args.output, figure_of(input, args, a), plot_size);
+      return out.save_figure(args.output, figure_of(input, args, a), spectrum_size);
   }
 }
 

@@ -14,7 +14,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr Viewport viewport{1024, 768};
+constexpr Viewport coverage_viewport{1024, 768};
 
 ScreenVertex vertex(std::int32_t x, std::int32_t y, float z = 0.5f) { return {x, y, z, 1}; }
 
@@ -149,10 +149,12 @@ std::uint64_t differing_samples(const SamplePattern& pattern, Isa isa, int trian
     ScreenVertex v[3];
     random_corners(seed + static_cast<std::uint32_t>(i), v, SizeMix::FewLarge);
     if (doubled_area(v[0], v[1], v[2]) == 0) continue;
-    const Triangle t = make_triangle(v[0], v[1], v[2], 7, viewport, rules);
+    const Triangle t = make_triangle(v[0], v[1], v[2], 7, coverage_viewport, rules);
     const TileDefinition definition(v, rule);
-    const TileRange columns(std::min({v[0].x, v[1].x, v[2].x}), std::max({v[0].x, v[1].x, v[2].x}), viewport.width);
-    const TileRange rows(std::min({v[0].y, v[1].y, v[2].y}), std::max({v[0].y, v[1].y, v[2].y}), viewport.height);
+    const TileRange columns(std::min({v[0].x, v[1].x, v[2].x}), std::max({v[0].x, v[1].x, v[2].x}),
+                            coverage_viewport.width);
+    const TileRange rows(std::min({v[0].y, v[1].y, v[2].y}), std::max({v[0].y, v[1].y, v[2].y}),
+                         coverage_viewport.height);
     for (int row = rows.first; row < rows.end; ++row)
       for (int column = columns.first; column < columns.end; ++column) {
         const int tile_x = column * tile_size, tile_y = row * tile_size;
@@ -233,9 +235,9 @@ TEST(Coverage, TwoTrianglesOfAQuadShareNoSampleAndLeaveNone) {
                     sign[k][1] * (2000 + static_cast<std::int32_t>(hash(seed, k + 9) % 40) * 32));
     Buffers first(16), second(16);
     TileTriangle tile;
-    make_tile_triangle(make_triangle(v[0], v[1], v[2], 1, viewport), pattern.data(), 16, 448, 320, tile);
+    make_tile_triangle(make_triangle(v[0], v[1], v[2], 1, coverage_viewport), pattern.data(), 16, 448, 320, tile);
     CoverageKernels::scalar.draw(tile, first.visibility);
-    make_tile_triangle(make_triangle(v[0], v[2], v[3], 2, viewport), pattern.data(), 16, 448, 320, tile);
+    make_tile_triangle(make_triangle(v[0], v[2], v[3], 2, coverage_viewport), pattern.data(), 16, 448, 320, tile);
     CoverageKernels::scalar.draw(tile, second.visibility);
     first.visibility.materialize_all();
     second.visibility.materialize_all();
@@ -273,8 +275,9 @@ TEST(Coverage, KernelsGiveTheScalarTwinsBits) {
         random_corners(hash(i, 5), v);
         for (ScreenVertex& c : v) c.x /= 8, c.y /= 8, c.z = std::floor(c.z * 8) / 8;  // near, with ties in depth
         if (doubled_area(v[0], v[1], v[2]) == 0) continue;
-        make_tile_triangle(make_triangle(v[0], v[1], v[2], static_cast<std::int32_t>(hash(i) % 1000), viewport),
-                           pattern.data(), samples, 512, 384, tile);
+        make_tile_triangle(
+            make_triangle(v[0], v[1], v[2], static_cast<std::int32_t>(hash(i) % 1000), coverage_viewport),
+            pattern.data(), samples, 512, 384, tile);
         if (i % 3 == 0) {
           a.visibility.materialize_all();
           b.visibility.materialize_all();
@@ -325,8 +328,8 @@ TEST(Coverage, WholeBlocksAreThoseWhereEverySampleIsWon) {
         const int shrink = i < 6 ? 8 : 1;
         for (ScreenVertex& c : v) c.x /= shrink, c.y /= shrink;
         if (doubled_area(v[0], v[1], v[2]) == 0) continue;
-        make_tile_triangle(make_triangle(v[0], v[1], v[2], static_cast<std::int32_t>(i), viewport), pattern.data(),
-                           samples, 512, 384, tile);
+        make_tile_triangle(make_triangle(v[0], v[1], v[2], static_cast<std::int32_t>(i), coverage_viewport),
+                           pattern.data(), samples, 512, 384, tile);
         if (i < 6) {
           kernels.draw(tile, held.visibility);
           continue;

@@ -16,9 +16,9 @@ struct Owner {
   std::int32_t id;
   bool operator==(const Owner&) const = default;
 };
-using Owners = std::map<std::uint32_t, Owner>;
+using OwnersById = std::map<std::uint32_t, Owner>;
 
-void take(Owners& owners, std::uint32_t at, Owner found) {
+void take(OwnersById& owners, std::uint32_t at, Owner found) {
   const auto [it, is_new] = owners.try_emplace(at, found);
   Owner& owner = it->second;
   if (found.depth > owner.depth || (found.depth == owner.depth && found.id < owner.id)) owner = found;
@@ -27,7 +27,7 @@ void take(Owners& owners, std::uint32_t at, Owner found) {
 struct Filled {
   Arena arena;
   TileSampleBins fragments;
-  Owners owners;
+  OwnersById owners;
   std::size_t max_parts = 0;
   std::size_t parts() const {
     std::size_t count = 0;
@@ -61,7 +61,7 @@ TEST(TileSampleBins, TheNearestStayAndListsStayShort) {
   EXPECT_GT(all.parts(), 20000u);
   EXPECT_LE(short_lists.max_parts, 700u);  // 300 fragments, all in different parts at worst, twice
   for (const Filled* f : {&short_lists, &all}) {
-    Owners found;
+    OwnersById found;
     for (const SampleBin* p = f->fragments[1]; p; p = p->previous)
       for (std::int32_t i = 0; i < p->count; ++i)
         take(found, SampleBin::at(p->packed[i]), {p->depth[i], p->id(p->packed[i])});

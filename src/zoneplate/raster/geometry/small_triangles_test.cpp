@@ -20,7 +20,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr Viewport viewport{301, 203};
+constexpr Viewport small_viewport{301, 203};
 
 /// Triangles of many sizes on the screen, some of them slivers, points, or in need of the clipper.
 struct Soup {
@@ -102,7 +102,7 @@ auto members_of(const Triangle& t) {
 
 struct Case {
   SamplePattern pattern;
-  std::int32_t left = 0, top = 0, right = viewport.width - 1, bottom = viewport.height - 1;
+  std::int32_t left = 0, top = 0, right = small_viewport.width - 1, bottom = small_viewport.height - 1;
   std::int32_t facing = 0;
   EdgeRule edge_rule = EdgeRule::TopLeft;
   std::int32_t small_extent = 2047;
@@ -136,7 +136,7 @@ Outcome outcome_of(const Soup& soup, const Case& c, Isa isa) {
                                .index = soup.index.data() + 3 * first,
                                .count = std::min(SmallTriangleRun::capacity, triangles - first),
                                .first_id = first,
-                               .viewport = viewport,
+                               .viewport = small_viewport,
                                .left = c.left,
                                .top = c.top,
                                .right = c.right,
@@ -212,12 +212,12 @@ TEST(Front, FragmentsAreTheSamplesInsideSmallTriangles) {
       std::array<std::array<std::int64_t, 2>, 3> corner;
       for (std::size_t k = 0; k < 3; ++k) {
         v[k] = &soup.screen[soup.index[3 * t + k]];
-        corner[k] = {v[k]->x + viewport.width * 128, v[k]->y + viewport.height * 128};
+        corner[k] = {v[k]->x + small_viewport.width * 128, v[k]->y + small_viewport.height * 128};
       }
       const std::int64_t area = doubled_area(*v[0], *v[1], *v[2]);
       if (listed[t] || area == 0 || (c.facing && (area > 0) != (c.facing > 0))) continue;
       const Triangle triangle =
-          make_triangle(*v[0], *v[1], *v[2], static_cast<std::int32_t>(t), viewport, {.edge_rule = c.edge_rule});
+          make_triangle(*v[0], *v[1], *v[2], static_cast<std::int32_t>(t), small_viewport, {.edge_rule = c.edge_rule});
       if (triangle.min_x > c.right || triangle.max_x < c.left || triangle.min_y > c.bottom || triangle.max_y < c.top)
         continue;
       constexpr int last = tile_size - 1;

@@ -15,7 +15,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
+constexpr double shadow_pi = 3.14159265358979323846;
 
 /// A sphere of radius 1 that stands on the plane y = 0, of 2 × n × n triangles.
 TestMesh standing_sphere(std::uint32_t n) {
@@ -61,11 +61,11 @@ struct PlanePoints {
 /// The part of a cone of directions that another cone hides, their axes at `between`.
 double hidden_part(double cone, double other, double between) {
   if (between >= cone + other) return 0;
-  const double whole = 2 * pi * (1 - std::cos(cone));
-  if (between <= std::abs(cone - other)) return 2 * pi * (1 - std::cos(std::min(cone, other))) / whole;
+  const double whole = 2 * shadow_pi * (1 - std::cos(cone));
+  if (between <= std::abs(cone - other)) return 2 * shadow_pi * (1 - std::cos(std::min(cone, other))) / whole;
   const double a = std::cos(cone), b = std::cos(other), c = std::cos(between);
   const double sa = std::sin(cone), sb = std::sin(other), sc = std::sin(between);
-  const double common = 2 * (pi - std::acos((c - a * b) / (sa * sb)) - a * std::acos((b - c * a) / (sc * sa)) -
+  const double common = 2 * (shadow_pi - std::acos((c - a * b) / (sa * sb)) - a * std::acos((b - c * a) / (sc * sa)) -
                              b * std::acos((a - c * b) / (sc * sb)));
   return common / whole;
 }
@@ -110,8 +110,8 @@ TEST(TracedVisibility, HardShadowOfASphereIsItsEllipse) {
     ASSERT_EQ(found[i], off < 1 ? 0 : 1) << plane.points[i].x << ", " << plane.points[i].z;
     dark += off < 1;
   }
-  // The ellipse has the area pi / sin(elevation).
-  EXPECT_NEAR(dark, pi / to_light.y * 2500, 20);
+  // The ellipse has the area shadow_pi / sin(elevation).
+  EXPECT_NEAR(dark, shadow_pi / to_light.y * 2500, 20);
   EXPECT_LT(on_edge, 20);
 }
 

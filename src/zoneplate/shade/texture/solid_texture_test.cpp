@@ -30,7 +30,7 @@ struct Positions {
   }
 };
 
-Positions random_points(float footprint) {
+Positions random_positions(float footprint) {
   Positions points;
   for (std::uint32_t i = 0; i < Positions::count; ++i)
     for (std::uint32_t c = 0; c < 3; ++c) {
@@ -45,7 +45,7 @@ TEST(SolidTexture, AllInstructionSetsEvaluateTheSameBits) {
   for (const SolidPattern pattern : patterns) {
     const SolidTexture texture{.pattern = pattern, .scale = 1.7f, .low = {0.1f, 0.2f, 0.3f}, .high = {0.9f, 0.4f, 1}};
     for (const float footprint : {0.0f, 0.05f, 0.4f, 3.0f}) {
-      Positions expected = random_points(footprint);
+      Positions expected = random_positions(footprint);
       expected.position[0][3] = std::numeric_limits<float>::infinity();
       expected.position[1][5] = 1e30f;
       const Positions input = expected;
@@ -83,7 +83,7 @@ TEST(SolidTexture, FilteringEqualsTheMeanOverThePixel) {
   // Root mean square over points, and the same error without a filter. Undistorted veins are waves along one axis, for
   // which the filter is exact.
   const auto error_of = [](const SolidTexture& texture, float size, bool is_filtered) {
-    Positions points = random_points(0);
+    Positions points = random_positions(0);
     for (int i = 0; i < Positions::count; ++i)
       if (is_filtered) points.dx[0][i] = size, points.dy[2][i] = size;
     points.evaluate(texture, SolidTextureKernels::scalar);

@@ -12,7 +12,7 @@
 namespace zoneplate::upscale {
 namespace {
 
-LinearImage after(int frames, const Pattern& light, float2 motion = {0, 0}, const Fsr2Options& options = {}) {
+LinearImage after_fsr2(int frames, const Pattern& light, float2 motion = {0, 0}, const Fsr2Options& options = {}) {
   const int phases = fsr_phases(frame_width, 2 * frame_width);
   Fsr2 fsr2(2 * frame_width, 2 * frame_height, options);
   LinearImage image;
@@ -61,7 +61,7 @@ TEST(Fsr2, AgreesWithFiguresOfTheShaders) {
 }
 
 TEST(Fsr2, AStillImageConverges) {
-  const double one = error_of(after(1, edge), edge), many = error_of(after(32, edge), edge);
+  const double one = error_of(after_fsr2(1, edge), edge), many = error_of(after_fsr2(32, edge), edge);
   EXPECT_LT(many, 0.6 * one);
   EXPECT_LT(many, 0.02);
 }
@@ -74,21 +74,22 @@ TEST(Fsr2, AMovingImageKeepsItsHistory) {
     const auto n = static_cast<float>(frames - 1);
     return edge(x - n * motion.x / frame_width, y - n * motion.y / frame_width);
   };
-  const double error = error_of(after(frames, edge, motion), moved);
-  EXPECT_LT(error, 0.8 * error_of(after(1, moved), moved));
+  const double error = error_of(after_fsr2(frames, edge, motion), moved);
+  EXPECT_LT(error, 0.8 * error_of(after_fsr2(1, moved), moved));
 }
 
 TEST(Fsr2, LanczosKernelsAreSharper) {
   const Fsr2Options without{.has_lanczos = false};
-  EXPECT_LT(error_of(after(24, edge), edge), 0.9 * error_of(after(24, edge, {0, 0}, without), edge));
+  EXPECT_LT(error_of(after_fsr2(24, edge), edge), 0.9 * error_of(after_fsr2(24, edge, {0, 0}, without), edge));
   // Half an output pixel per frame, so that history is interpolated in every second one.
   const float2 motion{0.25f, 0};
   const Pattern moved = [&](float x, float y) { return edge(x - 23 * motion.x / frame_width, y); };
-  EXPECT_LT(error_of(after(24, edge, motion), moved), 0.9 * error_of(after(24, edge, motion, without), moved));
+  EXPECT_LT(error_of(after_fsr2(24, edge, motion), moved),
+            0.9 * error_of(after_fsr2(24, edge, motion, without), moved));
 }
 
 TEST(Fsr2, ConstantLightStays) {
-  const LinearImage image = after(6, [](float, float) { return 0.3f; });
+  const LinearImage image = after_fsr2(6, [](float, float) { return 0.3f; });
   for (const Linear& c : image.values()) {
     ASSERT_NEAR(c.r, 0.3f, 2e-3f);  // at the sides, samples beyond the frame count as black, as in the shader
     ASSERT_EQ(c.a, 1);
@@ -154,10 +155,10 @@ TEST(Fsr2, SurfacesThatWereHiddenAreClipped) {
 TEST(Fsr2, SameBitsOnEveryInstructionSet) {
   const Pattern lines = [](float x, float y) { return std::sin(200 * x + 90 * y) > 0.7f ? 1.5f : 0.2f; };
   const Fsr2Options options{.sharpens = true, .sharpness = 0.8f};
-  const LinearImage expected = with_isa(Isa::Scalar, [&] { return after(5, lines, {0.3f, 0.7f}, options); });
+  const LinearImage expected = with_isa(Isa::Scalar, [&] { return after_fsr2(5, lines, {0.3f, 0.7f}, options); });
   for (const Isa isa : supported_isas())
     with_isa(isa, [&] {
-      with_threads(3, [&] { EXPECT_EQ(after(5, lines, {0.3f, 0.7f}, options), expected) << name_of(isa); });
+      with_threads(3, [&] { EXPECT_EQ(after_fsr2(5, lines, {0.3f, 0.7f}, options), expected) << name_of(isa); });
     });
 }
 

@@ -17,14 +17,14 @@ namespace {
 constexpr int phases = 32;  // at scale 2
 
 template <class Core, class Options>
-LinearImage after(int frames, const Pattern& light, float2 motion, const Options& options) {
+LinearImage after_fsr3(int frames, const Pattern& light, float2 motion, const Options& options) {
   Core core(2 * frame_width, 2 * frame_height, options);
   LinearImage image;
   for (int i = 0; i < frames; ++i) image = core.accumulate(frame_of(light, i, phases, motion));
   return image;
 }
-LinearImage after(int frames, const Pattern& light, float2 motion = {0, 0}, const Fsr3Options& options = {}) {
-  return after<Fsr3, Fsr3Options>(frames, light, motion, options);
+LinearImage after_fsr3(int frames, const Pattern& light, float2 motion = {0, 0}, const Fsr3Options& options = {}) {
+  return after_fsr3<Fsr3, Fsr3Options>(frames, light, motion, options);
 }
 
 float grey(float, float) { return 0.2f; }
@@ -76,11 +76,11 @@ TEST(Fsr3, AgreesWithFiguresOfTheShaders) {
 }
 
 TEST(Fsr3, AStillImageConverges) {
-  const auto fsr2 = [](int frames) { return error_of(after<Fsr2, Fsr2Options>(frames, edge, {0, 0}, {}), edge); };
-  const auto fsr3 = [](int frames) { return error_of(after(frames, edge), edge); };
+  const auto fsr2 = [](int frames) { return error_of(after_fsr3<Fsr2, Fsr2Options>(frames, edge, {0, 0}, {}), edge); };
+  const auto fsr3 = [](int frames) { return error_of(after_fsr3(frames, edge), edge); };
   EXPECT_LT(fsr3(1), fsr2(1));  // the first frame is a wider kernel's
-  // Its weight is 1, and that of a frame after it about 0.046 instead of 0.062: slower than FSR 2, and nearer in the
-  // end.
+  // Its weight is 1, and that of a frame after_fsr3 it about 0.046 instead of 0.062: slower than FSR 2, and nearer in
+  // the end.
   EXPECT_LT(fsr3(32), 0.75 * fsr3(1));
   EXPECT_LT(fsr3(32), 1.15 * fsr2(32));
   EXPECT_LT(fsr3(128), 0.9 * fsr2(128));
@@ -101,13 +101,13 @@ TEST(Fsr3, AMovingImageTakesItsHistoryAlong) {
     const auto n = static_cast<float>(frames - 1);
     return edge(x - n * motion.x / frame_width, y - n * motion.y / frame_width);
   };
-  EXPECT_LT(error_of(image, moved), 0.8 * error_of(after(1, edge), edge));
+  EXPECT_LT(error_of(image, moved), 0.8 * error_of(after_fsr3(1, edge), edge));
   EXPECT_LT(error_of(image, moved), 0.4 * error_of(other, moved));
 }
 
 TEST(Fsr3, ConstantLightStays) {
   const Pattern light = [](float, float) { return 0.3f; };
-  const LinearImage still = after(6, light);
+  const LinearImage still = after_fsr3(6, light);
   for (const Linear& c : still.values()) {
     ASSERT_NEAR(c.r, 0.3f, 1e-6f);
     ASSERT_NEAR(c.g, 0.3f, 1e-6f);
@@ -116,7 +116,7 @@ TEST(Fsr3, ConstantLightStays) {
   // What enters the image has black history, as in the shader, which is moved to the box of colours: its sides are the
   // rounding of a variance. The sharpening pass has approximate reciprocals.
   const Fsr3Options sharpest{.sharpens = true, .sharpness = 1};
-  const LinearImage moved = after(6, light, {0.3f, -1.25f}, sharpest);
+  const LinearImage moved = after_fsr3(6, light, {0.3f, -1.25f}, sharpest);
   for (const Linear& c : moved.values()) ASSERT_NEAR(c.g, 0.3f, 2e-3f);
 }
 
@@ -258,10 +258,10 @@ TEST(Fsr3, SameBitsOnEveryInstructionSet) {
   const Pattern lines = [](float x, float y) { return std::sin(200 * x + 90 * y) > 0.7f ? 1.5f : 0.2f; };
   const Fsr3Options options{.sharpens = true, .sharpness = 0.8f};
   for (const float2 motion : {float2{0, 0}, {0.3f, 0.7f}}) {
-    const LinearImage expected = with_isa(Isa::Scalar, [&] { return after(7, lines, motion, options); });
+    const LinearImage expected = with_isa(Isa::Scalar, [&] { return after_fsr3(7, lines, motion, options); });
     for (const Isa isa : supported_isas())
       with_isa(isa, [&] {
-        with_threads(3, [&] { EXPECT_EQ(after(7, lines, motion, options), expected) << name_of(isa); });
+        with_threads(3, [&] { EXPECT_EQ(after_fsr3(7, lines, motion, options), expected) << name_of(isa); });
       });
   }
 }

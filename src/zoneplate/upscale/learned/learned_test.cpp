@@ -234,7 +234,7 @@ TEST(Network, SameBitsOnEveryInstructionSetAndThreadCount) {
     with_isa(isa, [&] { with_threads(3, [&] { EXPECT_EQ(corrections(), expected) << name_of(isa); }); });
 }
 
-std::string refusal_of(std::span<const std::uint8_t> bytes) {
+std::string network_refusal(std::span<const std::uint8_t> bytes) {
   try {
     Network(bytes, LearnedNetwork::form, "w.bin");
   } catch (const Error& e) {
@@ -246,28 +246,28 @@ std::string refusal_of(std::span<const std::uint8_t> bytes) {
 
 TEST(Network, ReadsNoOtherFiles) {
   const auto trained = learned_weights();
-  EXPECT_EQ(refusal_of(trained), "accepted");
+  EXPECT_EQ(network_refusal(trained), "accepted");
   for (std::size_t size = 0; size < trained.size(); size += 37)
-    EXPECT_NE(refusal_of(trained.first(size)).find("ends too early"), std::string::npos) << size;
+    EXPECT_NE(network_refusal(trained.first(size)).find("ends too early"), std::string::npos) << size;
   std::vector<std::uint8_t> bytes(trained.begin(), trained.end());
   bytes.push_back(0);
-  EXPECT_NE(refusal_of(bytes).find("goes on after"), std::string::npos);
+  EXPECT_NE(network_refusal(bytes).find("goes on after"), std::string::npos);
   for (std::uint32_t k = 0; k < 300; ++k) {  // any bytes make a network or an error
     bytes.assign(trained.begin(), trained.end());
     for (std::uint32_t n = 0; n < 4; ++n)
       bytes[hash(k, n, 1u) % bytes.size()] = static_cast<std::uint8_t>(hash(k, n, 2u));
-    refusal_of(bytes);
+    network_refusal(bytes);
   }
   bytes.assign(trained.begin(), trained.end());
   bytes[8] = 41;
-  EXPECT_EQ(refusal_of(bytes),
+  EXPECT_EQ(network_refusal(bytes),
             "w.bin: weights of a network: a layer has 41 inputs, 16 outputs, side 3 and stride 2, expected 40, 16, 3 "
             "and 2");
   bytes[8] = 40, bytes[12] = bytes[13] = bytes[14] = bytes[15] = 255;  // NaN
-  EXPECT_NE(refusal_of(bytes).find("a scale is not"), std::string::npos);
+  EXPECT_NE(network_refusal(bytes).find("a scale is not"), std::string::npos);
   bytes.assign(trained.begin(), trained.end());
   bytes[12 + 4 * 16 + 3] = 127;  // the first bias
-  EXPECT_NE(refusal_of(bytes).find("may exceed"), std::string::npos);
+  EXPECT_NE(network_refusal(bytes).find("may exceed"), std::string::npos);
 }
 
 TEST(Learned, RefusesOtherRatios) {

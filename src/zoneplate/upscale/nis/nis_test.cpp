@@ -10,7 +10,7 @@
 namespace zoneplate::upscale {
 namespace {
 
-DisplayImage chart() {
+DisplayImage nis_chart() {
   const Rgba8Image codes = antialias::chart64();
   DisplayImage out(64, 64);
   for (std::size_t i = 0; i < out.values().size(); ++i) {
@@ -31,7 +31,7 @@ TEST(Nis, AgreesWithFiguresOfTheShader) {
                            Figures{128, 128, 1, 27580.076876, 20270.247593, 0.117647},
                            Figures{83, 71, 0, 9932.899406, 7292.022971, 0.941175},
                            Figures{64, 64, 0.5f, 6906.062178, 5095.795537, 0.862745}}) {
-    const DisplayImage image = upscale_nis(chart(), {64, 64, 0, 0, {f.width, f.height, std::nullopt}}, f.sharpness);
+    const DisplayImage image = upscale_nis(nis_chart(), {64, 64, 0, 0, {f.width, f.height, std::nullopt}}, f.sharpness);
     double sum = 0, square = 0;
     for (const Display& c : image.values())
       for (const float v : {c.r, c.g, c.b}) sum += double{v}, square += double{v} * double{v};
@@ -55,7 +55,7 @@ TEST(Nis, TapsAreThosePublished) {
 }
 
 TEST(Nis, MoreThanTwiceTheSizeIsRefused) {
-  EXPECT_THROW(upscale_nis(chart(), {64, 64, 0, 0, {130, 64, std::nullopt}}, 0.5f), Error);
+  EXPECT_THROW(upscale_nis(nis_chart(), {64, 64, 0, 0, {130, 64, std::nullopt}}, 0.5f), Error);
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ double rms_error(const LinearImage& image, const std::function<double(int x, int
 }
 
 /// Wires of a third of a frame's pixel, whose samples most frames miss.
-double wires(double x, double y, int) {
+double missed_wires(double x, double y, int) {
   const double place = x + 0.37 * y;
   return std::abs(place - 5 * std::floor(place / 5) - 2.5) < 0.17 ? 0.9 : 0.1;
 }
@@ -61,15 +61,16 @@ TEST(SampleMean, AtRestItIsTheWeightedMeanOfAllSamples) {
 
 // The extremes of earlier frames contain what this frame's samples miss.
 TEST(SampleMean, KeepsWiresThatFramesMiss) {
-  const auto expected = [](int x, int y) { return weighted_mean(x, y, 32, wires); };
-  const double error = rms_error(after<SampleMean>(32, wires), expected);
+  const auto expected = [](int x, int y) { return weighted_mean(x, y, 32, missed_wires); };
+  const double error = rms_error(after<SampleMean>(32, missed_wires), expected);
   EXPECT_LT(error, 0.01);
-  EXPECT_LT(error, 0.2 * rms_error(after<Taau>(32, wires), expected));
+  EXPECT_LT(error, 0.2 * rms_error(after<Taau>(32, missed_wires), expected));
 }
 
 TEST(SampleMean, AMotionByWholePixelsKeepsTheBits) {
   constexpr int frames = 6;
-  const LinearImage rest = after<SampleMean>(frames, wires), moved = after<SampleMean>(frames, wires, {1, -1});
+  const LinearImage rest = after<SampleMean>(frames, missed_wires),
+                    moved = after<SampleMean>(frames, missed_wires, {1, -1});
   const int shift = scale * (frames - 1);
   for (int y = margin; y < scale * height - margin - shift; ++y)
     for (int x = margin + shift; x < scale * width - margin; ++x)
@@ -113,10 +114,11 @@ TEST(SampleMean, LightThatChangesAtOnceLeavesNothing) {
   }
 }
 
-// Between wires the new light is one that the last frames had: it is followed over some frames.
+// Between missed_wires the new light is one that the last frames had: it is followed over some frames.
 TEST(SampleMean, LightThatChangesBetweenWiresIsFollowed) {
   const auto error = [](int first, int last) {
-    return rms_error(image_of(first, last, 3, wires), [](int x, int y) { return 3 * weighted_mean(x, y, 32, wires); });
+    return rms_error(image_of(first, last, 3, missed_wires),
+                     [](int x, int y) { return 3 * weighted_mean(x, y, 32, missed_wires); });
   };
   EXPECT_LT(error(0, change + 12), 1.2 * error(change, change + 12));
 }
@@ -152,7 +154,7 @@ std::vector<TaauInput> jump(const LightAt& background) {
 
 TEST(SampleMean, WhatLeavesIsForgottenAtOnce) {
   // Where it was, the colour of the square lies between those of the background.
-  for (const LightAt& background : {LightAt(wires), LightAt([](double, double, int) { return 0.1; })}) {
+  for (const LightAt& background : {LightAt(missed_wires), LightAt([](double, double, int) { return 0.1; })}) {
     std::vector<TaauInput> frames = jump(background);
     SampleMean mean(scale * width, scale * height), fresh(scale * width, scale * height);
     LinearImage image;
@@ -166,7 +168,7 @@ TEST(SampleMean, WhatLeavesIsForgottenAtOnce) {
 }
 
 TEST(SampleMean, SameBitsOnEveryInstructionSetAndThreadCount) {
-  const LightAt light = [](double x, double y, int frame) { return wires(x, y, 0) * (frame < 3 ? 1.0 : 2.5); };
+  const LightAt light = [](double x, double y, int frame) { return missed_wires(x, y, 0) * (frame < 3 ? 1.0 : 2.5); };
   const LinearImage expected = with_isa(Isa::Scalar, [&] { return after<SampleMean>(5, light, {0.4f, -0.3f}); });
   for (const Isa isa : supported_isas())
     with_isa(isa, [&] {

@@ -131,7 +131,7 @@ TEST(FilterTable, ResultsAreWithinTheNeighboursAndOneColourStays) {
   }
 }
 
-std::string refusal_of(std::span<const std::uint8_t> bytes) {
+std::string table_refusal(std::span<const std::uint8_t> bytes) {
   try {
     FilterTable(bytes, 2, "t.bin");
   } catch (const Error& e) {
@@ -143,13 +143,13 @@ std::string refusal_of(std::span<const std::uint8_t> bytes) {
 
 TEST(FilterTable, ReadsNoOtherFiles) {
   std::vector<std::uint8_t> bytes = blurring_table();
-  EXPECT_EQ(refusal_of(bytes), "accepted");
-  EXPECT_EQ(refusal_of(std::span(bytes).first(100)), "t.bin: table of filters: has 100 bytes, expected 5384");
-  EXPECT_EQ(refusal_of({}), "t.bin: table of filters: has 0 bytes, expected 5384");
+  EXPECT_EQ(table_refusal(bytes), "accepted");
+  EXPECT_EQ(table_refusal(std::span(bytes).first(100)), "t.bin: table of filters: has 100 bytes, expected 5384");
+  EXPECT_EQ(table_refusal({}), "t.bin: table of filters: has 0 bytes, expected 5384");
   bytes[11] = 0x7f, bytes[10] = 0xc0;  // NaN
-  EXPECT_EQ(refusal_of(bytes), "t.bin: table of filters: a scale is not in [0, 1)");
+  EXPECT_EQ(table_refusal(bytes), "t.bin: table of filters: a scale is not in [0, 1)");
   bytes[0] = 'X';
-  EXPECT_EQ(refusal_of(bytes), "t.bin: table of filters: does not begin with ZPTABLE1");
+  EXPECT_EQ(table_refusal(bytes), "t.bin: table of filters: does not begin with ZPTABLE1");
 }
 
 // What learned-table is for: wires that a frame's samples miss have less error than those of taau.
