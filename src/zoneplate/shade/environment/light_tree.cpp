@@ -218,6 +218,13 @@ LightTree::Node LightTree::part(int parts, int face, int x, int y) const {
 
 namespace {
 
+bool is_grey_texel(float3 texel) { return texel.x == texel.y && texel.y == texel.z; }
+
+bool is_grey_node(const Node& n) {
+  return n.light[0] == n.light[1] && n.light[1] == n.light[2] && std::ranges::equal(n.first[0], n.first[1]) &&
+         std::ranges::equal(n.first[1], n.first[2]);
+}
+
 /// Of `texel`(face, x, y), the nodes of the finest level.
 template <class Texel>
 void fill(LightTree& tree, const Texel& texel) {
@@ -240,6 +247,8 @@ void fill(LightTree& tree, const Texel& texel) {
   const float3 mean = tree.mean();
   tree.mean_power = std::max(mean.x + mean.y + mean.z, 1e-30f);
   for (Node& n : tree.nodes) tree.weigh(n);
+  tree.is_grey = std::all_of(tree.nodes.begin(), tree.nodes.end(), is_grey_node) &&
+                 std::all_of(tree.texels.texels.begin(), tree.texels.texels.end(), is_grey_texel);
 }
 
 }  // namespace

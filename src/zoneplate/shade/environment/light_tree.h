@@ -35,6 +35,7 @@ struct LightTree {
   int texel_parts = max_parts;  ///< into which a walk divides a texel at most: max_parts or 1
   BorderedCube texels;          ///< of which `part` is made; not set if texels are not divided
   float mean_power = 1;         ///< sum of the channels of the mean radiance
+  bool is_grey = false;         ///< the three channels are the same, in all nodes and texels
 
   /// The first node of the level with `level_side` nodes along an edge.
   static std::size_t offset(int level_side) {

@@ -77,12 +77,13 @@ struct Division {
   }
 };
 
-/// The weighted sums of the directions of a block, for N lobes.
-template <class F, int N>
+/// The weighted sums of the directions of a block, for lobes and channels: three, or one of a tree without colour.
+template <class F, int Channels>
 struct LobeSums {
   static constexpr int vectors = DirectionBlock::size / F::lanes;
-  Vector<F> direction[vectors], light[N][vectors];
-  F weight[N][vectors], alpha2[N];
+  Vector<F> direction[vectors];
+  const int lobes;
+  F light[Lobes::most][vectors][Channels], weight[Lobes::most][vectors], alpha2[Lobes::most];
 
   /// Of a node's second moments: the mean square along n, over 4, and the mean of |δ|² / 2.
   struct Moments {
@@ -92,12 +93,15 @@ struct LobeSums {
     F square(F along_xx, F along_xy, F along_yy) const { return xx * along_xx + xy * along_xy + yy * along_yy; }
   };
 
-  LobeSums(const DirectionBlock& b, const Lobes& lobes) {
+  LobeSums(const DirectionBlock& b, const Lobes& of) : lobes(of.count) {
     for (int k = 0; k < vectors; ++k)
       direction[k] = {F::load(b.x + k * F::lanes), F::load(b.y + k * F::lanes), F::load(b.z + k * F::lanes)};
-    for (int a = 0; a < N; ++a) {
-      alpha2[a] = F(lobes.alpha[a] * lobes.alpha[a]);
-      for (int k = 0; k < vectors; ++k) light[a][k] = {F(0.0f), F(0.0f), F(0.0f)}, weight[a][k] = F(0.0f);
+    for (int a = 0; a < lobes; ++a) {
+      alpha2[a] = F(of.alpha[a] * of.alpha[a]);
+      for (int k = 0; k < vectors; ++k) {
+        for (F& channel : light[a][k]) channel = F(0.0f);
+        weight[a][k] = F(0.0f);
+      }
     }
   }
 
@@ -122,7 +126,7 @@ struct LobeSums {
   /// channel's its own, and the part along l, -|δ|² / 2, gives it the trace of the second ones.
   [[gnu::always_inline]] void add(const LightTree::Node& node, const NodePlace& place) {
     const Vector<F> l = broadcast(place.of_light), x_axis = broadcast(place.basis.first),
-                    y_axis = broadcast(place.basis.second), light_of_node = Vector<F>::all(node.light);
+                    y_axis = broadcast(place.basis.second);
     const F one(1.0f), zero(0.0f), quarter(0.25f), angle(node.solid_angle);
     const Moments of_light(node.of_light), of_angle(node.of_angle);
     for (int k = 0; k < vectors; ++k) {
@@ -131,37 +135,38 @@ struct LobeSums {
       const F x = dot(away, x_axis), y = dot(away, y_axis), xx = x * x, xy = x * y, yy = y * y;
       const F square = of_light.square(xx, xy, yy), mean = of_light.mean * cosine;
       const auto shift = [&](const float(&first)[2]) { return x * F(first[0]) + y * F(first[1]); };
-      const Vector<F> shift_of_light{shift(node.first[0]), shift(node.first[1]), shift(node.first[2])};
+      F shift_of_light[Channels];
+      for (int c = 0; c < Channels; ++c) shift_of_light[c] = shift(node.first[c]);
       const F square_of_angle = of_angle.square(xx, xy, yy),
               mean_of_angle = of_angle.mean * cosine - shift(node.centre);
       const auto is_above = cosine > zero;
-      for (int a = 0; a < N; ++a) {
+      for (int a = 0; a < lobes; ++a) {
         const F inverse = one / (u + alpha2[a] * rest), b = (one - alpha2[a]) * inverse;
         const F slope = one + b * cosine, scale = select(is_above, inverse * inverse, zero);
         const F second = b * (F(3.0f) * slope + one), scaled_slope = scale * slope;
-        light[a][k] = light[a][k] + light_of_node * (scale * (cosine + second * square - slope * mean)) +
-                      shift_of_light * scaled_slope;
+        const F of_node = scale * (cosine + second * square - slope * mean);
+        for (int c = 0; c < Channels; ++c)
+          light[a][k][c] = light[a][k][c] + F(node.light[c]) * of_node + shift_of_light[c] * scaled_slope;
         weight[a][k] = weight[a][k] + angle * (scale * (cosine + second * square_of_angle - slope * mean_of_angle));
       }
     }
   }
 
   void store(RadianceBlock* out) const {
-    for (int a = 0; a < N; ++a)
-      for (int k = 0; k < vectors; ++k) {
-        const int i = k * F::lanes;
-        (light[a][k].x / weight[a][k]).store(out[a].r + i);
-        (light[a][k].y / weight[a][k]).store(out[a].g + i);
-        (light[a][k].z / weight[a][k]).store(out[a].b + i);
-      }
+    for (int a = 0; a < lobes; ++a)
+      for (int k = 0; k < vectors; ++k)
+        for (int c = 0; c < 3; ++c) {
+          float* const channel = c == 0 ? out[a].r : c == 1 ? out[a].g : out[a].b;
+          (light[a][k][std::min(c, Channels - 1)] / weight[a][k]).store(channel + k * F::lanes);
+        }
   }
 };
 
 /// A walk of the tree, depth first, in an order that depends on the block alone.
-template <class F, int N>
+template <class F, int Channels>
 void filter_lobes(const LightTree& tree, const Lobes& lobes, const DirectionBlock& directions, RadianceBlock* out) {
   const Division division(lobes, directions);
-  LobeSums<F, N> sums(directions, lobes);
+  LobeSums<F, Channels> sums(directions, lobes);
 
   struct Place {
     int side, face, x, y;
@@ -192,20 +197,7 @@ void filter_lobes(const LightTree& tree, const Lobes& lobes, const DirectionBloc
 /// See PrefilterKernels.
 template <class F>
 void filter(const LightTree& tree, const Lobes& lobes, const DirectionBlock& directions, RadianceBlock* out) {
-  switch (lobes.count) {
-    case 1:
-      return filter_lobes<F, 1>(tree, lobes, directions, out);
-    case 2:
-      return filter_lobes<F, 2>(tree, lobes, directions, out);
-    case 3:
-      return filter_lobes<F, 3>(tree, lobes, directions, out);
-    case 4:
-      return filter_lobes<F, 4>(tree, lobes, directions, out);
-    case 5:
-      return filter_lobes<F, 5>(tree, lobes, directions, out);
-    default:
-      return filter_lobes<F, 6>(tree, lobes, directions, out);
-  }
+  tree.is_grey ? filter_lobes<F, 1>(tree, lobes, directions, out) : filter_lobes<F, 3>(tree, lobes, directions, out);
 }
 
 }  // namespace zoneplate::stages

@@ -6,5 +6,5 @@
 
 namespace zoneplate {
 template <>
-const PrefilterKernels PerIsa<PrefilterKernels>::HWY_NAMESPACE = {{}, &stages::filter<HWY_NAMESPACE::Float>};
+const PrefilterKernels PerIsa<PrefilterKernels>::HWY_NAMESPACE = {{}, &stages::filter<HWY_NAMESPACE::WideFloat>};
 }  // namespace zoneplate
