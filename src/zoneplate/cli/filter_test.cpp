@@ -328,6 +328,7 @@ TEST_F(FilterVerb, SequencesThatDoNotFitAreRefused) {
   };
   EXPECT_NE(message("bare.####.exr --aa taa -o out", 3).find("bare.0000.exr: has no channel of depth: give --depth"),
             std::string::npos);
+  EXPECT_NE(output_.find("--upscale learned-still"), std::string::npos);
   EXPECT_NE(message("raw.####.exr --depth large.####.exr --aa taa -o out", 3)
                 .find("large.0000.exr: has 48x36 pixels, expected 32x24 as ./raw.0000.exr"),
             std::string::npos)

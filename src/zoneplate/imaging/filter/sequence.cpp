@@ -70,7 +70,8 @@ Names channels_of(const Pass& pass, const std::string& path, const Names& found,
   if (is_own_file)
     throw Error(ErrorKind::Input, fmt::format("{}: is no EXR image with a channel of {}", path, pass.name));
   throw Error(ErrorKind::Input, fmt::format("{0}: has no channel of {1}: give --{1} FILES, or render with --aov "
-                                            "depth,motion,object-id to .exr",
+                                            "depth,motion,object-id to .exr; of images alone: --aa "
+                                            "learned-smaa, --upscale learned-still",
                                             path, pass.name));
 }
 
