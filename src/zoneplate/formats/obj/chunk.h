@@ -69,6 +69,8 @@ struct ObjPart {
   ObjVertices vertices;
   ObjCounts counts;
   ObjCounts named;  ///< for each kind, the greatest one-based index that is used
+
+  std::uint64_t bytes() const { return vertices.bytes() + chunk.bytes(); }
 };
 
 /// An error and its line.

@@ -15,7 +15,6 @@
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/scene/geometry/triangulate.h"
-#include "zoneplate/scene/geometry/winding.h"
 
 namespace zoneplate {
 namespace {
@@ -231,7 +230,6 @@ ObjMeshes make_meshes(const ObjFile& file, const ObjLayout& layout, const std::v
     });
     made[i].not_finite = builder.not_finite, made[i].too_concave = builder.too_concave;
     made[i].mesh = builder.take();
-    if (!file.normals.empty()) turn_to_normals(made[i].mesh);  // normals that are made follow the corners
   });
   budget.check_time();
   budget.take(all_bytes);

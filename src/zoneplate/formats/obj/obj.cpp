@@ -6,139 +6,21 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
-#include <set>
 #include <string_view>
 #include <utility>
 
 #include "zoneplate/base/error.h"
-#include "zoneplate/formats/import/text_scan.h"
+#include "zoneplate/formats/import/model_folder.h"
 #include "zoneplate/formats/obj/layout.h"
+#include "zoneplate/formats/obj/libraries.h"
 #include "zoneplate/formats/obj/mesh.h"
-#include "zoneplate/formats/obj/mtl_material.h"
 #include "zoneplate/formats/obj/normals.h"
 #include "zoneplate/os/file.h"
+#include "zoneplate/scene/geometry/winding.h"
 #include "zoneplate/scene/serial_ranges.h"
 
 namespace zoneplate {
 namespace {
-
-std::string_view text_of(const FileBytes& file) {
-  return {reinterpret_cast<const char*>(file.bytes().data()), file.bytes().size()};
-}
-
-/// The used materials by name. If several libraries define a material, the first definition is used.
-class Libraries {
- public:
-  Libraries(ModelFolder& folder, const std::vector<std::string>& used)
-      : folder_(folder), used_(used.begin(), used.end()) {
-    folder.budget().take(used.size() * (sizeof(std::string_view) + 48));
-  }
-
-  /// Adds the operand of an mtllib statement: one name that may contain spaces, or several.
-  void add(const std::string& statement) {
-    if (names_ >= max_names) return void(++names_);
-    if (!statements_.insert(statement).second) return;
-    ++names_;
-    if (folder_.find_file("", statement)) return open(statement);
-    LineWords words(statement);
-    for (std::string_view word = words.next(); !word.empty(); word = words.next())
-      if (++names_ <= max_names) open(std::string(word));
-  }
-
-  Material material(const std::string& name) {
-    const auto found = materials_.find(name);
-    if (found != materials_.end()) return make_material(found->second.material, found->second.within, folder_);
-    if (!name.empty() && ++undefined_ <= max_named)
-      folder_.scene().warnings.push_back(fmt::format("{}: material {} is not defined", folder_.budget().file(), name));
-    return plain_material(name.empty() ? "default" : name);
-  }
-
-  void report_rest() {
-    const auto report = [&](std::size_t count, const char* text) {
-      if (count > max_named)
-        folder_.scene().warnings.push_back(
-            fmt::format("{}: {} more {}", folder_.budget().file(), count - max_named, text));
-    };
-    if (names_ > max_names)
-      folder_.scene().warnings.push_back(fmt::format("{}: names more than {} material libraries, the rest is ignored",
-                                                     folder_.budget().file(), max_names));
-    report(missing_, "material libraries are not found");
-    report(undefined_, "materials are not defined");
-  }
-
- private:
-  static constexpr std::size_t max_named = 20;
-  static constexpr std::size_t max_names = 1000;  ///< maximum number of libraries, because each takes a file search
-
-  struct Found {
-    MtlMaterial material;
-    std::string within;
-  };
-
-  /// Whether a material is used and not yet defined; if so, its memory is charged to the budget.
-  bool is_used(const std::string& name) {
-    constexpr std::uint64_t of_the_table = 64;
-    if (!used_.contains(name) || materials_.contains(name)) return false;
-    folder_.budget().check_time();
-    folder_.budget().take(2 * sizeof(Found) + 2 * name.size() + of_the_table);
-    return true;
-  }
-
-  void open(const std::string& name) {
-    Scene& scene = folder_.scene();
-    folder_.budget().check_time();
-    const std::optional<std::string> path = folder_.find_file("", name);
-    if (!path) {
-      if (++missing_ <= max_named)
-        scene.warnings.push_back(
-            fmt::format("{}: material library {}", folder_.budget().file(), folder_.missing_text("", name)));
-      return;
-    }
-    if (!opened_.insert(*path).second) return;
-    const FileBytes file = folder_.open(*path);
-    const std::size_t slash = name.find_last_of("/\\");
-    const std::string within = slash == name.npos ? "" : name.substr(0, slash + 1);
-    std::vector<MtlMaterial> found =
-        parse_mtl(text_of(file), name, scene.warnings, [&](const std::string& m) { return is_used(m); });
-    for (MtlMaterial& m : found) {
-      std::string key = m.name;
-      materials_.try_emplace(std::move(key), Found{std::move(m), within});
-    }
-  }
-
-  // Maps and sets, not hash tables, because a malicious file could choose names that collide.
-  ModelFolder& folder_;
-  std::set<std::string_view> used_;
-  std::size_t names_ = 0, missing_ = 0, undefined_ = 0;
-  std::map<std::string, Found> materials_;
-  std::set<std::string> statements_, opened_;
-};
-
-void report_notes(const ObjFile& file, const ImportBudget& budget, std::vector<std::string>& warnings) {
-  constexpr const char* texts[] = {"has too few corners and is dropped",
-                                   "is dropped",
-                                   "is free-form geometry, which is not drawn",
-                                   "is unknown and ignored",
-                                   "is not finite and set to 0",
-                                   "index out of range, treated as absent",
-                                   "index out of range, treated as absent"};
-  for (std::size_t kind = 0; kind < std::size(texts); ++kind) {
-    ObjTally sum;
-    for (const ObjChunk& chunk : file.chunks) {
-      const ObjTally& tally = chunk.notes[kind];
-      if (sum.count == 0) sum.line = tally.line, sum.word = tally.word;
-      sum.count += tally.count;
-    }
-    if (sum.count == 0) continue;
-    const std::string more = sum.count > 1 ? fmt::format(" (and {} more)", sum.count - 1) : "";
-    const std::string text = fmt::format("{}: line {}: {} {}{}", budget.file(), sum.line, sum.word, texts[kind], more);
-    if (kind == static_cast<std::size_t>(ObjNote::BadCorner))
-      budget.warn_of_flaw(warnings, text);
-    else
-      warnings.push_back(text);
-  }
-}
 
 bool has_elements(const ObjFile& file) {
   for (const ObjChunk& chunk : file.chunks)
@@ -218,14 +100,12 @@ Scene load_obj(const std::string& path, const LoadLimits& limits) {
   const bool is_stream = path == "-";
   const std::string name = is_stream ? "standard input" : path;
   const FileBytes bytes(path, limits.memory);
-  if (const std::string_view mark = text_of(bytes).substr(0, 2); mark == "\xff\xfe" || mark == "\xfe\xff")
-    throw Error(ErrorKind::Input, name + ": is text in UTF-16, expected UTF-8 or ASCII");
+  const ObjText text = cut_obj(bytes.bytes(), name);
   ImportBudget budget(name, limits);
   Scene scene;
-  ObjFile file =
-      parse_obj(text_of(bytes), budget, [&](std::string_view part) { bytes.forget(part.data(), part.size()); });
+  ObjFile file = parse_obj(text, budget, [&](std::string_view part) { bytes.forget(part.data(), part.size()); });
   scene.origin = file.origin;
-  report_notes(file, budget, scene.warnings);
+  report_obj_notes(file, budget, scene.warnings);
   if (!has_elements(file) && scene.warnings.empty()) make_points(file, budget);
 
   const std::filesystem::path place(path);
@@ -233,6 +113,8 @@ Scene load_obj(const std::string& path, const LoadLimits& limits) {
   budget.take(2 * layout.materials.size() * sizeof(Material));
   const std::vector<std::vector<float3>> normals = missing_normals(file, layout.runs, budget);
   ObjMeshes found = make_meshes(file, layout, normals, budget);
+  if (!file.normals.empty())  // normals that are made follow the corners
+    for (ObjMesh& m : found.meshes) turn_to_normals(m.mesh);
   file = {};
   report_losses(found, name, scene.warnings);
   if (found.meshes.empty())
@@ -242,13 +124,7 @@ Scene load_obj(const std::string& path, const LoadLimits& limits) {
   add_meshes(std::move(found), layout, scene, budget);
 
   ModelFolder folder(is_stream ? "." : place.parent_path().string(), budget, scene);
-  Libraries libraries(folder, layout.materials);
-  for (const std::string& statement : layout.libraries) libraries.add(statement);
-  for (const std::string& material : layout.materials) {
-    budget.check_time();
-    scene.materials.push_back(libraries.material(material));
-  }
-  libraries.report_rest();
+  add_obj_materials(layout, folder);
   scale_heights(scene, budget);
   return scene;
 }

@@ -73,48 +73,6 @@ void join_colors(const std::vector<ObjPart>& parts, const std::vector<ObjCounts>
   }
 }
 
-std::uint64_t size_of(const ObjPart& part) { return part.vertices.bytes() + part.chunk.bytes(); }
-
-/// Reads the parts independently, and reads those again that depend on others. Returns the totals before each part.
-std::vector<ObjCounts> read_parts(const std::vector<std::string_view>& texts, char separator, ImportBudget& budget,
-                                  const std::function<void(std::string_view)>& done, std::vector<ObjPart>& parts) {
-  std::vector<char> is_read(parts.size());
-  std::atomic<std::uint64_t> bytes = 0;
-  parallel_for(parts.size(), [&](std::size_t i) {
-    if (!budget.has_time() || bytes > budget.limits().memory) return;
-    is_read[i] = read_obj_part(texts[i], separator, parts[i]);
-    bytes += size_of(parts[i]);
-    done(texts[i]);
-  });
-  budget.check_time();
-  const std::vector<ObjCounts> before = accumulate(parts);
-  const ObjCounts& all = before.back();
-  if (std::max({all.positions, all.uvs, all.normals}) >= max_obj_items)
-    throw Error(ErrorKind::Input, budget.file() + ": more than 2^30 vertices");
-
-  // The first error in the order of the file is reported, independently of the threads.
-  std::vector<std::optional<ObjLineError>> errors(parts.size());
-  parallel_for(parts.size(), [&](std::size_t i) {
-    const ObjCounts& named = parts[i].named;
-    const bool are_there = named.positions <= all.positions && named.uvs <= all.uvs && named.normals <= all.normals;
-    for (ObjTally& tally : parts[i].chunk.notes) tally.line += before[i].lines;
-    if ((is_read[i] && are_there) || !budget.has_time() || bytes > budget.limits().memory) return;
-    bytes -= size_of(parts[i]);
-    try {
-      read_obj_part(texts[i], separator, before[i], all, parts[i]);
-    } catch (ObjLineError& error) {
-      errors[i] = std::move(error);
-    }
-    bytes += size_of(parts[i]);
-    done(texts[i]);
-  });
-  budget.check_time();
-  budget.take(bytes);
-  for (const std::optional<ObjLineError>& error : errors)
-    if (error) throw Error(ErrorKind::Input, fmt::format("{}: line {}: {}", budget.file(), error->line, error->cause));
-  return before;
-}
-
 /// The origin of the vertices that an element uses; of all, in a file without elements. Stops at a near part of a
 /// chunk.
 double3 choose_origin(const ObjFile& file) {
@@ -137,30 +95,106 @@ double3 choose_origin(const ObjFile& file) {
 }
 
 /// Reads the positions again where floats lose too much of them: in files far from the origin.
-void center_far_positions(const std::vector<std::string_view>& texts, char separator,
-                          const std::vector<ObjCounts>& before, ImportBudget& budget,
+void center_far_positions(const ObjText& text, const std::vector<ObjCounts>& before, ImportBudget& budget,
                           const std::function<void(std::string_view)>& done, ObjFile& file) {
   file.origin = choose_origin(file);
   if (file.origin == double3{}) return;
   const std::span<float3> positions = file.positions;
-  parallel_for(texts.size(), [&](std::size_t i) {
+  parallel_for(text.parts.size(), [&](std::size_t i) {
     if (!budget.has_time()) return;
     const auto begin = static_cast<std::size_t>(before[i].positions);
     const std::size_t count = static_cast<std::size_t>(before[i + 1].positions) - begin;
-    read_obj_positions(texts[i], separator, file.origin, positions.subspan(begin, count));
-    done(texts[i]);
+    read_obj_positions(text.parts[i], text.separator, file.origin, positions.subspan(begin, count));
+    done(text.parts[i]);
   });
   budget.check_time();
 }
 
 }  // namespace
 
-ObjFile parse_obj(std::string_view text, ImportBudget& budget, const std::function<void(std::string_view)>& done) {
+ObjText cut_obj(std::span<const std::uint8_t> bytes, const std::string& file) {
+  std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (const std::string_view mark = text.substr(0, 2); mark == "\xff\xfe" || mark == "\xfe\xff")
+    throw Error(ErrorKind::Input, file + ": is text in UTF-16, expected UTF-8 or ASCII");
   if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);
   const char separator = text.find('\n') == text.npos && text.find('\r') != text.npos ? '\r' : '\n';
-  const std::vector<std::string_view> texts = cut(text, separator);
-  std::vector<ObjPart> parts(texts.size());
-  const std::vector<ObjCounts> before = read_parts(texts, separator, budget, done, parts);
+  return {separator, cut(text, separator)};
+}
+
+std::vector<ObjCounts> read_obj_parts(const ObjText& text, ImportBudget& budget,
+                                      const std::function<void(std::string_view)>& done,
+                                      const std::function<void(std::size_t, ObjPart&)>& keep,
+                                      std::vector<ObjPart>& parts) {
+  const std::vector<std::string_view>& texts = text.parts;
+  parts.resize(texts.size());
+  std::vector<char> is_read(parts.size());
+  std::atomic<std::uint64_t> bytes = 0;
+  parallel_for(parts.size(), [&](std::size_t i) {
+    if (!budget.has_time() || bytes > budget.limits().memory) return;
+    is_read[i] = read_obj_part(texts[i], text.separator, parts[i]);
+    if (is_read[i]) keep(i, parts[i]);
+    bytes += parts[i].bytes();
+    done(texts[i]);
+  });
+  budget.check_time();
+  const std::vector<ObjCounts> before = accumulate(parts);
+  const ObjCounts& all = before.back();
+  if (std::max({all.positions, all.uvs, all.normals}) >= max_obj_items)
+    throw Error(ErrorKind::Input, budget.file() + ": more than 2^30 vertices");
+
+  // The first error in the order of the file is reported, independently of the threads.
+  std::vector<std::optional<ObjLineError>> errors(parts.size());
+  parallel_for(parts.size(), [&](std::size_t i) {
+    const ObjCounts& named = parts[i].named;
+    const bool are_there = named.positions <= all.positions && named.uvs <= all.uvs && named.normals <= all.normals;
+    for (ObjTally& tally : parts[i].chunk.notes) tally.line += before[i].lines;
+    if ((is_read[i] && are_there) || !budget.has_time() || bytes > budget.limits().memory) return;
+    bytes -= parts[i].bytes();
+    try {
+      read_obj_part(texts[i], text.separator, before[i], all, parts[i]);
+      keep(i, parts[i]);
+    } catch (ObjLineError& error) {
+      errors[i] = std::move(error);
+    }
+    bytes += parts[i].bytes();
+    done(texts[i]);
+  });
+  budget.check_time();
+  budget.take(bytes);
+  for (const std::optional<ObjLineError>& error : errors)
+    if (error) throw Error(ErrorKind::Input, fmt::format("{}: line {}: {}", budget.file(), error->line, error->cause));
+  return before;
+}
+
+void report_obj_notes(const ObjFile& file, const ImportBudget& budget, std::vector<std::string>& warnings) {
+  constexpr const char* texts[] = {"has too few corners and is dropped",
+                                   "is dropped",
+                                   "is free-form geometry, which is not drawn",
+                                   "is unknown and ignored",
+                                   "is not finite and set to 0",
+                                   "index out of range, treated as absent",
+                                   "index out of range, treated as absent"};
+  for (std::size_t kind = 0; kind < std::size(texts); ++kind) {
+    ObjTally sum;
+    for (const ObjChunk& chunk : file.chunks) {
+      const ObjTally& tally = chunk.notes[kind];
+      if (sum.count == 0) sum.line = tally.line, sum.word = tally.word;
+      sum.count += tally.count;
+    }
+    if (sum.count == 0) continue;
+    const std::string more = sum.count > 1 ? fmt::format(" (and {} more)", sum.count - 1) : "";
+    const std::string text = fmt::format("{}: line {}: {} {}{}", budget.file(), sum.line, sum.word, texts[kind], more);
+    if (kind == static_cast<std::size_t>(ObjNote::BadCorner))
+      budget.warn_of_flaw(warnings, text);
+    else
+      warnings.push_back(text);
+  }
+}
+
+ObjFile parse_obj(const ObjText& text, ImportBudget& budget, const std::function<void(std::string_view)>& done) {
+  std::vector<ObjPart> parts;
+  const std::vector<ObjCounts> before = read_obj_parts(
+      text, budget, done, [](std::size_t, ObjPart&) {}, parts);
 
   ObjFile file;
   std::uint64_t corners = 0;
@@ -182,7 +216,7 @@ ObjFile parse_obj(std::string_view text, ImportBudget& budget, const std::functi
     for (std::size_t i = 0; i < 3; ++i) join_kind(i);
   join_colors(parts, before, budget, file);
   for (ObjPart& part : parts) file.chunks.push_back(std::move(part.chunk));
-  center_far_positions(texts, separator, before, budget, done, file);
+  center_far_positions(text, before, budget, done, file);
   return file;
 }
 
