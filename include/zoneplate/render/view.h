@@ -23,6 +23,9 @@ struct View {
   float3 up{0, 1, 0};                           ///< the scene's upward axis
 };
 
+/// Whether nothing but the scene decides the direction of a view.
+bool is_free(const View& view);
+
 /// The view with the azimuth and elevation that choose_camera takes where a whole-scene view of no given direction
 /// would see nothing but back faces; else the same view.
 View facing_front(const Scene& scene, const View& view, float aspect);

@@ -13,6 +13,7 @@
 #include "zoneplate/formats/open_stream.h"
 #include "zoneplate/job/import_time.h"
 #include "zoneplate/job/render_job.h"
+#include "zoneplate/job/resolve.h"
 #include "zoneplate/render/stream/streamed_backend.h"
 #include "zoneplate/render/view.h"
 #include "zoneplate/scene/stream/stream_outline.h"
@@ -49,6 +50,7 @@ void check_is_streamable(const Job& job, const Request& request) {
 /// The farthest corners of a stream as points of a scene, whose camera is that of the stream.
 Scene scene_of_points(const Scene& head, std::vector<float3> points) {
   Scene scene = head;
+  scene.meshes.resize(1), scene.instances.assign(1, {});
   Mesh& mesh = scene.meshes[0];
   mesh.topology = Topology::Points;
   mesh.index.resize(points.size());
@@ -57,13 +59,25 @@ Scene scene_of_points(const Scene& head, std::vector<float3> points) {
   return scene;
 }
 
+bool are_single_sided(const Scene& head) {
+  return std::ranges::none_of(head.instances, [&](const Instance& instance) {
+    const Mesh& mesh = head.meshes[static_cast<std::size_t>(instance.mesh)];
+    return head.materials[static_cast<std::size_t>(mesh.material)].double_sided;
+  });
+}
+
 Camera camera_of(const Job& job, const Scene& head, const StreamOutline& outline) {
   View view = job.view;
   view.up = job.up.value_or(head.up);
   view.lens = job.lens.lens(job.options.width, job.options.height);
   const float aspect = static_cast<float>(job.options.width) / static_cast<float>(job.options.height);
   const std::vector<float3> directions = view_directions(outline.bounds(), view, aspect);
-  return choose_camera(scene_of_points(head, outline.farthest(directions)), view, aspect);
+  const Camera camera = choose_camera(scene_of_points(head, outline.farthest(directions)), view, aspect);
+  if (is_free(view) && are_single_sided(head) && !outline.has_front(camera))
+    throw Error(ErrorKind::Usage, job.input +
+                                      ": the default camera sees backs alone, and to choose another one needs "
+                                      "the whole scene in memory: see --camera-azimuth-angle");
+  return camera;
 }
 
 /// An eighth of the memory for the parts that are searched, and a quarter for the visible triangles.
@@ -103,6 +117,10 @@ void render_streamed(Job job, std::unique_ptr<Resolver> method, std::unique_ptr<
   within_import_time(job.input, job.load.limits, [&] {
     const StreamOutline outline(*stream, job.input, out.progress_of("read", 0, 0.1));
     head = stream->head();
+    if (head.needs_fill_light && may_dim_lights(job, is_linear(job.named_output())))
+      throw Error(ErrorKind::Usage, job.input +
+                                        ": its lights may be dimmed, which needs the whole scene in memory, for "
+                                        "which --max-memory is too small: see --light-intensity");
     view.camera = camera_of(job, head, outline);
   });
   summary.times.emplace_back("read", reading.ms());

@@ -85,11 +85,6 @@ AutoFit fit_of(const View& view) {
   return fit;
 }
 
-// Whether nothing but the scene decides the direction.
-bool is_free(const View& view) {
-  return !view.index && !view.position && !view.focal_point && !view.view_up && !view.azimuth && !view.elevation;
-}
-
 // From behind or from below, where that sees a front face.
 View turned_to_front(const Scene& scene, const View& view, float aspect) {
   constexpr float half_turn = 3.14159265f;
@@ -134,6 +129,10 @@ Camera base_camera(const Scene& scene, const View& view, float aspect) {
 }
 
 }  // namespace
+
+bool is_free(const View& view) {
+  return !view.index && !view.position && !view.focal_point && !view.view_up && !view.azimuth && !view.elevation;
+}
 
 View facing_front(const Scene& scene, const View& view, float aspect) {
   if (!is_free(view) || !sees_backs_alone(scene, fit_camera(scene, aspect, fit_of(view)))) return view;

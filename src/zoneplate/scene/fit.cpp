@@ -124,8 +124,17 @@ Camera fit_camera(const Scene& scene, float picture_aspect, const AutoFit& fit) 
   return fit_camera(std::span<const float3>(all.point), picture_aspect, fit);
 }
 
+bool faces(const Camera& camera, const float4x4& world_from_object, const std::array<float3, 3>& corner) {
+  const auto& axis = world_from_object.column;
+  // A mirrored triangle is turned.
+  const float side = dot(cross(xyz(axis[0]), xyz(axis[1])), xyz(axis[2])) < 0 ? -1.0f : 1.0f;
+  const float3 normal = cross(corner[1] - corner[0], corner[2] - corner[0]) * side;
+  const float3 towards_eye = camera.is_orthographic ? xyz(camera.world_from_camera.column[2])
+                                                    : xyz(camera.world_from_camera.column[3]) - corner[0];
+  return dot(normal, towards_eye) > 0;
+}
+
 bool sees_backs_alone(const Scene& scene, const Camera& camera) {
-  const float3 back = xyz(camera.world_from_camera.column[2]), eye = xyz(camera.world_from_camera.column[3]);
   bool is_any = false;
   for (const Instance& instance : scene.instances) {
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
@@ -133,14 +142,9 @@ bool sees_backs_alone(const Scene& scene, const Camera& camera) {
     if (mesh.topology != Topology::Triangles) return false;
     if (scene.materials[static_cast<std::size_t>(mesh.material)].double_sided) return false;
     const float4x4& m = instance.world_from_object;
-    const float3 x = xyz(m.column[0]), y = xyz(m.column[1]), z = xyz(m.column[2]);
-    const float side = dot(cross(x, y), z) < 0 ? -1.0f : 1.0f;  // a mirrored triangle is turned
     const auto corner = [&](std::size_t i) { return transform_point(m, mesh.position[mesh.index[i]]); };
-    for (std::size_t i = 0; i + 3 <= mesh.index.size(); i += 3) {
-      const float3 a = corner(i), normal = cross(corner(i + 1) - a, corner(i + 2) - a) * side;
-      const float3 towards_eye = camera.is_orthographic ? back : eye - a;
-      if (dot(normal, towards_eye) > 0) return false;
-    }
+    for (std::size_t i = 0; i + 3 <= mesh.index.size(); i += 3)
+      if (faces(camera, m, {corner(i), corner(i + 1), corner(i + 2)})) return false;
     is_any = true;
   }
   return is_any;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -18,6 +19,9 @@ Camera fit_camera(const Scene& scene, float picture_aspect, const AutoFit& fit);
 
 /// The directions in which the farthest vertices decide `fit_camera` of a scene with these bounds.
 std::vector<float3> fit_directions(const Box& bounds, float picture_aspect, const AutoFit& fit);
+
+/// Whether a triangle with these corners in the world, of an instance with this transform, shows a camera its front.
+bool faces(const Camera& camera, const float4x4& world_from_object, const std::array<float3, 3>& corner);
 
 /// Whether a camera sees nothing but back faces of single-sided triangles, which are not drawn.
 bool sees_backs_alone(const Scene& scene, const Camera& camera);

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/formats/import/import_budget.h"
 #include "zoneplate/os/file.h"
@@ -21,11 +22,9 @@ class FileStream : public TriangleStream {
 
   /// The least memory, in bytes, that load_scene takes for the file, and the renderer for its vertices.
   virtual std::uint64_t bytes_in_memory() const = 0;
+  static constexpr std::uint64_t max_in_bins = 128;  ///< bytes of a small triangle's samples
   /// The same with what the renderer may take for the samples of small triangles.
-  std::uint64_t bytes_to_draw() const {
-    constexpr std::uint64_t max_in_bins = 128;
-    return bytes_in_memory() + max_in_bins * count();
-  }
+  std::uint64_t bytes_to_draw() const { return bytes_in_memory() + max_in_bins * count(); }
 
   /// Errors    ErrorKind::Input naming what the file has that cannot be read in parts.
   virtual void check() const {}
@@ -36,6 +35,10 @@ class FileStream : public TriangleStream {
   void forget() const override { file_.forget(file_.bytes().data(), file_.bytes().size()); }
 
  protected:
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw Error(ErrorKind::Input, path_ + ": " + what + ", and needs more memory than --max-memory allows");
+  }
+  [[noreturn]] void throw_changed() const { throw Error(ErrorKind::Input, path_ + ": was changed while it was read"); }
   const FileBytes& file() const { return file_; }
   const std::string& path() const { return path_; }
   /// Calls body(i) for every i below `count`, in ascending steps after which the system may reclaim what was read.

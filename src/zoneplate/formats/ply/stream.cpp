@@ -207,10 +207,6 @@ class PlyStream : public FileStream {
   static constexpr float nan = std::numeric_limits<float>::quiet_NaN();
   static constexpr float3 nowhere{nan, nan, nan};
 
-  [[noreturn]] void refuse(const char* what) const {
-    throw Error(ErrorKind::Input, path() + ": " + what + ", and needs more memory than --max-memory allows");
-  }
-
   /// The faces [begin, end) of one block.
   void examine_block(std::size_t begin, std::size_t end, const float3* corners) {
     VertexReach& reach = reach_[begin / grain];
@@ -251,7 +247,6 @@ class PlyStream : public FileStream {
     if (std::ranges::any_of(out, [&](std::uint32_t v) { return v >= rows_.vertices.count(); })) throw_changed();
     return out;
   }
-  [[noreturn]] void throw_changed() const { throw Error(ErrorKind::Input, path() + ": was changed while it was read"); }
 
   float value(std::size_t v, std::size_t property) const {
     return static_cast<float>(read_ply_value(first_row_[property].at + v * rows_.vertices.stride,

@@ -57,8 +57,9 @@ std::vector<Plane<std::uint32_t>> find_visible(const TriangleStream& stream, std
   const RasterRules rules{
       .edge_rule = options.edge_rule, .visibility = options.visibility, .capacity = options.capacity};
 
-  // The triangles before a part have ids, but are not drawn again.
-  std::vector<Draw> draws(2, make_draws(head, clip_from_world, options).draws.front());
+  const std::vector<StreamInstance> instances = stream.instances();
+  const SceneDraws whole = make_draws(head, clip_from_world, options);
+  std::vector<Draw> draws;
   part = std::min(part, stream.count());
   std::vector<float3> corners(3 * part);
   std::vector<std::uint32_t> index(3 * part);
@@ -72,9 +73,14 @@ std::vector<Plane<std::uint32_t>> find_visible(const TriangleStream& stream, std
     });
     stream.forget();
     stream.read_ahead(first + count, std::min(part, stream.count() - first - count));
-    draws[0].elsewhere = static_cast<std::uint32_t>(first);
-    draws[1].position = std::span(corners).first(3 * count);
-    draws[1].index = std::span(index).first(3 * count);
+    // The triangles before a part have ids, but are not drawn again.
+    draws.assign(1, Draw{});
+    draws.front().elsewhere = static_cast<std::uint32_t>(first);
+    for_each_instance(instances, first, first + count, [&](std::size_t i, std::size_t begin, std::size_t end) {
+      Draw& draw = draws.emplace_back(whole.draws[i]);
+      draw.position = std::span(corners).subspan(3 * (begin - first), 3 * (end - begin));
+      draw.index = std::span(index).first(3 * (end - begin));
+    });
     rasterize(draws, NoShader(), rules, target, &memory);
     if (options.progress)
       options.progress(share_of_search * static_cast<double>(first + count) / static_cast<double>(stream.count()));
@@ -183,13 +189,17 @@ class StreamedBackend : public Backend {
   /// Step 2.
   Frame render_band(const PreparedScene& head, const Band& band, const Camera& camera, const Request& request,
                     RenderOptions options, const Crop& crop, RenderCounts& counts) {
+    // Each instance is an object with a mesh of its own, whose primitives are some of the instance's.
+    const std::vector<StreamInstance> instances = stream_->instances();
     Scene scene = head.scene();
-    Mesh mesh = growing("visible triangles", [&] { return stream_->mesh(band.triangles); });
-    mesh.name = scene.meshes[0].name, mesh.material = scene.meshes[0].material;
-    scene.meshes[0] = std::move(mesh);
+    std::vector<std::size_t> first(instances.size());  // of the instance's triangles in the band
+    scene.meshes = growing("visible triangles", [&] { return visible_meshes(head.scene(), band, instances, first); });
+    for (std::size_t i = 0; i < instances.size(); ++i)
+      scene.instances[i].mesh = scene.instances[i].object = static_cast<int>(i);
     options.crop = Crop{crop.x, crop.y + band.top, crop.width, band.bottom - band.top};
     options.progress = {};
     Request own = request;
+    own.planes.object_id = request.planes.object_id || request.planes.primitive_id;
     if (!request.pixel_mask.empty()) {
       own.pixel_mask = Plane<std::uint8_t>(crop.width, options.crop->height);
       for (int y = band.top; y < band.bottom; ++y)
@@ -197,13 +207,36 @@ class StreamedBackend : public Backend {
     }
     Frame frame =
         cpu_->render(PreparedScene(std::move(scene), head).lit(head.lighting()), camera, own, options, &counts);
-    const auto number = [&](Plane<std::uint32_t>& ids) {
+    const std::span<std::uint32_t> object = frame.object_id.values(), primitive = frame.primitive_id.values();
+    for (std::size_t p = 0; p < primitive.size(); ++p) {
+      if (primitive[p] == Frame::no_id) continue;
+      const std::size_t i = object[p], before = i == 0 ? 0 : instances[i - 1].end;
+      primitive[p] = band.triangles[first[i] + primitive[p]] - static_cast<std::uint32_t>(before);
+    }
+    for (std::uint32_t& id : object)
+      if (id != Frame::no_id) id = static_cast<std::uint32_t>(head.scene().instances[id].object);
+    if (!request.planes.object_id) frame.object_id = {};
+    for (Plane<std::uint32_t>& ids : frame.sample_triangle)
       for (std::uint32_t& id : ids.values())
         if (id != Frame::no_id) id = band.triangles[id];
-    };
-    number(frame.primitive_id);
-    for (Plane<std::uint32_t>& ids : frame.sample_triangle) number(ids);
     return frame;
+  }
+
+  /// For each instance its triangles of a band, and the number of the first one in the band.
+  std::vector<Mesh> visible_meshes(const Scene& head, const Band& band, std::span<const StreamInstance> instances,
+                                   std::span<std::size_t> first) const {
+    std::vector<Mesh> meshes(instances.size());
+    std::span<const std::uint32_t> rest = band.triangles;
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+      const auto own_end = std::lower_bound(rest.begin(), rest.end(), instances[i].end);
+      const auto count = static_cast<std::size_t>(own_end - rest.begin());
+      if (count > 0) meshes[i] = stream_->mesh(rest.first(count));
+      first[i] = band.triangles.size() - rest.size();
+      const Mesh& own = head.meshes[static_cast<std::size_t>(head.instances[i].mesh)];
+      meshes[i].name = own.name, meshes[i].material = own.material;
+      rest = rest.subspan(count);
+    }
+    return meshes;
   }
 
   std::shared_ptr<const TriangleStream> stream_;

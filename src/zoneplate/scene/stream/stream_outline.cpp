@@ -9,6 +9,7 @@
 
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/scene/fit.h"
 #include "zoneplate/scene/geometry/origin.h"
 #include "zoneplate/scene/sanitize.h"
 
@@ -44,25 +45,33 @@ double max_along(const Box& box, float3 d) {
   return sum + rounding * magnitude + least;
 }
 
-std::vector<float3>& corners_for(std::size_t count, std::vector<float3>& corners) {
-  corners.resize(3 * count);
-  return corners;
+/// Transforms corners of triangles, of which the first has the number `first`, to the world.
+void place(std::span<const StreamInstance> instances, std::size_t first, std::span<float3> corners) {
+  for_each_instance(instances, first, first + corners.size() / 3,
+                    [&](std::size_t i, std::size_t begin, std::size_t end) {
+                      const float4x4& m = instances[i].world_from_object;
+                      if (m == float4x4{}) return;
+                      for (float3& p : corners.subspan(3 * (begin - first), 3 * (end - begin)))
+                        p = transform_point(m, p);
+                    });
 }
 
 }  // namespace
 
 StreamOutline::StreamOutline(TriangleStream& stream, const std::string& file,
                              const std::function<void(double)>& progress)
-    : stream_(stream), boxes_((stream.count() + block - 1) / block) {
+    : stream_(stream), instances_(stream.instances()), boxes_((stream.count() + block - 1) / block) {
   std::atomic<bool> is_finite_all = true;
   PerThread<std::vector<float3>> corners;
   for (std::size_t first = 0; first < stream.count(); first += step) {
     const std::size_t count = std::min(step, stream.count() - first);
     stream.read_ahead(first + count, std::min(step, stream.count() - first - count));
     parallel_ranges(count, block, [&](std::size_t begin, std::size_t end) {
-      std::vector<float3>& own = corners_for(end - begin, corners.local());
+      std::vector<float3>& own = corners.local();
+      own.resize(3 * (end - begin));
       stream.read(first + begin, end - begin, own.data());
       stream.examine(first + begin, end - begin, own.data());
+      place(instances_, first + begin, own);
       if (!are_finite({&own.front().x, 3 * own.size()})) is_finite_all = false;
       Box box;
       for (const float3 p : own) box.add(p);
@@ -78,7 +87,38 @@ StreamOutline::StreamOutline(TriangleStream& stream, const std::string& file,
   for (const Box& box : boxes_) bounds_.add(box);
   OriginChoice choice;
   choice.add(bounds_.low), choice.add(bounds_.high);
-  if (!choice.is_near()) refuse("lies far from the origin of its coordinates");
+  // A tenth of the distance beyond which some readers drop an instance by its box.
+  constexpr float farthest = 1e17f;
+  const auto is_beyond = [](float3 p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > farthest; };
+  if (!choice.is_near() || is_beyond(bounds_.low) || is_beyond(bounds_.high))
+    refuse("lies far from the origin of its coordinates");
+}
+
+void StreamOutline::read(std::size_t first, std::size_t count, std::vector<float3>& corners) const {
+  corners.resize(3 * count);
+  stream_.read(first, count, corners.data());
+  place(instances_, first, corners);
+}
+
+bool StreamOutline::has_front(const Camera& camera) const {
+  std::atomic<bool> has_any = false;
+  PerThread<std::vector<float3>> corners;
+  for (std::size_t first = 0; first < stream_.count() && !has_any; first += step) {
+    parallel_ranges(std::min(step, stream_.count() - first), block, [&](std::size_t begin, std::size_t end) {
+      if (has_any) return;
+      std::vector<float3>& own = corners.local();
+      read(first + begin, end - begin, own);
+      for_each_instance(instances_, first + begin, first + end, [&](std::size_t i, std::size_t from, std::size_t to) {
+        const float4x4& m = instances_[i].world_from_object;
+        for (std::size_t t = from; t < to; ++t) {
+          const float3* const c = &own[3 * (t - first - begin)];
+          if (faces(camera, m, {c[0], c[1], c[2]})) has_any = true;
+        }
+      });
+    });
+    stream_.forget();
+  }
+  return has_any;
 }
 
 std::vector<float3> StreamOutline::farthest(std::span<const float3> directions) const {
@@ -90,8 +130,8 @@ std::vector<float3> StreamOutline::farthest(std::span<const float3> directions) 
     PerThread<std::vector<float3>> corners;
     const auto add = [&](std::size_t number) {
       const std::size_t first = number * block, count = std::min(block, stream_.count() - first);
-      std::vector<float3>& own = corners_for(count, corners.local());
-      stream_.read(first, count, own.data());
+      std::vector<float3>& own = corners.local();
+      read(first, count, own);
       std::vector<Farthest> of_block(all.size());
       for (std::size_t d = 0; d < all.size(); ++d)
         for (std::size_t c = 0; c < own.size(); ++c) of_block[d].add(dot(all[d], own[c]), 3 * first + c, own[c]);

@@ -18,7 +18,8 @@ class StreamOutline {
   /// Reads and examines all triangles. `progress` takes the fraction that is read.
   ///
   /// Errors    ErrorKind::Input naming `file` where a corner is missing or not finite, or where the triangles lie so far
-  ///           from the origin that Scene::origin would not be 0: such scenes have to be in memory.
+  ///           from the origin that Scene::origin would not be 0, or that a reader may drop them: such scenes have to
+  ///           be in memory.
   StreamOutline(TriangleStream& stream, const std::string& file, const std::function<void(double)>& progress);
 
   const Box& bounds() const { return bounds_; }
@@ -27,8 +28,15 @@ class StreamOutline {
   /// first. As points of a scene they have the bounds of the whole, and its extent in these directions.
   std::vector<float3> farthest(std::span<const float3> directions) const;
 
+  /// Whether one of the triangles faces a camera: sees_backs_alone of fit.h, of single-sided triangles.
+  bool has_front(const Camera& camera) const;
+
  private:
+  /// The corners of triangles in the world.
+  void read(std::size_t first, std::size_t count, std::vector<float3>& corners) const;
+
   const TriangleStream& stream_;
+  std::vector<StreamInstance> instances_;
   std::vector<Box> boxes_;  ///< by block
   Box bounds_;
 };
