@@ -48,6 +48,9 @@ FileBytes::FileBytes(const std::string& path, std::uint64_t limit)
     : bytes_(contents_of(open_by_name(path), path, limit)) {}
 FileBytes::FileBytes(int descriptor, const std::string& path, std::uint64_t limit)
     : bytes_(contents_of(::fdopen(::dup(descriptor), "rb"), path, limit)) {}
+FileBytes FileBytes::reclaimable(int descriptor, const std::string& path) {
+  return FileBytes(descriptor, path, ~std::uint64_t{0});
+}
 FileBytes::~FileBytes() { delete[] bytes_.data(); }
 FileBytes::FileBytes(FileBytes&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
 FileBytes& FileBytes::operator=(FileBytes&& other) noexcept {

@@ -10,8 +10,8 @@
 namespace zoneplate {
 
 /// Opens a file whose scene might not fit into LoadLimits::memory, to read its triangles in parts: null if it surely
-/// fits, for formats that are not read in parts, all but binary STL and PLY of triangles, and where a child process has
-/// to read it (LoadOptions::is_sandboxed).
+/// fits, for formats that are not read in parts, all but glTF, binary STL and PLY of triangles, and where a child
+/// process has to read it (LoadOptions::is_sandboxed).
 ///
 /// Errors    those of load_scene about its header.
 std::unique_ptr<FileStream> open_large_file(const std::string& name, const LoadOptions& options);

@@ -183,11 +183,15 @@ FileBytes::FileBytes(int fd, const std::string& path, std::uint64_t limit) {
 
 FileBytes FileBytes::reclaimable(const std::string& path) {
   const Descriptor file(open_to_read(path));
-  const struct stat status = checked_status(file.fd(), path);
+  return reclaimable(file.fd(), path);
+}
+
+FileBytes FileBytes::reclaimable(int fd, const std::string& path) {
+  const struct stat status = checked_status(fd, path);
   if (!S_ISREG(status.st_mode) || status.st_size <= 0) throw read_error(path, "not a file with contents");
   const auto size = static_cast<std::uint64_t>(status.st_size);
   // A mapping that is only read is no data of the process (RLIMIT_DATA).
-  void* place = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.fd(), 0);
+  void* place = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, fd, 0);
   if (place == MAP_FAILED) throw read_error(path, cause_of(errno));
   FileBytes out;
   out.bytes_ = {static_cast<const std::uint8_t*>(place), size};

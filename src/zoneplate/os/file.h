@@ -24,6 +24,8 @@ class FileBytes {
   /// The contents of a file that may be larger than memory: its pages are not memory of the process, since the system
   /// may reclaim each of them at any time. Only regular files are accepted.
   static FileBytes reclaimable(const std::string& path);
+  /// The same of an open file, which errors call `path`; the descriptor may then be closed.
+  static FileBytes reclaimable(int descriptor, const std::string& path);
   /// The contents of an open file, which errors call `path`; the descriptor may then be closed.
   FileBytes(int descriptor, const std::string& path, std::uint64_t limit);
   ~FileBytes();

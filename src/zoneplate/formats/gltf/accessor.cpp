@@ -8,28 +8,13 @@
 #include <type_traits>
 
 #include "zoneplate/base/large_array.h"
+#include "zoneplate/base/parallel.h"
 
 namespace zoneplate {
 namespace {
 
 /// glTF's constants for component types.
 enum ComponentType { Int8 = 5120, Uint8 = 5121, Int16 = 5122, Uint16 = 5123, Uint32 = 5125, Float = 5126 };
-
-std::uint64_t component_size(int type) {
-  return type == Int8 || type == Uint8 ? 1 : type == Int16 || type == Uint16 ? 2 : 4;
-}
-
-/// The layout of `count` elements, all of which are within `bytes`.
-struct Layout {
-  std::uint64_t count = 0;
-  std::uint64_t components = 1;  ///< components per element
-  int type = Float;
-  bool is_normalized = false;
-  std::span<const std::uint8_t> bytes{};  ///< empty: all elements are zero
-  std::uint64_t stride = 0;
-
-  std::uint64_t element_size() const { return components * component_size(type); }
-};
 
 int read_component_type(const JsonView& json) {
   const auto type = static_cast<int>(json.whole("componentType", std::nullopt, 1 << 20));
@@ -50,7 +35,7 @@ std::uint64_t read_components(const JsonView& json) {
 }
 
 /// Locates the elements in the buffer view that `json` names, and checks that they fit.
-void place_in_view(GltfFile& file, const JsonView& json, const std::string& what, Layout& layout) {
+void place_in_view(GltfFile& file, const JsonView& json, const std::string& what, ElementLayout& layout) {
   const std::size_t view = json.index("bufferView", file.count("bufferViews"));
   const std::uint64_t offset = json.whole("byteOffset", 0), size = layout.element_size();
   const std::uint64_t stated = file.view_stride(view);
@@ -74,7 +59,7 @@ constexpr std::uint64_t max_zeros = std::uint64_t{1} << 22;
 /// An accessor, whose name in messages is of the form "mesh 3 primitive 0 POSITION".
 struct Accessor {
   JsonView json;
-  Layout layout;
+  ElementLayout layout;
 };
 
 Accessor find_accessor(GltfFile& file, const JsonView& owner, const char* key) {
@@ -101,7 +86,7 @@ Accessor find_accessor(GltfFile& file, const JsonView& owner, const char* key) {
 
 /// The elements as an array of T if their memory has this layout; else null.
 template <class T>
-const T* list_of(const Layout& from) {
+const T* list_of(const ElementLayout& from) {
   const bool is_list = !from.bytes.empty() && from.stride == sizeof(T) && from.element_size() == sizeof(T) &&
                        reinterpret_cast<std::uintptr_t>(from.bytes.data()) % alignof(T) == 0;
   return is_list ? reinterpret_cast<const T*>(from.bytes.data()) : nullptr;
@@ -118,7 +103,7 @@ float to_float(T value, bool is_normalized) {
 }
 
 template <class T>
-void convert_as(const Layout& from, std::uint64_t first, std::size_t count, float* to, std::size_t to_stride) {
+void convert_as(const ElementLayout& from, std::uint64_t first, std::size_t count, float* to, std::size_t to_stride) {
   const std::size_t components = std::min<std::size_t>(static_cast<std::size_t>(from.components), to_stride);
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint8_t* element = from.bytes.data() + (first + i) * from.stride;
@@ -131,7 +116,7 @@ void convert_as(const Layout& from, std::uint64_t first, std::size_t count, floa
 }
 
 /// Converts elements [first, first + count) to floats; consecutive elements are `to_stride` floats apart.
-void convert(const Layout& from, std::uint64_t first, std::size_t count, float* to, std::size_t to_stride) {
+void convert(const ElementLayout& from, std::uint64_t first, std::size_t count, float* to, std::size_t to_stride) {
   if (from.type == Int8) convert_as<std::int8_t>(from, first, count, to, to_stride);
   if (from.type == Uint8) convert_as<std::uint8_t>(from, first, count, to, to_stride);
   if (from.type == Int16) convert_as<std::int16_t>(from, first, count, to, to_stride);
@@ -141,7 +126,7 @@ void convert(const Layout& from, std::uint64_t first, std::size_t count, float* 
 }
 
 template <class T>
-void widen_as(const Layout& from, std::vector<std::uint32_t>& to) {
+void widen_as(const ElementLayout& from, std::vector<std::uint32_t>& to) {
   if (const T* const list = list_of<T>(from)) {
     to.assign(list, list + from.count);
     return;
@@ -154,10 +139,14 @@ void widen_as(const Layout& from, std::vector<std::uint32_t>& to) {
   }
 }
 
+void check_unsigned(const JsonView& json, const ElementLayout& layout) {
+  if (layout.type != Uint8 && layout.type != Uint16 && layout.type != Uint32)
+    json.fail("componentType is " + std::to_string(layout.type) + ", expected 5121, 5123 or 5125");
+}
+
 /// Reads unsigned integers, widened to 32 bits.
-std::vector<std::uint32_t> read_unsigned(GltfFile& file, const JsonView& json, const Layout& from) {
-  if (from.type != Uint8 && from.type != Uint16 && from.type != Uint32)
-    json.fail("componentType is " + std::to_string(from.type) + ", expected 5121, 5123 or 5125");
+std::vector<std::uint32_t> read_unsigned(GltfFile& file, const JsonView& json, const ElementLayout& from) {
+  check_unsigned(json, from);
   if (from.bytes.empty()) file.take_zeros(json, from.count);
   file.budget().take(from.count * sizeof(std::uint32_t));
   std::vector<std::uint32_t> out;
@@ -175,7 +164,7 @@ std::vector<std::uint32_t> read_unsigned(GltfFile& file, const JsonView& json, c
 /// The indices and values of an accessor's sparse elements.
 struct Sparse {
   std::vector<std::uint32_t> index;
-  Layout values;
+  ElementLayout values;
 };
 
 Sparse read_sparse(GltfFile& file, const Accessor& a) {
@@ -185,7 +174,7 @@ Sparse read_sparse(GltfFile& file, const Accessor& a) {
   if (count > a.layout.count)
     sparse.fail("count is " + std::to_string(count) + " of " + std::to_string(a.layout.count) + " elements");
 
-  Layout places{.count = count, .components = 1, .type = read_component_type(index_json)};
+  ElementLayout places{.count = count, .components = 1, .type = read_component_type(index_json)};
   place_in_view(file, index_json, "the list", places);
   Sparse out{read_unsigned(file, index_json, places), a.layout};
   out.values.count = count;
@@ -198,8 +187,39 @@ Sparse read_sparse(GltfFile& file, const Accessor& a) {
   return out;
 }
 
+void refuse_sparse(const Accessor& a) {
+  if (a.json.has("sparse")) a.json.fail("has sparse elements, which are not read one by one");
+}
+
+/// Calls body(i) for every i below `count`, in ascending steps after which the system may reclaim the file's memory.
+template <class Body>
+void in_steps(const GltfFile& file, std::size_t count, const Body& body) {
+  constexpr std::size_t step = 1 << 16, grain = 1 << 12;
+  for (std::size_t first = 0; first < count; first += step) {
+    parallel_ranges(std::min(step, count - first), grain, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = first + begin; i < first + end; ++i) body(i);
+    });
+    file.forget();
+  }
+}
+
+/// The elements of these numbers.
+template <class V>
+std::vector<V> gather_vectors(GltfFile& file, const Accessor& a, std::span<const std::uint32_t> numbers, V filler) {
+  constexpr std::size_t floats = sizeof(V) / sizeof(float);
+  refuse_sparse(a);
+  if (a.layout.bytes.empty()) file.take_zeros(a.json, numbers.size());
+  file.budget().take(numbers.size() * sizeof(V));
+  std::vector<V> out(numbers.size(), a.layout.components < floats ? filler : V{});
+  if (a.layout.bytes.empty()) return out;
+  in_steps(file, out.size(),
+           [&](std::size_t i) { convert(a.layout, numbers[i], 1, reinterpret_cast<float*>(&out[i]), floats); });
+  return out;
+}
+
 template <class V>
 std::vector<V> read_vectors(GltfFile& file, const Accessor& a, ElementRange range, V filler) {
+  if (!range.numbers.empty()) return gather_vectors(file, a, range.numbers, filler);
   constexpr std::size_t floats = sizeof(V) / sizeof(float);
   const std::uint64_t first = std::min(range.first, a.layout.count);
   const std::uint64_t count = std::min(range.count, a.layout.count - first);
@@ -235,6 +255,41 @@ Accessor find_vectors(GltfFile& file, const JsonView& owner, const char* key, co
 }
 
 }  // namespace
+
+std::uint64_t ElementLayout::element_size() const {
+  return components * (type == Int8 || type == Uint8 ? 1u : type == Int16 || type == Uint16 ? 2u : 4u);
+}
+
+ElementLayout find_float3(GltfFile& file, const JsonView& owner, const char* key) {
+  const Accessor a = find_vectors(file, owner, key, "VEC3", "VEC3");
+  refuse_sparse(a);
+  return a.layout;
+}
+
+ElementLayout find_indices(GltfFile& file, const JsonView& owner, const char* key) {
+  const Accessor a = find_accessor(file, owner, key);
+  check_unsigned(a.json, a.layout);
+  refuse_sparse(a);
+  return a.layout;
+}
+
+float3 float3_at(const ElementLayout& layout, std::uint64_t number) {
+  float3 out;
+  if (layout.bytes.empty()) return out;
+  if (layout.type == Float)
+    std::memcpy(&out, layout.bytes.data() + number * layout.stride, sizeof out);
+  else
+    convert(layout, number, 1, &out.x, 3);
+  return out;
+}
+
+std::uint32_t index_at(const ElementLayout& layout, std::uint64_t number) {
+  if (layout.bytes.empty()) return 0;
+  const std::uint8_t* const at = layout.bytes.data() + number * layout.stride;
+  std::uint32_t out = 0;  // little-endian: a shorter integer is its first bytes
+  std::memcpy(&out, at, static_cast<std::size_t>(layout.element_size()));
+  return out;
+}
 
 std::uint64_t count_elements(GltfFile& file, const JsonView& owner, const char* key) {
   return find_accessor(file, owner, key).layout.count;
@@ -283,9 +338,17 @@ std::vector<float4x4> read_float4x4(GltfFile& file, const JsonView& owner, const
   return read_vectors<float4x4>(file, a, {}, {});
 }
 
-std::vector<std::uint32_t> read_indices(GltfFile& file, const JsonView& owner, const char* key) {
+std::vector<std::uint32_t> read_indices(GltfFile& file, const JsonView& owner, const char* key, ElementRange range) {
   const Accessor a = find_accessor(file, owner, key);
   if (a.layout.components != 1) a.json.fail("type is " + a.json.text("type") + ", expected SCALAR");
+  if (!range.numbers.empty()) {
+    check_unsigned(a.json, a.layout);
+    refuse_sparse(a);
+    file.budget().take(range.numbers.size() * sizeof(std::uint32_t));
+    std::vector<std::uint32_t> some(range.numbers.size());
+    in_steps(file, some.size(), [&](std::size_t i) { some[i] = index_at(a.layout, range.numbers[i]); });
+    return some;
+  }
   std::vector<std::uint32_t> out = read_unsigned(file, a.json, a.layout);
   if (a.json.has("sparse")) {
     const Sparse sparse = read_sparse(file, a);

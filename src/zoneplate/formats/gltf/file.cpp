@@ -43,8 +43,18 @@ GltfFile::GltfFile(const std::string& path, const LoadLimits& limits)
     : path_(path),
       budget_(path, limits),
       finder_(std::filesystem::path(path).parent_path().string(), budget_.limits().allowed_paths),
-      file_(path, limits.memory) {
-  const std::span<const std::uint8_t> bytes = file_.bytes();
+      file_(std::in_place, path, limits.memory) {
+  read(file_->bytes());
+}
+
+GltfFile::GltfFile(const std::string& path, const LoadLimits& limits, std::span<const std::uint8_t> bytes)
+    : path_(path),
+      budget_(path, limits),
+      finder_(std::filesystem::path(path).parent_path().string(), budget_.limits().allowed_paths) {
+  read(bytes);
+}
+
+void GltfFile::read(std::span<const std::uint8_t> bytes) {
   if (is_binary_gltf(bytes))
     read_chunks(bytes);
   else
@@ -182,12 +192,18 @@ GltfBytes GltfFile::load_uri(const JsonView& owner, const std::string& uri) {
   if (is_stream(*path)) owner.fail("uri " + quoted(uri) + " is not a regular file");
   try {
     const std::string folder = std::filesystem::path(path_).parent_path().string();
-    out.file.emplace(open_found(folder, *path, budget_.limits().allowed_paths, budget_.memory_left()));
+    const auto limit = file_ ? std::optional(budget_.memory_left()) : std::nullopt;
+    out.file.emplace(open_found(folder, *path, budget_.limits().allowed_paths, limit));
   } catch (const Error& e) {
     owner.fail(e.what());
   }
   out.bytes = out.file->bytes();
   return out;
+}
+
+void GltfFile::forget() const {
+  for (const auto& [number, buffer] : buffers_)
+    if (buffer.file) buffer.file->forget(buffer.bytes.data(), buffer.bytes.size());
 }
 
 void GltfFile::take_zeros(const JsonView& accessor, std::uint64_t count) {

@@ -33,6 +33,8 @@ class GltfFile {
   /// Errors    ErrorKind::Input: unreadable, neither JSON nor GLB 2, chunks that overrun the file, not glTF 2; Gltf1Error
   ///           (gltf.h).
   GltfFile(const std::string& path, const LoadLimits& limits);
+  /// A file that is read in parts: the caller maps its bytes, and files that it names may be larger than memory too.
+  GltfFile(const std::string& path, const LoadLimits& limits, std::span<const std::uint8_t> bytes);
 
   const JsonView& root() const { return *root_; }
   ImportBudget& budget() { return budget_; }
@@ -65,6 +67,9 @@ class GltfFile {
   /// Resets the count of take_zeros, for another scene of the file.
   void forget_zeros() { zeros_ = 0; }
 
+  /// Lets the system reclaim the memory of the buffers' files.
+  void forget() const;
+
   /// Reads a part that the picture can do without. An invalid one is left out with a warning, or is an error if the
   /// limits are strict.
   ///
@@ -85,6 +90,7 @@ class GltfFile {
   const std::vector<std::string>& warnings() const { return warnings_; }
 
  private:
+  void read(std::span<const std::uint8_t> bytes);
   void read_chunks(std::span<const std::uint8_t> bytes);
   void check_asset();
   void leave_out(const Error& error);
@@ -94,7 +100,7 @@ class GltfFile {
   std::string path_;
   ImportBudget budget_;
   PathFinder finder_;
-  FileBytes file_;
+  std::optional<FileBytes> file_;  ///< nothing: the caller has the bytes
   std::span<const std::uint8_t> json_bytes_, binary_;
   bool has_binary_ = false;
   JsonValue json_;

@@ -161,8 +161,9 @@ std::optional<std::size_t> find_variant(GltfFile& file, const std::string& name)
 class SceneReader {
  public:
   /// `origin` is Scene::origin; nothing: it follows from this choice.
-  SceneReader(GltfFile& file, const SceneChoice& choice, const std::optional<double3>& origin)
-      : file_(file), nodes_(file, choice), variant_(find_variant(file, choice.variant)) {
+  SceneReader(GltfFile& file, const SceneChoice& choice, const std::optional<double3>& origin,
+              const GltfModel::MeshReader& read_mesh)
+      : file_(file), nodes_(file, choice), variant_(find_variant(file, choice.variant)), read_mesh_(read_mesh) {
     scene_.origin = origin ? *origin : find_origin(file, nodes_);
     if (scene_.origin != double3{}) nodes_.set_origin(scene_.origin);
   }
@@ -181,6 +182,7 @@ class SceneReader {
   GltfFile& file_;
   GltfNodes nodes_;
   std::optional<std::size_t> variant_;
+  const GltfModel::MeshReader& read_mesh_;
   Scene scene_;
 
   /// A mesh in the scene: the number of its primitive, what was subtracted from its positions, and the bounds of all of
@@ -264,7 +266,7 @@ std::pair<std::size_t, std::size_t> SceneReader::find_meshes(const GltfNode& nod
 
   if (key.second) pose.joints = nodes_.joints(node);
   const std::size_t first = scene_.meshes.size();
-  for (GltfPrimitive& primitive : load_gltf_mesh(file_, mesh, pose, scene_.materials)) {
+  for (GltfPrimitive& primitive : read_mesh_(file_, mesh, pose, scene_.materials)) {
     // A skinned mesh is in world space, which is near enough to the scene's origin.
     const double3 centre = nodes_.is_far() && !key.second ? center_far_mesh(primitive.mesh) : double3{};
     parts_.push_back({primitive.number, centre, bounds_of(primitive.mesh.position)});
@@ -279,7 +281,7 @@ std::pair<std::size_t, std::size_t> SceneReader::find_meshes(const GltfNode& nod
 /// of the used ones are computed if needed, once per mesh.
 bool SceneReader::is_near(std::size_t mesh, const float4x4& world_from_object) {
   Part& part = parts_[mesh];
-  if (zoneplate::is_near(part.all, world_from_object)) return true;
+  if (part.all.empty() || zoneplate::is_near(part.all, world_from_object)) return true;
   if (!part.used) {
     const Mesh& m = scene_.meshes[mesh];
     part.used.emplace();
@@ -401,7 +403,8 @@ Scene SceneReader::read(const GltfMaterials& look, GltfModel::Images images) {
 
 /// The open file, the budget that remained after opening it, and what its scenes need at all times.
 struct GltfModel::Open {
-  Open(const std::string& path, const LoadLimits& limits) : file(path, limits) {
+  template <class... Bytes>
+  Open(const std::string& path, const LoadLimits& limits, Bytes... bytes) : file(path, limits, bytes...) {
     check_extensions(file);
     look = load_materials(file);
     left = file.budget().memory_left();
@@ -433,12 +436,24 @@ struct GltfModel::Open {
 };
 
 GltfModel::GltfModel(const std::string& path, const LoadLimits& limits) : open_(std::make_unique<Open>(path, limits)) {}
+GltfModel::GltfModel(const std::string& path, const LoadLimits& limits, std::span<const std::uint8_t> bytes)
+    : open_(std::make_unique<Open>(path, limits, bytes)) {}
 GltfModel::~GltfModel() = default;
 
-Scene GltfModel::scene(const SceneChoice& choice, Images images) {
+Scene GltfModel::scene(const SceneChoice& choice, Images images) { return scene(choice, images, load_gltf_mesh); }
+
+Scene GltfModel::scene(const SceneChoice& choice, Images images, const MeshReader& read_mesh) {
   const std::optional<double3> origin = open_->find_origin(choice);
   open_->restart();
-  return SceneReader(open_->file, choice, origin).read(open_->look, images);
+  return SceneReader(open_->file, choice, origin, read_mesh).read(open_->look, images);
+}
+
+void GltfModel::forget() const { open_->file.forget(); }
+
+GltfFile& GltfModel::restarted_file() {
+  open_->file.budget().restart(open_->left);
+  open_->file.forget_zeros();
+  return open_->file;
 }
 
 std::vector<double> GltfModel::key_times(const SceneChoice& choice) {

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "zoneplate/base/error.h"
+#include "zoneplate/formats/gltf/mesh.h"
 #include "zoneplate/formats/import/load_options.h"
 #include "zoneplate/scene/scene.h"
 
@@ -38,11 +40,22 @@ bool is_binary_gltf(std::span<const std::uint8_t> bytes);
 class GltfModel {
  public:
   explicit GltfModel(const std::string& path, const LoadLimits& limits = {});
+  /// A file that is read in parts, as GltfFile.
+  GltfModel(const std::string& path, const LoadLimits& limits, std::span<const std::uint8_t> bytes);
   ~GltfModel();
 
   /// Loads a scene as load_gltf does. `Images::Without` omits the images, for callers that need only geometry.
   enum class Images { With, Without };
   Scene scene(const SceneChoice& choice, Images images = Images::With);
+  /// The same scene with meshes by another reader, whose arguments and result are those of load_gltf_mesh. Instances of
+  /// a mesh without vertices are all kept.
+  using MeshReader =
+      std::function<std::vector<GltfPrimitive>(GltfFile&, std::size_t, const GltfPose&, std::span<const Material>)>;
+  Scene scene(const SceneChoice& choice, Images images, const MeshReader& read_mesh);
+  /// The file, with the budget that remains for a scene, for a reader of the meshes of `scene` to go on.
+  GltfFile& restarted_file();
+  /// GltfFile::forget.
+  void forget() const;
   /// Times at which the chosen animations may move something the farthest, the most important first (key_times.h).
   std::vector<double> key_times(const SceneChoice& choice);
 

@@ -29,7 +29,9 @@ namespace {
 struct Primitive {
   GltfFile& file;
   JsonView json, attributes;
-  ElementRange range;  ///< the range of vertices that its indices span
+  ElementRange range;                        ///< the range of vertices that its indices span, or of each corner
+  std::span<const std::uint32_t> triangles;  ///< those that are read; empty: all
+  std::vector<std::uint32_t> corners;        ///< their vertices
 };
 
 /// Reads an attribute of the primitive, which must have as many elements as the positions.
@@ -63,12 +65,32 @@ Span span_of(const std::vector<std::uint32_t>& values) {
   return all;
 }
 
+[[noreturn]] void fail_index(const Primitive& p, std::size_t i, std::uint32_t index, std::uint64_t vertices) {
+  p.json.fail("index " + std::to_string(i) + " is " + std::to_string(index) + ", but POSITION has " +
+              std::to_string(vertices) + " elements");
+}
+
+/// The corners of some triangles as vertices 0, 1, 2, ... Stores the vertices of the file in `corners`.
+std::vector<std::uint32_t> read_corners(Primitive& p, std::uint64_t vertices) {
+  const std::size_t count = 3 * p.triangles.size();
+  p.file.budget().take(2 * count * sizeof(std::uint32_t));
+  std::vector<std::uint32_t> order(count);
+  for (std::size_t i = 0; i < count; ++i) order[i] = 3 * p.triangles[i / 3] + static_cast<std::uint32_t>(i % 3);
+  p.corners = p.json.has("indices") ? read_indices(p.file, p.json, "indices", {.numbers = order}) : order;
+  for (std::size_t i = 0; i < count; ++i)
+    if (p.corners[i] >= vertices) fail_index(p, order[i], p.corners[i], vertices);
+  p.range.numbers = p.corners;
+  for (std::size_t i = 0; i < count; ++i) order[i] = static_cast<std::uint32_t>(i);
+  return order;
+}
+
 /// Reads the indices of the primitive (0, 1, 2, ... if there are none) and stores the range of vertices that they span
 /// in `range`.
 std::vector<std::uint32_t> read_order(Primitive& p) {
   const std::uint64_t vertices = count_elements(p.file, p.attributes.renamed(p.json.place()), "POSITION");
   if (vertices >= std::numeric_limits<std::uint32_t>::max())
     p.json.fail("POSITION has " + std::to_string(vertices) + " elements, more than 32-bit indices can name");
+  if (!p.triangles.empty()) return read_corners(p, vertices);
   std::vector<std::uint32_t> order;
   if (!p.json.has("indices")) {
     p.file.budget().take(vertices * sizeof(std::uint32_t));
@@ -80,8 +102,8 @@ std::vector<std::uint32_t> read_order(Primitive& p) {
   if (order.empty()) return order;
   const Span span = span_of(order);
   if (span.high >= vertices)
-    p.json.fail("index " + std::to_string(std::find(order.begin(), order.end(), span.high) - order.begin()) + " is " +
-                std::to_string(span.high) + ", but POSITION has " + std::to_string(vertices) + " elements");
+    fail_index(p, static_cast<std::size_t>(std::find(order.begin(), order.end(), span.high) - order.begin()), span.high,
+               vertices);
   p.range = {span.low, std::uint64_t{span.high} - span.low + 1};
   for (std::size_t i = 0; span.low != 0 && i < order.size(); ++i) order[i] -= span.low;
   return order;
@@ -167,19 +189,13 @@ void apply_joints(const Primitive& p, std::span<const float4x4> joints, Mesh& me
     p.file.budget().give_back(list->size() * sizeof(float4));
 }
 
-/// The direction of v; zero if its square is too small or too large for the precision of a float.
-float3 direction(float3 v) {
-  const float square = dot(v, v);
-  return square > 1e-30f && square < 1e30f ? normalize(v) : float3{};
-}
-
 /// Normalizes all normals; one without direction is replaced by that of the triangles at its vertex.
 void normalize_normals(Mesh& m) {
   std::atomic<bool> has_zero = false;
   parallel_ranges(m.normal.size(), 1 << 14, [&](std::size_t begin, std::size_t end) {
     bool is_here = false;
     for (std::size_t i = begin; i < end; ++i) {
-      m.normal[i] = direction(m.normal[i]);
+      m.normal[i] = gltf_direction(m.normal[i]);
       is_here = is_here || m.normal[i] == float3{};
     }
     if (is_here) has_zero = true;
@@ -199,7 +215,7 @@ void normalize_normals(Mesh& m) {
 void normalize_tangents(Mesh& m) {
   for (std::size_t i = 0; i < m.tangent.size(); ++i) {
     const float3 axis = std::abs(m.normal[i].x) < 0.5f ? float3{1, 0, 0} : float3{0, 1, 0};
-    float3 t = direction(xyz(m.tangent[i]));
+    float3 t = gltf_direction(xyz(m.tangent[i]));
     if (t == float3{}) t = normalize(axis - m.normal[i] * dot(axis, m.normal[i]));
     m.tangent[i] = {t.x, t.y, t.z, m.tangent[i].w < 0 ? -1.0f : 1.0f};
   }
@@ -249,9 +265,10 @@ std::optional<std::size_t> find_material(const JsonView& json, const GltfPose& p
   return json.find_index("material", count);
 }
 
-Mesh read_primitive(GltfFile& file, const JsonView& json, const GltfPose& pose, std::span<const float> weights,
+Mesh read_primitive(Primitive p, const GltfPose& pose, std::span<const float> weights,
                     std::span<const Material> materials) {
-  Primitive p{file, json, json.object("attributes").renamed(json.place()), {}};
+  GltfFile& file = p.file;
+  const JsonView& json = p.json;
   const std::uint64_t mode = json.whole("mode", 4, 255);
   if (mode > 6) json.fail("mode is " + std::to_string(mode) + ", expected 0 to 6");
   std::optional<std::size_t> material;
@@ -297,7 +314,23 @@ Mesh read_primitive(GltfFile& file, const JsonView& json, const GltfPose& pose, 
   return m;
 }
 
+Primitive open_primitive(GltfFile& file, const JsonView& json, std::span<const std::uint32_t> triangles) {
+  return {file, json, json.object("attributes").renamed(json.place()), {}, triangles, {}};
+}
+
 }  // namespace
+
+float3 gltf_direction(float3 v) {
+  const float square = dot(v, v);
+  return square > 1e-30f && square < 1e30f ? normalize(v) : float3{};
+}
+
+Mesh load_gltf_triangles(GltfFile& file, const JsonView& primitive, const GltfPose& pose,
+                         std::span<const Material> materials, std::span<const std::uint32_t> triangles) {
+  Mesh m;
+  file.read_optional([&] { m = read_primitive(open_primitive(file, primitive, triangles), pose, {}, materials); });
+  return m;
+}
 
 std::vector<GltfPrimitive> load_gltf_mesh(GltfFile& file, std::size_t number, const GltfPose& pose,
                                           std::span<const Material> materials) {
@@ -308,8 +341,10 @@ std::vector<GltfPrimitive> load_gltf_mesh(GltfFile& file, std::size_t number, co
   for (std::size_t i = 0; i < json.count("primitives"); ++i) {
     file.budget().check_time();
     Mesh m;
-    file.read_optional(
-        [&] { m = read_primitive(file, json.element("primitives", i, "primitive"), pose, weights, materials); });
+    file.read_optional([&] {
+      m = read_primitive(open_primitive(file, json.element("primitives", i, "primitive"), {}), pose, weights,
+                         materials);
+    });
     if (m.index.empty()) continue;
     file.budget().take(3 * sizeof(Mesh) + name.size());  // growing lists have up to twice their size
     m.name = name;

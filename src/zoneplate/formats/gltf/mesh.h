@@ -33,4 +33,15 @@ struct GltfPrimitive {
 std::vector<GltfPrimitive> load_gltf_mesh(GltfFile& file, std::size_t number, const GltfPose& pose,
                                           std::span<const Material> materials);
 
+/// Reads some triangles of a primitive whose mode is 4 as load_gltf_mesh does, in this order; each corner has its own
+/// vertex. A primitive that is left out is empty.
+///
+/// Requires  the pose has neither weights nor joints; at least one triangle; all exist.
+/// Errors    those of load_gltf_mesh; ErrorKind::Input for a vertex that does not exist.
+Mesh load_gltf_triangles(GltfFile& file, const JsonView& primitive, const GltfPose& pose,
+                         std::span<const Material> materials, std::span<const std::uint32_t> triangles);
+
+/// The direction of a normal of the file; zero if its square is too small or too large for the precision of a float.
+float3 gltf_direction(float3 v);
+
 }  // namespace zoneplate

@@ -187,7 +187,7 @@ const PathFinder::Names& PathFinder::names_in(const std::string& folder) {
 }
 
 FileBytes open_found(const std::string& folder, const std::string& path, std::span<const std::string> allowed,
-                     std::uint64_t limit) {
+                     std::optional<std::uint64_t> limit) {
   namespace fs = std::filesystem;
   const auto fail = [&](const std::string& cause) -> Error { return {ErrorKind::Input, path + ": " + cause}; };
   std::error_code trouble;
@@ -205,7 +205,7 @@ FileBytes open_found(const std::string& folder, const std::string& path, std::sp
   if (!S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) throw fail("is not a regular file");
   // If it has been replaced by a pipe since, opening it does not block; reading it would end at once.
   const Descriptor file{::openat(parent.number, name.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC)};
-  return FileBytes(file.number, path, limit);
+  return limit ? FileBytes(file.number, path, *limit) : FileBytes::reclaimable(file.number, path);
 }
 
 bool is_stream(const std::string& path) {

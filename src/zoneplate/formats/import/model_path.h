@@ -52,11 +52,12 @@ class PathFinder {
 };
 
 /// Opens a file that find_path found. It is checked again to be within the folder or `allowed`, because the path may
-/// have changed in the meantime, and opened without following links, because it may change again.
+/// have changed in the meantime, and opened without following links, because it may change again. Without a limit it
+/// may be larger than memory: FileBytes::reclaimable.
 ///
 /// Errors    ErrorKind::Input naming the path: it now leads out of the folder, is not a regular file, cannot be read.
 FileBytes open_found(const std::string& folder, const std::string& path, std::span<const std::string> allowed,
-                     std::uint64_t limit);
+                     std::optional<std::uint64_t> limit);
 
 /// Whether the path is a pipe, a socket or a device, which may have no end or block.
 bool is_stream(const std::string& path);
