@@ -9,7 +9,7 @@ foreach(header zstd.h zlib.h zconf.h)
 endforeach()
 
 # A module has no memory beside that of its files, so that reading these in parts saves none.
-set(streams formats/open_stream formats/gltf/stream/stream formats/ply/stream formats/stl/stream job/render_streamed)
+set(streams formats/open_stream formats/gltf/stream/stream formats/obj/part_cache formats/obj/stream formats/ply/stream formats/stl/stream job/render_streamed)
 list(TRANSFORM streams REPLACE "(.+)" "src/zoneplate/\\1.cpp")
 # The readers of models, and the job. files.cpp and ../no_system.cpp take the place of the sources that need libraries or
 # child processes.

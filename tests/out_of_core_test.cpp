@@ -16,6 +16,8 @@
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/codec/png.h"
+#include "zoneplate/formats/gltf/maker_for_test.h"
 #include "zoneplate/job/check.h"
 #include "zoneplate/job/option_values.h"
 #include "zoneplate/job/render_job.h"
@@ -181,6 +183,55 @@ class Waves {
       out.write(facet, sizeof facet);
     }
   }
+  /// Two primitives, of flat triangles and of textured ones with normals, and a mirrored copy of both.
+  void save_glb(const std::filesystem::path& path) const {
+    GltfMaker m;
+    std::vector<float> position, normal, uv;
+    std::vector<std::uint32_t> index;
+    for (std::uint32_t v = 0; v < vertices(); ++v) {
+      const float3 p = vertex(v), n = normalize({p.x, unit_float(hash(v, 3)), p.z}, {0, 1, 0});
+      position.insert(position.end(), {p.x, p.y, p.z}), normal.insert(normal.end(), {n.x, n.y, n.z});
+      uv.insert(uv.end(), {p.x + p.z, p.y});
+    }
+    for (std::uint32_t t = 0; t < triangles(); ++t)
+      for (const std::uint32_t v : triangle(t)) index.push_back(v);
+    const std::vector<std::uint32_t> low(index.begin(), index.begin() + index.size() / 6 * 3);
+    const std::vector<std::uint32_t> high(index.begin() + static_cast<std::ptrdiff_t>(low.size()), index.end());
+    const std::string positions = m.floats("VEC3", position);
+    m.meshes = fmt::format(
+        R"({{"primitives":[{{"attributes":{{"POSITION":{0}}},"indices":{1},"material":0}},
+        {{"attributes":{{"POSITION":{0},"NORMAL":{2},"TEXCOORD_0":{3}}},"indices":{4},"material":1}}]}})",
+        positions, m.values("SCALAR", low), m.floats("VEC3", normal), m.floats("VEC2", uv), m.values("SCALAR", high));
+    m.nodes = R"({"mesh":0},{"mesh":0,"scale":[-1,0.5,1],"translation":[2.5,0,0]})";
+    m.scene_nodes = "0,1";
+    m.materials = R"({"pbrMetallicRoughness":{"baseColorFactor":[1,0.2,0,1],"metallicFactor":0.3}},
+      {"doubleSided":true,"pbrMetallicRoughness":{"baseColorTexture":{"index":0},"metallicFactor":0}})";
+    Rgba8Image checks(8, 8);
+    for (int y = 0; y < 8; ++y)
+      for (int x = 0; x < 8; ++x) checks(x, y) = (x + y) % 2 == 0 ? Rgba8{255, 255, 255, 255} : Rgba8{20, 90, 200, 255};
+    m.rest = R"(,"textures":[{"source":0}],"images":[{"mimeType":"image/png","bufferView":)" +
+             m.view(encode_png(checks)) + "}]";
+    const std::vector<std::uint8_t> bytes = m.glb();
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  }
+  /// Two objects of two materials, whose normals are made.
+  void save_obj(const std::filesystem::path& path) const {
+    std::ofstream(path.parent_path() / "waves.mtl")
+        << "newmtl red\nKd 1 0.2 0\nNs 40\nKs 1 1 1\nnewmtl blue\nKd 0 0 1\n";
+    std::ofstream out(path);
+    out << "mtllib waves.mtl\n";
+    for (std::uint32_t v = 0; v < vertices(); ++v) {
+      const float3 p = vertex(v);
+      out << fmt::format("v {} {} {}\nvt {} {}\n", p.x, p.y, p.z, p.x, p.y);
+    }
+    for (std::uint32_t t = 0; t < triangles(); ++t) {
+      if (t % 5000 == 0) out << fmt::format("o half{}\nusemtl {}\n", t / 20000, t % 10000 == 0 ? "red" : "blue");
+      out << "f";
+      for (const std::uint32_t v : triangle(t)) out << fmt::format(" {0}/{0}", v + 1);
+      out << "\n";
+    }
+  }
 
  private:
   std::uint32_t rows_, columns_;
@@ -213,14 +264,16 @@ TEST_F(OutOfCoreProgram, AJobHasTheSameFilesWithLittleMemory) {
   const Waves waves(120, 160);
   waves.save_ply(place / "waves.ply");
   waves.save_stl(place / "waves.stl");
-  for (const char* name : {"waves.ply", "waves.stl"})
+  waves.save_glb(place / "waves.glb");
+  waves.save_obj(place / "waves.obj");
+  for (const char* name : {"waves.ply", "waves.stl", "waves.glb", "waves.obj"})
     for (const int view : {0, 1, 2, 3, 4}) {
       SCOPED_TRACE(fmt::format("{} {}", name, view));
       Job job;
       job.input = (place / name).string(), job.output = view == 3 ? "out.exr" : "out.png";
       job.options.width = 64, job.options.height = 48;
       job.method = "msaa:n=4";
-      job.aovs = parse_aovs("depth,normal,primitive-id,object-id");
+      job.aovs = parse_aovs(view == 1 ? "depth,normal,uv,primitive-id" : "depth,material-id,primitive-id,object-id");
       if (view == 1) job.view.azimuth = 2.0f, job.view.is_orthographic = true;
       if (view == 2) job.view.position = double3{0, 2, 2.5}, job.options.crop = Crop{10, 10, 30, 20};
       if (view == 4) job.view.position = double3{0, 2, 9}, job.view.focal_point = double3{0, 2, 20};  // nothing is seen

@@ -5,6 +5,7 @@
 
 #include "zoneplate/base/lower_case.h"
 #include "zoneplate/formats/gltf/stream/stream.h"
+#include "zoneplate/formats/obj/stream.h"
 #include "zoneplate/formats/ply/stream.h"
 #include "zoneplate/formats/stl/stream.h"
 
@@ -38,6 +39,8 @@ std::unique_ptr<FileStream> open_large_file(const std::string& name, const LoadO
     return nullptr;
   } else if (extension.ends_with("glb") || extension.ends_with("vrm")) {
     stream = open_large_gltf(name, options);
+  } else if (extension.ends_with("obj")) {
+    if (obj_may_exceed_memory(name, options.limits)) stream = open_obj_stream(name, options.limits);
   } else if (extension.ends_with("stl")) {
     stream = open_stl_stream(name, options.limits);
   } else if (extension.ends_with("ply")) {

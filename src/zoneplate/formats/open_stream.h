@@ -10,7 +10,7 @@
 namespace zoneplate {
 
 /// Opens a file whose scene might not fit into LoadLimits::memory, to read its triangles in parts: null if it surely
-/// fits, for formats that are not read in parts, all but glTF, binary STL and PLY of triangles, and where a child
+/// fits, for formats that are not read in parts, all but glTF, OBJ, binary STL and PLY of triangles, and where a child
 /// process has to read it (LoadOptions::is_sandboxed).
 ///
 /// Errors    those of load_scene about its header.

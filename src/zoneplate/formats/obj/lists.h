@@ -99,6 +99,8 @@ class ObjCorners {
 /// The elements of a chunk. As long as all are consecutive triangles, only their number is stored.
 class ObjElements {
  public:
+  ObjElements() = default;
+  explicit ObjElements(std::size_t triangles) : triangles_(triangles) {}
   std::size_t size() const { return triangles_ + own_.size(); }
   bool empty() const { return size() == 0; }
   bool are_triangles() const { return own_.empty(); }
