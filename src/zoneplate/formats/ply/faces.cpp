@@ -173,10 +173,10 @@ std::vector<T> joined(std::vector<PlyFaces>& parts, std::vector<T> PlyFaces::*li
   return out;
 }
 
-/// The address of the first row's indices, if all rows are triangles of 32-bit indices in native byte order; else null.
+/// The address of the first row's indices, if all rows are triangles of 32-bit indices; else null.
 const std::uint8_t* first_plain_triangle(const PlyRows& rows) {
   const std::optional<std::size_t> indices = find_indices(*rows.element);
-  if (!indices || rows.stride == 0 || rows.count() == 0 || rows.order != PlyOrder::Little) return nullptr;
+  if (!indices || rows.stride == 0 || rows.count() == 0) return nullptr;
   const PlyType type = rows.element->properties[*indices].type;
   if (type != PlyType::Int32 && type != PlyType::Uint32) return nullptr;
   if (find(*rows.element, "texcoord", true) || find(*rows.element, "red", false)) return nullptr;
@@ -205,6 +205,7 @@ std::vector<std::uint32_t> read_plain_triangles(const PlyRows& rows, std::size_t
     for (std::size_t i = begin; i < end; ++i) {
       std::uint32_t v[3];
       std::memcpy(v, first + i * rows.stride, sizeof v);
+      for (std::uint32_t& word : v) word = native_word(word, rows.order);
       most = std::max({most, v[0], v[1], v[2]});
       std::memcpy(&index[3 * i], v, sizeof v);
     }

@@ -64,7 +64,7 @@ struct PlyFaces {
   PlyStrays strays;
 };
 
-/// Whether all faces are triangles of 32-bit indices in native byte order without other attributes, as in most files.
+/// Whether all faces are triangles of 32-bit indices without other attributes, as in most files.
 bool are_plain_triangles(const PlyRows& faces);
 
 /// The property of faces that lists their vertices.

@@ -33,6 +33,11 @@ struct PlyRows {
   std::size_t count() const { return static_cast<std::size_t>(element->count); }
 };
 
+/// A 32-bit integer that a file of this byte order stores so.
+inline std::uint32_t native_word(std::uint32_t stored, PlyOrder order) {
+  return order == PlyOrder::Big ? __builtin_bswap32(stored) : stored;
+}
+
 /// Reads one value; 32-bit integers are exact.
 double read_ply_value(const std::uint8_t* at, PlyType type, PlyOrder order);
 

@@ -91,10 +91,11 @@ std::size_t lists_of(const PlyElement& element) {
 }
 
 /// Takes rows of one size from the front of the body; nothing if they are not within it.
-std::optional<PlyRows> take_rows(const PlyElement& element, std::uint64_t stride, std::span<const std::uint8_t>& body) {
+std::optional<PlyRows> take_rows(const PlyElement& element, PlyOrder order, std::uint64_t stride,
+                                 std::span<const std::uint8_t>& body) {
   if (element.count == 0 || stride == 0 || stride > body.size() / element.count) return std::nullopt;
   const PlyRows rows{.element = &element,
-                     .order = PlyOrder::Little,
+                     .order = order,
                      .data = body.data(),
                      .size = element.count * stride,
                      .stride = stride,
@@ -104,13 +105,13 @@ std::optional<PlyRows> take_rows(const PlyElement& element, std::uint64_t stride
 }
 
 std::optional<PlainElements> find_plain(const PlyHeader& header, std::span<const std::uint8_t> body) {
-  if (header.order != PlyOrder::Little || header.elements.size() < 2) return std::nullopt;
+  if (header.order == PlyOrder::Ascii || header.elements.size() < 2) return std::nullopt;
   const PlyElement &vertex = header.elements[0], &face = header.elements[1];
   if (vertex.name != "vertex" || face.name != "face" || lists_of(vertex) != 0 || lists_of(face) != 1)
     return std::nullopt;
-  const auto vertices = take_rows(vertex, row_size(vertex, 0), body);
+  const auto vertices = take_rows(vertex, header.order, row_size(vertex, 0), body);
   if (!vertices || !find_columns(vertex).position || vertex.count >= 0xffffffffu) return std::nullopt;
-  const auto faces = take_rows(face, row_size(face, 3), body);
+  const auto faces = take_rows(face, header.order, row_size(face, 3), body);
   if (!faces || faces->count() > 0x7ffffffeu || !are_plain_triangles(*faces)) return std::nullopt;
   const std::size_t list = *find_indices(face);
   const auto index_at = static_cast<std::size_t>(first_ply_row(*faces)[list].at - faces->data);
@@ -232,9 +233,10 @@ class PlyStream : public FileStream {
     const std::uint8_t* const row = face(f);
     std::array<std::uint32_t, 3> out;
     std::memcpy(out.data(), row + rows_.index_at, sizeof out);
+    for (std::uint32_t& v : out) v = native_word(v, rows_.faces.order);
     const bool is_triangle = rows_.count_type == PlyType::Uint8
                                  ? row[rows_.count_at] == 3
-                                 : read_ply_value(row + rows_.count_at, rows_.count_type, PlyOrder::Little) == 3;
+                                 : read_ply_value(row + rows_.count_at, rows_.count_type, rows_.faces.order) == 3;
     if (!is_triangle) out.fill(0xffffffffu);
     return out;
   }
@@ -250,7 +252,7 @@ class PlyStream : public FileStream {
 
   float value(std::size_t v, std::size_t property) const {
     return static_cast<float>(read_ply_value(first_row_[property].at + v * rows_.vertices.stride,
-                                             rows_.vertices.element->properties[property].type, PlyOrder::Little));
+                                             rows_.vertices.element->properties[property].type, rows_.vertices.order));
   }
   float3 vector(std::size_t v, const std::array<std::size_t, 3>& p) const {
     return {value(v, p[0]), value(v, p[1]), value(v, p[2])};
@@ -273,7 +275,7 @@ class PlyStream : public FileStream {
     PlyElement element = *rows_.vertices.element;
     element.count = vertex.size();
     const PlyRows rows{.element = &element,
-                       .order = PlyOrder::Little,
+                       .order = rows_.vertices.order,
                        .data = bytes.data(),
                        .size = bytes.size(),
                        .stride = rows_.vertices.stride,

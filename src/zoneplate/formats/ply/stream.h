@@ -7,8 +7,8 @@
 
 namespace zoneplate {
 
-/// Opens a binary PLY file to read its triangles in parts. Null if it is ASCII or big-endian, or if its faces are not
-/// plain triangles: one list, of three 32-bit indices.
+/// Opens a binary PLY file to read its triangles in parts. Null if it is ASCII, or if its faces are not plain
+/// triangles: one list, of three 32-bit indices.
 ///
 /// Textures, colours that are not bytes and vertices that are not opaque cannot be read in parts (FileStream::check).
 /// Errors    those of load_ply about the header.

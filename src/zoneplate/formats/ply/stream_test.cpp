@@ -24,6 +24,7 @@ using Bytes = std::vector<std::uint8_t>;
 struct FileKind {
   const char* name;
   bool has_doubles = false, has_normals = false, is_turned = false, has_colors = false, has_flags = false;
+  bool is_big = false;  ///< big-endian
 };
 
 constexpr std::uint32_t large = 70;
@@ -32,14 +33,16 @@ constexpr std::uint32_t faces_of(std::uint32_t side) { return 2 * side * side; }
 constexpr std::uint32_t vertex_count = vertices_of(large), face_count = faces_of(large);
 
 template <class T>
-void put(T value, Bytes& out) {
+void put_as(bool is_big, T value, Bytes& out) {
   const auto* const bytes = reinterpret_cast<const std::uint8_t*>(&value);
   out.insert(out.end(), bytes, bytes + sizeof value);
+  if (is_big) std::reverse(out.end() - sizeof value, out.end());
 }
 
 /// Terrain, smooth with a rough part, whose faces are in a scattered order.
 Bytes terrain(const FileKind& kind, std::uint8_t alpha = 255, std::uint32_t side = large) {
-  std::string head = "ply\nformat binary_little_endian 1.0\n";
+  const auto put = [&](auto value, Bytes& to) { put_as(kind.is_big, value, to); };
+  std::string head = fmt::format("ply\nformat binary_{}_endian 1.0\n", kind.is_big ? "big" : "little");
   head += fmt::format("element vertex {}\n", vertices_of(side));
   for (const char* axis : {"x", "y", "z"})
     head += fmt::format("property {} {}\n", kind.has_doubles ? "double" : "float", axis);
@@ -107,7 +110,8 @@ TEST(PlyStream, HasTheMeshOfTheLoader) {
   for (const FileKind& kind : {FileKind{"plain"}, FileKind{.name = "doubles", .has_doubles = true},
                                FileKind{.name = "normals", .has_normals = true},
                                FileKind{.name = "turned", .has_normals = true, .is_turned = true},
-                               FileKind{.name = "colors", .has_colors = true, .has_flags = true}}) {
+                               FileKind{.name = "colors", .has_colors = true, .has_flags = true},
+                               FileKind{.name = "big", .has_normals = true, .has_colors = true, .is_big = true}}) {
     SCOPED_TRACE(kind.name);
     const MemoryFile file;
     const std::string path = file.write(terrain(kind));
@@ -191,7 +195,8 @@ TEST(PlyStream, AgreesWithTheLoaderAboutDamagedFiles) {
                         .has_doubles = seed % 5 == 0,
                         .has_normals = seed % 3 == 0,
                         .has_colors = seed % 4 == 0,
-                        .has_flags = seed % 7 == 0};
+                        .has_flags = seed % 7 == 0,
+                        .is_big = seed % 6 == 0};
     Bytes bytes = terrain(kind, 255, 8);
     for (std::uint32_t k = 0; k <= seed % 3; ++k)
       bytes[hash(seed, k) % bytes.size()] = static_cast<std::uint8_t>(hash(seed, k, 1));
