@@ -15,8 +15,10 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/formats/gltf/gltf.h"
 #include "zoneplate/formats/gltf/maker_for_test.h"
+#include "zoneplate/formats/gltf/stream/stream.h"
 #include "zoneplate/formats/load.h"
 #include "zoneplate/formats/obj/mtl.h"
+#include "zoneplate/formats/obj/stream.h"
 #include "zoneplate/formats/ply/stream.h"
 #include "zoneplate/formats/stl/stream.h"
 #include "zoneplate/scene/stream/stream_outline.h"
@@ -55,23 +57,49 @@ Bytes glb_of(const Bytes& bytes) {
   return GltfMaker::glb({bytes.begin(), zero}, {zero == bytes.end() ? zero : zero + 1, bytes.end()});
 }
 
+std::unique_ptr<FileStream> open_stream(const std::string& file) {
+  return format == "gltf"  ? open_gltf_stream(file, limits)
+         : format == "obj" ? open_obj_stream(file, limits)
+         : format == "ply" ? open_ply_stream(file, limits)
+                           : open_stl_stream(file, limits);
+}
+
 /// Reads some triangles of a file that may be read in parts.
 void read_parts_of(const std::string& file) {
-  const std::unique_ptr<FileStream> stream =
-      format == "ply" ? open_ply_stream(file, limits) : open_stl_stream(file, limits);
-  if (!stream) return;
+  constexpr std::size_t max_triangles = 1 << 20;
+  const std::unique_ptr<FileStream> stream = open_stream(file);
+  if (!stream || stream->count() > max_triangles) return;
   stream->check();
   const StreamOutline outline(*stream, file, {});
   Scene scene = stream->head();
-  std::vector<std::uint32_t> some;
-  for (std::size_t t = 0; t < stream->count(); t += 3) some.push_back(static_cast<std::uint32_t>(t));
-  scene.meshes[0] = stream->mesh(some);
+  std::vector<Mesh> meshes;
+  std::size_t t = 0;
+  for (const StreamInstance& instance : stream->instances()) {
+    std::vector<std::uint32_t> some;
+    for (; t < instance.end; t += 3) some.push_back(static_cast<std::uint32_t>(t));
+    Instance& own = scene.instances[meshes.size()];
+    Mesh mesh = some.empty() ? Mesh() : stream->mesh(some);
+    mesh.material = scene.meshes[static_cast<std::size_t>(own.mesh)].material;
+    own.mesh = static_cast<int>(meshes.size());
+    meshes.push_back(std::move(mesh));
+  }
+  scene.meshes = std::move(meshes);
   check(scene);
+}
+
+/// The same of a file that cannot be read so, or is not sound: the loader may read it.
+void try_parts_of(const std::string& file) {
+  try {
+    read_parts_of(file);
+  } catch (const Error&) {
+  }
 }
 
 void read(const Bytes& bytes) {
   if (format == "gltf") {
-    GltfModel model(file_of(glb_of(bytes)), limits);
+    const std::string file = file_of(glb_of(bytes));
+    try_parts_of(file);
+    GltfModel model(file, limits);
     const Scene scene = model.scene({});
     check(scene);
     if (!scene.animations.empty()) check(model.scene({.animation = SceneChoice::all_animations, .time = 0.4}));
@@ -82,10 +110,7 @@ void read(const Bytes& bytes) {
     check(scene);
   } else {
     const std::string file = file_of(bytes);
-    if (format == "ply" || format == "stl") try {
-        read_parts_of(file);
-      } catch (const Error&) {  // the loader may read it
-      }
+    if (format == "ply" || format == "stl" || format == "obj") try_parts_of(file);
     check(load_scene(file, {.limits = limits, .format = std::string(format)}));
   }
 }
