@@ -81,16 +81,15 @@ Camera camera_of(const Job& job, const Scene& head, const StreamOutline& outline
 }
 
 /// An eighth of the memory for the parts that are searched, and a quarter for the visible triangles.
-StreamCapacity capacity_of(std::uint64_t memory) {
-  // Corners, indices and screen vertices of a triangle, and its samples in bins; then its vertices, those of the
-  // triangles around it of which its normals are made, and what the renderer derives from them.
-  constexpr std::uint64_t of_part = 350, of_visible = 500, least = 1 << 12;
+StreamCapacity capacity_of(const FileStream& stream, std::uint64_t memory) {
+  // Corners, indices and screen vertices of a triangle, and its samples in bins.
+  constexpr std::uint64_t of_part = 350, least = 1 << 12;
   constexpr StreamCapacity most;
   const auto triangles = [&](std::uint64_t bytes, std::uint64_t of_each, std::size_t limit) {
     return static_cast<std::size_t>(std::clamp<std::uint64_t>(bytes / of_each, least, limit));
   };
   return {.part = triangles(memory / 8, of_part, most.part),
-          .visible = triangles(memory / 4, of_visible, most.visible)};
+          .visible = triangles(memory / 4, stream.visible_bytes(), most.visible)};
 }
 
 }  // namespace
@@ -131,7 +130,7 @@ void render_streamed(Job job, std::unique_ptr<Resolver> method, std::unique_ptr<
                   job.input, stream->count(), size_text(stream->bytes_to_draw())));
   convert_materials(job, head);
   const PreparedScene prepared(std::move(head), job.mips);
-  view.backend = make_streamed_backend(stream, capacity_of(job.load.limits.memory));
+  view.backend = make_streamed_backend(stream, capacity_of(*stream, job.load.limits.memory));
   DrawnStill still = draw_still(std::move(job), std::move(method), prepared, std::move(view), out, summary);
   stream->check_whole();
   send_still(std::move(still), prepared.scene(), false, out, summary);

@@ -26,6 +26,10 @@ class FileStream : public TriangleStream {
   /// The same with what the renderer may take for the samples of small triangles.
   std::uint64_t bytes_to_draw() const { return bytes_in_memory() + max_in_bins * count(); }
 
+  /// The memory, in bytes, that `mesh` and the renderer take for a visible triangle: its vertices, those of the
+  /// triangles around it of which its normals are made, and what the renderer derives from them.
+  virtual std::uint64_t visible_bytes() const { return 500; }
+
   /// Errors    ErrorKind::Input naming what the file has that cannot be read in parts.
   virtual void check() const {}
 

@@ -22,13 +22,6 @@ constexpr float cos_50 = 0.64278761f;
 constexpr std::size_t max_compared = 256;
 constexpr std::uint32_t none = 0xffffffffu;
 
-/// The contribution of a face corner to the normals of all corners at its position.
-struct Share {
-  float3 normal;  ///< normal of its face
-  float angle;
-  std::uint32_t smoothing;
-};
-
 bool is_whole(const ObjFile& file, const ObjChunk& chunk, const ObjElement& e) {
   for (std::uint32_t i = 0; file.has_odd_position && i < e.count; ++i)
     if (!is_finite(file.positions[chunk.corners.position(e.first + i)])) return false;
@@ -89,7 +82,7 @@ std::vector<std::uint32_t> first_at_place(const std::vector<float3>& positions) 
 struct Neighbours {
   std::vector<std::uint32_t> place;  ///< for each position
   std::vector<std::uint32_t> first;  ///< index of each place's first share; has one element more than positions
-  std::vector<Share> shares;
+  std::vector<ObjNormalShare> shares;
   std::vector<std::vector<std::uint32_t>> slot;  ///< for each corner of each chunk: the index of its share, or `none`
 
   std::size_t place_of(const ObjCorner& corner) const { return place[static_cast<std::size_t>(corner.position)]; }
@@ -126,7 +119,7 @@ Neighbours place_shares(const ObjFile& file, const std::vector<ObjRun>& runs, Im
     all += e.count;
     for (std::uint32_t i = 0; i < e.count; ++i) ++count[n.place_of(file.chunks[c].corners[e.first + i])];
   });
-  budget.take(all * (sizeof(Share) + sizeof(std::uint32_t) + sizeof(float3)));
+  budget.take(all * (sizeof(ObjNormalShare) + sizeof(std::uint32_t) + sizeof(float3)));
   std::uint32_t sum = 0;
   for (std::uint32_t& c : count) sum += std::exchange(c, sum);
   n.first = count;
@@ -144,45 +137,68 @@ Neighbours place_shares(const ObjFile& file, const std::vector<ObjRun>& runs, Im
 void fill_shares(const ObjFile& file, const ObjRun& run, Neighbours& n) {
   const ObjChunk& chunk = file.chunks[run.chunk];
   std::vector<float3> polygon;
+  std::vector<ObjNormalShare> shares;
   for (std::uint32_t e = run.begin; e < run.end; ++e) {
     const ObjElement& element = chunk.elements[e];
     if (!needs_normals(file, chunk, element)) continue;
     polygon.clear();
     for (std::uint32_t i = 0; i < element.count; ++i)
       polygon.push_back(file.positions[chunk.corners.position(element.first + i)]);
-    const float3 normal = unit(area_vector(polygon));
-    for (std::uint32_t i = 0; i < element.count; ++i) {
-      const float3 p = polygon[i], after = polygon[(i + 1) % element.count];
-      const float3 before = polygon[(i + element.count - 1) % element.count];
-      n.shares[n.slot[run.chunk][element.first + i]] = {normal, angle_between(after - p, before - p), run.smoothing};
-    }
+    shares.resize(element.count);
+    make_shares(polygon, run.smoothing, shares);
+    for (std::uint32_t i = 0; i < element.count; ++i) n.shares[n.slot[run.chunk][element.first + i]] = shares[i];
   }
 }
 
-/// Sums per place and smoothing group, for places where too many faces meet to compare all pairs.
-using Crowds = std::map<std::pair<std::size_t, std::uint32_t>, float3>;
+std::span<const ObjNormalShare> shares_at(const Neighbours& n, std::size_t place) {
+  return std::span(n.shares).subspan(n.first[place], n.first[place + 1] - n.first[place]);
+}
+
+/// The sums of places that are crowded.
+using Crowds = std::map<std::size_t, ObjCrowd>;
 
 Crowds sum_crowds(const Neighbours& n) {
-  Crowds sums;
+  Crowds crowds;
   serial_ranges(n.first.size() - 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t p = begin; p < end; ++p)
-      if (n.first[p + 1] - n.first[p] > max_compared)
-        for (std::uint32_t i = n.first[p]; i < n.first[p + 1]; ++i)
-          sums[{p, n.shares[i].smoothing}] += n.shares[i].normal * n.shares[i].angle;
+      if (n.first[p + 1] - n.first[p] > max_compared) crowds[p] = sum_crowd(shares_at(n, p));
   });
-  return sums;
+  return crowds;
 }
 
 float3 smoothed(const Neighbours& n, const Crowds& crowds, std::size_t place, std::uint32_t own) {
-  const Share& self = n.shares[own];
+  static const ObjCrowd none_here;
+  const std::span<const ObjNormalShare> shares = shares_at(n, place);
+  return smooth_normal(shares, own - n.first[place], shares.size() > max_compared ? crowds.at(place) : none_here);
+}
+
+}  // namespace
+
+void make_shares(std::span<const float3> polygon, std::uint32_t smoothing, std::span<ObjNormalShare> out) {
+  const float3 normal = unit(area_vector(polygon));
+  const std::size_t count = polygon.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const float3 p = polygon[i], after = polygon[(i + 1) % count], before = polygon[(i + count - 1) % count];
+    out[i] = {normal, angle_between(after - p, before - p), smoothing};
+  }
+}
+
+ObjCrowd sum_crowd(std::span<const ObjNormalShare> at_place) {
+  ObjCrowd sums;
+  if (at_place.size() > max_compared)
+    for (const ObjNormalShare& share : at_place) sums[share.smoothing] += share.normal * share.angle;
+  return sums;
+}
+
+float3 smooth_normal(std::span<const ObjNormalShare> at_place, std::size_t own, const ObjCrowd& crowd) {
+  const ObjNormalShare& self = at_place[own];
   if (self.smoothing == 0) return self.normal;
-  const std::uint32_t begin = n.first[place], end = n.first[place + 1];
   float3 sum;
-  if (end - begin > max_compared) {
-    sum = crowds.at({place, self.smoothing});
+  if (at_place.size() > max_compared) {
+    sum = crowd.at(self.smoothing);
   } else {
-    for (std::uint32_t i = begin; i < end; ++i) {
-      const Share& other = n.shares[i];
+    for (std::size_t i = 0; i < at_place.size(); ++i) {
+      const ObjNormalShare& other = at_place[i];
       const bool is_smooth = other.smoothing == self.smoothing &&
                              (self.smoothing != smooth_by_angle || i == own || dot(other.normal, self.normal) > cos_50);
       if (is_smooth) sum += other.normal * other.angle;
@@ -190,8 +206,6 @@ float3 smoothed(const Neighbours& n, const Crowds& crowds, std::size_t place, st
   }
   return normalize(sum, self.normal);
 }
-
-}  // namespace
 
 std::vector<std::vector<float3>> missing_normals(const ObjFile& file, const std::vector<ObjRun>& runs,
                                                  ImportBudget& budget) {

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <span>
 #include <vector>
 
 #include "zoneplate/formats/obj/parse.h"
@@ -17,6 +19,23 @@ struct ObjRun {
 
 /// The smoothing of a file without `s` statements: across edges that bend by less than 50°.
 inline constexpr std::uint32_t smooth_by_angle = 0xffffffffu;
+
+/// The contribution of a face's corner to the normals of all corners at its place.
+struct ObjNormalShare {
+  float3 normal;  ///< of its face
+  float angle = 0;
+  std::uint32_t smoothing = 0;
+};
+
+/// Writes the shares of the corners of a face.
+void make_shares(std::span<const float3> polygon, std::uint32_t smoothing, std::span<ObjNormalShare> out);
+
+/// Sums by smoothing group of the shares at a place where too many faces meet to compare all pairs; empty for others.
+using ObjCrowd = std::map<std::uint32_t, float3>;
+ObjCrowd sum_crowd(std::span<const ObjNormalShare> at_place);
+
+/// The normal of a corner, whose share is `at_place[own]`, by all shares at its place, in the order of the file.
+float3 smooth_normal(std::span<const ObjNormalShare> at_place, std::size_t own, const ObjCrowd& crowd);
 
 /// Computes the normals that the file lacks, for each corner of each chunk; empty for chunks that have all normals.
 ///

@@ -89,23 +89,59 @@ struct Run {
 /// A face with some of the triangles that are read.
 struct Face {
   std::size_t first;  ///< the number of its first triangle
-  std::uint32_t chunk, element;
-  bool operator==(const Face& o) const { return chunk == o.chunk && element == o.element; }
+  std::uint32_t chunk, element, first_corner;
 };
 
-/// Some points, and perhaps more.
-class PointFilter {
+/// The different positions of some corners, by number.
+class Places {
  public:
-  explicit PointFilter(std::size_t expected) : bits_(std::bit_ceil(std::max<std::size_t>(expected, 64)) / 4) {}
-  void insert(float3 p) { bits_[place(p) / 64] |= std::uint64_t{1} << place(p) % 64; }
-  bool may_have(float3 p) const { return bits_[place(p) / 64] >> place(p) % 64 & 1; }
+  static constexpr std::uint32_t none = 0xffffffffu;
+
+  explicit Places(std::span<const float3> positions)
+      : bits_(std::bit_ceil(std::max<std::size_t>(positions.size(), 64)) / 4), places_(positions.size()) {
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      places_[i] = key_of(positions[i]);
+      bounds_.add(positions[i]);
+      const std::size_t at = bit_of(places_[i]);
+      bits_[at / 64] |= std::uint64_t{1} << at % 64;
+    }
+    std::ranges::sort(places_);
+    places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
+  }
+  const Box& bounds() const { return bounds_; }
+  /// False for most other points.
+  bool may_have(float3 p) const {
+    const std::size_t at = bit_of(key_of(p));
+    return bits_[at / 64] >> at % 64 & 1;
+  }
+  std::uint32_t find(float3 p) const {
+    const auto found = std::lower_bound(places_.begin(), places_.end(), key_of(p));
+    return found != places_.end() && *found == key_of(p) ? static_cast<std::uint32_t>(found - places_.begin()) : none;
+  }
 
  private:
-  std::size_t place(float3 p) const {
+  using Key = std::array<std::uint32_t, 3>;
+  static Key key_of(float3 p) {
     const auto word = [](float x) { return std::bit_cast<std::uint32_t>(x + 0.0f); };  // -0 becomes 0
-    return hash(word(p.x), word(p.y), word(p.z)) & (64 * bits_.size() - 1);
+    return {word(p.x), word(p.y), word(p.z)};
   }
+  std::size_t bit_of(const Key& key) const { return hash(key[0], key[1], key[2]) & (64 * bits_.size() - 1); }
+
   std::vector<std::uint64_t> bits_;
+  std::vector<Key> places_;
+  Box bounds_;
+};
+
+/// The share of a corner of the file.
+struct PlacedShare {
+  std::uint32_t place, chunk, corner;
+  ObjNormalShare share;
+
+  struct Key {
+    std::uint32_t place, chunk, corner;
+    auto operator<=>(const Key&) const = default;
+  };
+  Key key() const { return {place, chunk, corner}; }
 };
 
 bool overlap(const Box& a, const Box& b) {
@@ -153,13 +189,17 @@ class ObjStream : public FileStream {
     std::vector<ObjCounts> before = read_layout(text, import, skeleton);
     add_meshes(skeleton, import);
     bytes_in_memory_ = bytes_of(before.back());
-    parts_.emplace(std::move(text), std::move(before), limits.memory / 4);
+    parts_.emplace(std::move(text), std::move(before), limits.memory / 8);
     note_flaws();
   }
 
   std::size_t count() const override { return instances_.empty() ? 0 : instances_.back().end; }
   std::vector<StreamInstance> instances() const override { return instances_; }
   std::uint64_t bytes_in_memory() const override { return bytes_in_memory_; }
+  std::uint64_t visible_bytes() const override {
+    // Copies of the faces, and twice the shares of the faces around.
+    return has_normals_ ? 800 : 2000;
+  }
   void check() const override {
     if (!refusal_.empty()) refuse(refusal_);
   }
@@ -362,7 +402,7 @@ class ObjStream : public FileStream {
         if (e >= run.end) throw_changed();
         const ObjElement face = part->chunk.elements[e];
         if (face.count < 3) throw_changed();
-        if (triangles[i] < t + face.count - 2) out.push_back({t, run.chunk, e});
+        if (triangles[i] < t + face.count - 2) out.push_back({t, run.chunk, e, face.first});
         t += face.count - 2;
         while (i < triangles.size() && triangles[i] < t) ++i;
       }
@@ -408,63 +448,78 @@ class ObjStream : public FileStream {
     return std::move(whole);
   }
 
-  /// The normals of the corners of faces, of which no other has any, which all faces at these places make.
+  /// The normals of the corners of faces, in a file that has no normals: they depend on all faces at the same places.
   std::vector<float3> made_normals(const std::vector<Face>& faces, const ObjFile& some) const {
-    PointFilter places(16 * some.positions.size());
-    Box box;
-    for (const float3 p : some.positions) places.insert(p), box.add(p);
-    std::vector<std::vector<Face>> around(parts_->size());
+    const Places places(some.positions);
     std::vector<std::vector<ObjRun>> runs(parts_->size());
     for (const ObjRun& run : layout_.runs) runs[run.chunk].push_back(run);
+    std::vector<std::vector<PlacedShare>> found(parts_->size());
     parallel_for(parts_->size(), [&](std::size_t c) {
-      if (runs[c].empty() || !overlap(bounds_[c], box)) return;
-      guarded([&] {
-        around[c] = faces_at(places, c, runs[c].back().end);
-        file().forget(parts_->text(c).data(), parts_->text(c).size());
-      });
+      if (runs[c].empty() || !overlap(bounds_[c], places.bounds())) return;
+      guarded([&] { found[c] = shares_at(places, c, runs[c]); });
+      file().forget(parts_->text(c).data(), parts_->text(c).size());
     });
+    std::size_t count = 0;
+    for (const std::vector<PlacedShare>& own : found) count += own.size();
+    std::vector<PlacedShare> all;
+    all.reserve(count);
+    for (std::vector<PlacedShare>& own : found) {
+      all.insert(all.end(), own.begin(), own.end());
+      own = {};
+    }
+    std::ranges::sort(all, {}, &PlacedShare::key);
 
-    FaceCopies copies(*parts_);
-    std::vector<ObjRun> smoothing;
-    std::vector<std::size_t> own;  // for each face, its number among those
-    std::uint32_t number = 0;
-    for (std::size_t c = 0; c < around.size(); ++c) {
-      if (around[c].empty()) continue;
-      const auto part = parts_->part(c);
-      auto run = runs[c].begin();
-      for (const Face& face : around[c]) {
-        while (face.element >= run->end) ++run;
-        copies.add(*part, part->chunk.elements[face.element], false);
-        if (own.size() < faces.size() && faces[own.size()] == face) own.push_back(number);
-        smoothing.push_back({0, number, number + 1, 0, 0, run->smoothing});
-        ++number;
+    // In the order of the places, so that a crowd is summed once.
+    struct Corner {
+      PlacedShare::Key key;
+      std::size_t number;
+    };
+    std::vector<Corner> corners;
+    for (std::size_t f = 0, i = 0; f < faces.size(); ++f)
+      for (std::uint32_t k = 0; k < some.chunks.front().elements[f].count; ++k, ++i)
+        corners.push_back({{places.find(some.positions[i]), faces[f].chunk, faces[f].first_corner + k}, i});
+    std::ranges::sort(corners, {}, &Corner::key);
+    std::vector<float3> out(corners.size());
+    std::vector<ObjNormalShare> at_place;
+    ObjCrowd crowd;
+    auto begin = all.begin(), end = begin;
+    for (const Corner& corner : corners) {
+      if (begin == end || begin->key().place != corner.key.place) {
+        begin = std::find_if(end, all.end(), [&](const PlacedShare& s) { return s.place == corner.key.place; });
+        end = std::find_if(begin, all.end(), [&](const PlacedShare& s) { return s.place != corner.key.place; });
+        at_place.clear();
+        for (auto share = begin; share != end; ++share) at_place.push_back(share->share);
+        crowd = sum_crowd(at_place);
       }
+      const auto own = std::ranges::lower_bound(begin, end, corner.key, {}, &PlacedShare::key);
+      if (own == end || own->key() != corner.key) throw_changed();
+      out[corner.number] = smooth_normal(at_place, static_cast<std::size_t>(own - begin), crowd);
     }
-    if (own.size() < faces.size()) throw_changed();
-    ImportBudget limits = budget();
-    const std::vector<std::vector<float3>> all = missing_normals(copies.file, smoothing, limits);
-    std::vector<float3> out;
-    for (const std::size_t f : own) {
-      const ObjElement face = copies.file.chunks.front().elements[f];
-      for (std::uint32_t k = 0; k < face.count; ++k) out.push_back(all.front().at(face.first + k));
-    }
-    if (out.size() != some.positions.size()) throw_changed();
     return out;
   }
 
-  /// The faces of a part that have a corner at one of the places.
-  std::vector<Face> faces_at(const PointFilter& places, std::size_t c, std::uint32_t end) const {
-    std::vector<Face> out;
+  /// The shares of a part's faces at some places.
+  std::vector<PlacedShare> shares_at(const Places& places, std::size_t c, const std::vector<ObjRun>& runs) const {
+    std::vector<PlacedShare> out;
     const auto part = parts_->part(c);
     ObjVertexReader vertices(*parts_);
-    if (part->chunk.elements.size() < end) throw_changed();
-    for (std::uint32_t e = 0; e < end; ++e) {
-      const ObjElement face = part->chunk.elements[e];
-      bool is_there = false;
-      for (std::uint32_t k = 0; k < face.count && !is_there; ++k)
-        is_there = places.may_have(vertices.position(part->chunk.corners[face.first + k].position));
-      if (is_there) out.push_back({0, static_cast<std::uint32_t>(c), e});
-    }
+    if (part->chunk.elements.size() < runs.back().end) throw_changed();
+    std::vector<float3> polygon;
+    std::vector<ObjNormalShare> shares;
+    for (const ObjRun& run : runs)
+      for (std::uint32_t e = run.begin; e < run.end; ++e) {
+        const ObjElement face = part->chunk.elements[e];
+        polygon.clear(), shares.clear();
+        for (std::uint32_t k = 0; k < face.count; ++k)
+          polygon.push_back(vertices.position(part->chunk.corners[face.first + k].position));
+        for (std::uint32_t k = 0; k < face.count; ++k) {
+          if (!places.may_have(polygon[k])) continue;
+          const std::uint32_t place = places.find(polygon[k]);
+          if (place == Places::none) continue;
+          if (shares.empty()) shares.resize(face.count), make_shares(polygon, run.smoothing, shares);
+          out.push_back({place, static_cast<std::uint32_t>(c), face.first + k, shares[k]});
+        }
+      }
     return out;
   }
 
