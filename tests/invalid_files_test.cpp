@@ -35,14 +35,14 @@ constexpr int slower = 20;
 constexpr int slower = 1;
 #endif
 
-struct Result {
+struct RunResult {
   int code = -1;
   std::string err;
   double seconds = 0;
   long megabytes = 0;
 };
 
-Result run(std::vector<std::string> words, const fs::path& err) {
+RunResult run(std::vector<std::string> words, const fs::path& err) {
   std::string program = zoneplate::program_file;
   std::vector<char*> arguments{program.data()};
   for (std::string& word : words) arguments.push_back(word.data());
@@ -308,7 +308,7 @@ class InvalidFiles : public testing::Test {
     std::vector<std::string> command = command_for(file);
     const fs::path out = folder / "out" / "image.png";
     command.push_back(out.string());
-    const Result r = run(command, folder / "err");
+    const RunResult r = run(command, folder / "err");
     const std::string about = file.string() + ": " + r.err;
     EXPECT_EQ(r.code, code) << about;
     EXPECT_EQ(r.code == 0, fs::exists(out)) << about;
@@ -338,7 +338,7 @@ class InvalidFiles : public testing::Test {
       std::vector<std::string> words = command.with(file.string(), out.string());
       words.insert(words.end(), {"--max-memory", "200M", "--max-import-seconds", std::to_string(2 * slower),
                                  "--max-seconds", std::to_string(10 * slower)});
-      const Result r = run(words, folder / "err");
+      const RunResult r = run(words, folder / "err");
       const std::string about = command.name + ' ' + file.string() + ": " + r.err;
       const int refused = command.writes_always ? 5 : 3;
       EXPECT_TRUE(r.code == (code == 3 ? refused : 0) || (code == 0 && is_image && r.code == 3)) << r.code << about;

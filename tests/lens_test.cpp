@@ -16,10 +16,10 @@
 namespace zoneplate {
 namespace {
 
-constexpr int width = 80, height = 60;
+constexpr int lens_width = 80, lens_height = 60;
 
-const Lens barrel{.width = width,
-                  .height = height,
+const Lens barrel{.width = lens_width,
+                  .height = lens_height,
                   .fx = 76,
                   .fy = 74,
                   .cx = 42.5,
@@ -29,8 +29,8 @@ const Lens barrel{.width = width,
                   .k3 = -0.02,
                   .p1 = 0.0012,
                   .p2 = -0.0007};
-const Lens rational{.width = width,
-                    .height = height,
+const Lens rational{.width = lens_width,
+                    .height = lens_height,
                     .fx = 76,
                     .fy = 74,
                     .cx = 42.5,
@@ -52,12 +52,12 @@ PreparedScene teapot() {
 }
 
 Camera camera_with(const PreparedScene& scene, const Lens& lens) {
-  return choose_camera(scene.scene(), View{.lens = lens}, 1.0f * width / height);
+  return choose_camera(scene.scene(), View{.lens = lens}, 1.0f * lens_width / lens_height);
 }
 
 RenderSettings settings() {
   RenderSettings out;
-  out.options.width = width, out.options.height = height;
+  out.options.width = lens_width, out.options.height = lens_height;
   return out;
 }
 
@@ -77,8 +77,8 @@ TEST(LensImage, PositionsProjectToTheirPixels) {
     const Frame data = image_of(scene, camera, own, "none").data;
     const float4x4 camera_from_world = inverse(camera.world_from_camera);
     int surfaces = 0;
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
+    for (int y = 0; y < lens_height; ++y)
+      for (int x = 0; x < lens_width; ++x) {
         if (data.object_id(x, y) == Frame::no_id) continue;
         ++surfaces;
         const float3 p = transform_point(camera_from_world, data.position(x, y));
@@ -87,7 +87,7 @@ TEST(LensImage, PositionsProjectToTheirPixels) {
         ASSERT_NEAR(lens.fx * at.x + lens.cx, x, 0.5) << y;
         ASSERT_NEAR(lens.fy * at.y + lens.cy, y, 0.5) << x;
       }
-    EXPECT_GT(surfaces, width * height / 8);
+    EXPECT_GT(surfaces, lens_width * lens_height / 8);
   }
 }
 
@@ -98,7 +98,7 @@ TEST(LensImage, KeepsItsBitsInCropsUnderEveryMethod) {
     RenderSettings own = settings();
     own.options.edges.kind = EdgeKind::Features;
     const Rgba8Image whole = image_of(scene, camera, own, method).display;
-    ASSERT_EQ(whole.width(), width);
+    ASSERT_EQ(whole.width(), lens_width);
     if (std::string_view(method).starts_with("taa")) continue;  // histories of crops are those of their pixels
     own.options.crop = Crop{21, 17, 30, 19};
     const RenderedImage part = image_of(scene, camera, own, method);
@@ -116,8 +116,8 @@ TEST(LensImage, FormsAgree) {
   own.form = ImageForm::Linear;
   const LinearImage linear = image_of(scene, camera, own).linear;
   double difference = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x)
+  for (int y = 0; y < lens_height; ++y)
+    for (int x = 0; x < lens_width; ++x)
       difference = std::max(difference, std::abs(linear(x, y).a - display(x, y).a / 255.0));
   EXPECT_LT(difference, 0.0021);
 }

@@ -20,7 +20,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr int width = 128, height = 96;
+constexpr int shadow_width = 128, shadow_height = 96;
 constexpr float pi = 3.14159265f;
 
 /// A white diffuse material.
@@ -58,9 +58,9 @@ Light sun_from(float3 to_light) {
   return light;
 }
 
-Frame frame_of(const Scene& scene, const RenderOptions& options = {}, Planes planes = {}) {
+Frame shadow_frame(const Scene& scene, const RenderOptions& options = {}, Planes planes = {}) {
   RenderOptions all = options;
-  all.width = width, all.height = height;
+  all.width = shadow_width, all.height = shadow_height;
   Request request;
   request.planes = planes;
   return render(PreparedScene(scene), scene.cameras[0], request, all);
@@ -81,10 +81,11 @@ Scene floor_scene(float side = 2) {
 
 /// The red of the pixel that shows a point of the world.
 float red_at(const Frame& frame, const Camera& camera, float3 point) {
-  const float4x4 clip = camera.clip_from_camera(static_cast<float>(width) / height) * inverse(camera.world_from_camera);
+  const float4x4 clip =
+      camera.clip_from_camera(static_cast<float>(shadow_width) / shadow_height) * inverse(camera.world_from_camera);
   const float4 p = clip * float4{point.x, point.y, point.z, 1};
-  const float x = (p.x / p.w + 1) / 2 * width, y = (1 - p.y / p.w) / 2 * height;
-  const bool is_seen = x >= 0 && x < width && y >= 0 && y < height;
+  const float x = (p.x / p.w + 1) / 2 * shadow_width, y = (1 - p.y / p.w) / 2 * shadow_height;
+  const bool is_seen = x >= 0 && x < shadow_width && y >= 0 && y < shadow_height;
   EXPECT_TRUE(is_seen);
   return is_seen ? frame.color(static_cast<int>(x), static_cast<int>(y)).r : 0;
 }
@@ -110,9 +111,9 @@ TEST(Shadows, ConvexSurfacesCastNoneOnThemselves) {
         const float a = degrees * pi / 180;
         // From the side, so that neither part shadows the other.
         scene.lights = {sun_from({std::sin(a), 0, std::cos(a)})};
-        const Frame without = frame_of(scene), with = frame_of(scene, hard);
-        for (int y = 0; y < height; ++y)
-          for (int x = 0; x < width; ++x) {
+        const Frame without = shadow_frame(scene), with = shadow_frame(scene, hard);
+        for (int y = 0; y < shadow_height; ++y)
+          for (int x = 0; x < shadow_width; ++x) {
             ASSERT_EQ(with.color(x, y), without.color(x, y))
                 << scale << " " << centre.x << " " << degrees << "°: " << x << "," << y;
             lit += without.color(x, y).r > 0;
@@ -129,7 +130,7 @@ TEST(Shadows, BoxOnTheFloorLeavesNoGap) {
   scene.lights = {sun_from({-1, 1, 0})};
   // Seen from the side of the shadow, which begins at the box.
   scene.cameras[0] = camera_at({1.6f, 1.5f, 0.1f}, {0.5f, 0, 0}, 0.8f, 0.1f, 100);
-  const Frame frame = frame_of(scene, hard);
+  const Frame frame = shadow_frame(scene, hard);
   for (int i = 0; i < 200; ++i) {
     const float x = 0.3001f + 0.57f * static_cast<float>(i) / 200;
     ASSERT_EQ(red_at(frame, scene.cameras[0], {x, 0, 0}), 0) << x;
@@ -150,7 +151,7 @@ TEST(Shadows, EveryKindOfLightHasThem) {
   scene.cameras[0] = camera_at({0, 0.4f, 3}, {0, 0, 0}, 0.7f, 0.1f, 100);
   for (const Light& light : {sun_from({0, 1, 0}), point, spot}) {
     scene.lights = {light};
-    const Frame without = frame_of(scene), with = frame_of(scene, hard);
+    const Frame without = shadow_frame(scene), with = shadow_frame(scene, hard);
     for (const float x : {-0.15f, 0.0f, 0.15f}) {
       EXPECT_GT(red_at(without, scene.cameras[0], {x, 0, 0}), 0.1f);
       EXPECT_EQ(red_at(with, scene.cameras[0], {x, 0, 0}), 0);
@@ -163,7 +164,7 @@ TEST(Shadows, EveryKindOfLightHasThem) {
   // A light below the sheet is not blocked by it.
   point.position.y = 0.4f;
   scene.lights = {point};
-  EXPECT_GT(red_at(frame_of(scene, hard), scene.cameras[0], {0, 0, 0}), 0.5f);
+  EXPECT_GT(red_at(shadow_frame(scene, hard), scene.cameras[0], {0, 0, 0}), 0.5f);
 }
 
 TEST(Shadows, AlphaOfCastersCounts) {
@@ -181,11 +182,11 @@ TEST(Shadows, AlphaOfCastersCounts) {
   scene.lights = {sun_from({0, 1, 0})};
   scene.cameras[0] = camera_at({0, 0.3f, 3}, {0, 0, 0}, 0.7f, 0.1f, 100);
   const Camera& camera = scene.cameras[0];
-  const Frame masked = frame_of(scene, hard);
+  const Frame masked = shadow_frame(scene, hard);
   EXPECT_NEAR(red_at(masked, camera, {-0.2f, 0, 0}), 1, 1e-5f);
   EXPECT_EQ(red_at(masked, camera, {0.2f, 0, 0}), 0);
   scene.materials[1].alpha_mode = AlphaMode::Blend;
-  const Frame blended = frame_of(scene, hard);
+  const Frame blended = shadow_frame(scene, hard);
   EXPECT_NEAR(red_at(blended, camera, {-0.2f, 0, 0}), 1 - 64 / 255.0f, 1e-3f);
   EXPECT_EQ(red_at(blended, camera, {0.2f, 0, 0}), 0);
 }
@@ -202,7 +203,7 @@ TEST(Shadows, GlassPassesItsShare) {
   add_part(scene, glass, std::move(sheet));
   scene.lights = {sun_from({0, 1, 0})};
   scene.cameras[0] = camera_at({0, 0.3f, 3}, {0, 0, 0}, 0.7f, 0.1f, 100);
-  EXPECT_NEAR(red_at(frame_of(scene, hard), scene.cameras[0], {0, 0, 0}), 0.75f, 1e-5f);
+  EXPECT_NEAR(red_at(shadow_frame(scene, hard), scene.cameras[0], {0, 0, 0}), 0.75f, 1e-5f);
 }
 
 // The edge of a sharp shadow across one large triangle: with one ray a pixel is either lit or not; rays from all over
@@ -219,8 +220,8 @@ TEST(Shadows, SoftOnesAreFilteredWithinPixels) {
   const auto grey = [&](const Frame& frame) {
     return std::ranges::count_if(frame.color.values(), [](Linear c) { return c.r > 0.05f && c.r < 0.95f; });
   };
-  EXPECT_EQ(grey(frame_of(scene, hard)), 0);
-  EXPECT_GT(grey(frame_of(scene, soft)), 60);
+  EXPECT_EQ(grey(shadow_frame(scene, hard)), 0);
+  EXPECT_GT(grey(shadow_frame(scene, soft)), 60);
 }
 
 TEST(Shadows, OcclusionMultipliesTheEnvironmentsLight) {
@@ -230,7 +231,7 @@ TEST(Shadows, OcclusionMultipliesTheEnvironmentsLight) {
   scene.environment.color = {1, 1, 1};
   RenderOptions options;
   options.occlusion = {.samples = 64, .distance = 100};
-  const Frame without = frame_of(scene), with = frame_of(scene, options);
+  const Frame without = shadow_frame(scene), with = shadow_frame(scene, options);
   for (const float z : {0.4f, 0.6f, 0.8f}) {
     const float part = red_at(with, scene.cameras[0], {0, 0, z}) / red_at(without, scene.cameras[0], {0, 0, z});
     EXPECT_NEAR(part, 1 - std::pow(0.5f / std::sqrt(0.25f + z * z), 3.0f), 0.04f);
@@ -251,10 +252,10 @@ TEST(Ground, HoldsTheShadowsAlone) {
   RenderOptions options = hard;
   options.ground = GroundKind::Shadow;
   const Planes planes{.depth = true, .normal = true, .object_id = true, .material_id = true, .primitive_id = true};
-  const Frame without = frame_of(scene, hard, planes), with = frame_of(scene, options, planes);
+  const Frame without = shadow_frame(scene, hard, planes), with = shadow_frame(scene, options, planes);
   int shadowed = 0, clear = 0;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < shadow_height; ++y)
+    for (int x = 0; x < shadow_width; ++x) {
       const Linear before = without.color(x, y), after = with.color(x, y);
       ASSERT_EQ(with.object_id(x, y), without.object_id(x, y));
       ASSERT_EQ(with.material_id(x, y), without.material_id(x, y));
@@ -272,7 +273,7 @@ TEST(Ground, HoldsTheShadowsAlone) {
   EXPECT_GT(shadowed, 100);
   EXPECT_GT(clear, 1000);
   options.shadows.method = ShadowMethod::None;
-  EXPECT_THROW(frame_of(scene, options), Error);
+  EXPECT_THROW(shadow_frame(scene, options), Error);
 }
 
 // The shadow falls towards the camera and away from it, beyond the far plane of the camera itself.
@@ -284,7 +285,7 @@ TEST(Ground, ReachesAsFarAsShadowsDo) {
     scene.lights = {sun_from({0, 0.6f, side})};
     const auto pixels_of_shadow = [&](float near, float far) {
       scene.cameras[0] = camera_at({0, 4, 1}, {0, 0.5f, 0}, 1.2f, near, far);
-      const Frame frame = frame_of(scene, options);
+      const Frame frame = shadow_frame(scene, options);
       return std::ranges::count_if(frame.color.values(), [](Linear c) { return c.a == 1 && c.r == 0; });
     };
     EXPECT_GT(pixels_of_shadow(0.1f, 100), 40);
@@ -306,14 +307,14 @@ TEST(Shadows, SharedRaysAreNearerToTheReference) {
       RenderOptions options;
       options.shadows = {.method = ShadowMethod::Soft, .samples = samples, .angle = 0.1f, .spacing = spacing};
       options.occlusion = {.samples = samples, .distance = 2, .spacing = spacing};
-      return frame_of(scene, options);
+      return shadow_frame(scene, options);
     };
     const Frame reference = image(1024, 1);
     const auto error = [&](const Frame& frame) {
       double sum = 0;
       for (std::size_t i = 0; i < frame.color.values().size(); ++i)
         sum += std::pow(frame.color.values()[i].r - reference.color.values()[i].r, 2);
-      return std::sqrt(sum / (width * height));
+      return std::sqrt(sum / (shadow_width * shadow_height));
     };
     const double own = error(image(32, 1)), shared = error(image(32, 4));
     EXPECT_LT(shared, own) << is_orthographic;
@@ -333,7 +334,7 @@ TEST(Shadows, RaysAreSharedOnlyWhereAsked) {
     RenderOptions options;
     options.shadows = {.method = ShadowMethod::Soft, .samples = samples, .angle = 0.1f, .spacing = of_lights};
     options.occlusion = {.samples = samples, .distance = 2, .spacing = of_occlusion};
-    return frame_of(scene, options).color;
+    return shadow_frame(scene, options).color;
   };
   EXPECT_TRUE(image(15, 8, 8) == image(15, 1, 1));
   EXPECT_FALSE(image(16, 8, 1) == image(16, 1, 1));
@@ -352,11 +353,12 @@ TEST(ShadowsBits, AreTheSameForAllThreadsAndInstructionSets) {
   for (const int spacing : {1, 8}) {
     options.shadows.samples = spacing == 1 ? 8 : 16, options.occlusion.samples = spacing == 1 ? 4 : 16;
     options.shadows.spacing = options.occlusion.spacing = spacing;
-    const Frame first = with_isa(Isa::Scalar, [&] { return frame_of(scene, options); });
+    const Frame first = with_isa(Isa::Scalar, [&] { return shadow_frame(scene, options); });
     for (const Isa isa : supported_isas())
       for (const int threads : {1, 3})
         with_isa(isa, [&] {
-          with_threads(threads, [&] { EXPECT_TRUE(frame_of(scene, options).color == first.color) << name_of(isa); });
+          with_threads(threads,
+                       [&] { EXPECT_TRUE(shadow_frame(scene, options).color == first.color) << name_of(isa); });
         });
   }
 }

@@ -17,7 +17,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr int image_width = 48, image_height = 36;
+constexpr int glass_width = 48, glass_height = 36;
 
 /// A square of this size about (0, 0, z) that faces +Z.
 void add_square(Scene& scene, float size, float z, const Material& material) {
@@ -72,7 +72,7 @@ Camera from_front() {
 
 LinearImage picture(const Scene& scene, std::optional<Crop> crop = std::nullopt, int samples = 4) {
   return render(PreparedScene(scene), from_front(), {.samples = standard_pattern(samples)},
-                {.width = image_width, .height = image_height, .crop = crop})
+                {.width = glass_width, .height = glass_height, .crop = crop})
       .color;
 }
 
@@ -81,18 +81,18 @@ TEST(Transmission, ClearGlassShowsWhatIsBehind) {
   MaterialLayers clear{.ior = 1, .transmission = 1};
   clear.specular = 0;
   const LinearImage seen = picture(pane(glass(clear)));
-  EXPECT_EQ(seen(image_width / 2 - 5, image_height / 2), (Linear{1, 0, 0, 1}));
-  EXPECT_EQ(seen(image_width / 2 + 5, image_height / 2), (Linear{0, 1, 0, 1}));
+  EXPECT_EQ(seen(glass_width / 2 - 5, glass_height / 2), (Linear{1, 0, 0, 1}));
+  EXPECT_EQ(seen(glass_width / 2 + 5, glass_height / 2), (Linear{0, 1, 0, 1}));
   clear.transmission = 0.5f;  // the other half would be diffuse, which no light reaches
   const LinearImage half = picture(pane(glass(clear)));
-  EXPECT_EQ(half(image_width / 2 - 5, image_height / 2), (Linear{0.5f, 0, 0, 1}));
+  EXPECT_EQ(half(glass_width / 2 - 5, glass_height / 2), (Linear{0.5f, 0, 0, 1}));
 }
 
 TEST(Transmission, RoughGlassBlursAndKeepsTheSum) {
   MaterialLayers rough{.ior = 1.5f, .transmission = 1};
   rough.specular = 0;
   const LinearImage sharp = picture(pane(glass(rough, 0))), blurred = picture(pane(glass(rough, 0.5f)));
-  const int y = image_height / 2, middle = image_width / 2;
+  const int y = glass_height / 2, middle = glass_width / 2;
   EXPECT_EQ(sharp(middle - 3, y).g, 0);
   EXPECT_GT(blurred(middle - 3, y).g, 0.05f);
   EXPECT_NEAR(blurred(middle - 3, y).r + blurred(middle - 3, y).g, 1, 0.06f);
@@ -107,7 +107,7 @@ LinearImage pane_before_wall(float right, float roughness, bool is_transparent) 
   rough.specular = 0;
   add_square(scene, 1, 0, glass(rough, roughness));
   scene.environment.color = {1, 1, 1};
-  RenderOptions options{.width = image_width, .height = image_height};
+  RenderOptions options{.width = glass_width, .height = glass_height};
   options.display.is_transparent = is_transparent, options.display.background = {0, 0, 0, 1};
   return render(PreparedScene(scene), from_front(), {.samples = standard_pattern(8)}, options).color;
 }
@@ -116,12 +116,12 @@ TEST(Transmission, RoughGlassBeforeAnOpaqueWallIsOpaque) {
   for (const float roughness : {0.0f, 0.3f, 0.6f, 0.8f, 1.0f})
     for (const bool is_transparent : {true, false}) {
       const LinearImage seen = pane_before_wall(0.5f, roughness, is_transparent);
-      for (const int x : {image_width / 2 - 10, image_width / 2,
-                          image_width / 2 + 4}) {  // the wall ends at the column image_width / 2 + 6
-        EXPECT_NEAR(seen(x, image_height / 2).g, 0.25f, 2e-3f) << roughness << " " << x;
-        EXPECT_NEAR(seen(x, image_height / 2).a, 1, 1e-5f) << roughness << " " << x;
+      for (const int x : {glass_width / 2 - 10, glass_width / 2,
+                          glass_width / 2 + 4}) {  // the wall ends at the column glass_width / 2 + 6
+        EXPECT_NEAR(seen(x, glass_height / 2).g, 0.25f, 2e-3f) << roughness << " " << x;
+        EXPECT_NEAR(seen(x, glass_height / 2).a, 1, 1e-5f) << roughness << " " << x;
       }
-      EXPECT_NEAR(seen(image_width / 2 + 9, image_height / 2).a, 0, 1e-3f) << roughness;
+      EXPECT_NEAR(seen(glass_width / 2 + 9, glass_height / 2).a, 0, 1e-3f) << roughness;
     }
 }
 
@@ -131,8 +131,8 @@ TEST(Transmission, SilhouettesBehindGlassHaveNoHalo) {
   for (const float roughness : {0.0f, 0.3f, 1.0f}) {
     const LinearImage seen = pane_before_wall(0.52f, roughness, true);
     int partial = 0;
-    for (int x = image_width / 2 - 10; x < image_width / 2 + 10; ++x) {
-      const Linear c = seen(x, image_height / 2);
+    for (int x = glass_width / 2 - 10; x < glass_width / 2 + 10; ++x) {
+      const Linear c = seen(x, glass_height / 2);
       EXPECT_NEAR(c.g, 0.25f * c.a, 2e-3f) << roughness << " " << x;
       partial += c.a > 0.05f && c.a < 0.95f;
     }
@@ -144,8 +144,8 @@ TEST(Transmission, AVolumeAbsorbsAsItsThicknessSays) {
   MaterialLayers volume{.ior = 1, .transmission = 1, .thickness = 2, .attenuation_distance = 1};
   volume.specular = 0, volume.attenuation_color = {0.5f, 0.25f, 1};
   const LinearImage seen = picture(pane(glass(volume)));
-  EXPECT_NEAR(seen(image_width / 2 - 5, image_height / 2).r, 0.25f, 1e-6f);
-  EXPECT_NEAR(seen(image_width / 2 + 5, image_height / 2).g, 0.0625f, 1e-6f);
+  EXPECT_NEAR(seen(glass_width / 2 - 5, glass_height / 2).r, 0.25f, 1e-6f);
+  EXPECT_NEAR(seen(glass_width / 2 + 5, glass_height / 2).g, 0.0625f, 1e-6f);
 }
 
 TEST(Transmission, GlassBeforeTheBackgroundIsTransparent) {
@@ -157,11 +157,11 @@ TEST(Transmission, GlassBeforeTheBackgroundIsTransparent) {
     m.base_color = color;
     add_square(scene, 1, 0, m);
     scene.environment.color = {1, 1, 1};
-    RenderOptions options{.width = image_width, .height = image_height};
+    RenderOptions options{.width = glass_width, .height = glass_height};
     if (has_environment_behind) options.background.emplace();
     options.display.is_transparent = true;
     return render(PreparedScene(scene), from_front(), {.samples = standard_pattern(4)}, options)
-        .color(image_width / 2, image_height / 2);
+        .color(glass_width / 2, glass_height / 2);
   };
   const auto expect = [](const Linear& c, const Linear& wanted) {
     EXPECT_NEAR(c.r, wanted.r, 1e-3f);
@@ -181,12 +181,12 @@ TEST(Transmission, OpaqueGlassTransmitsBlackBeforeATransparentBackground) {
   Scene scene;
   add_square(scene, 1, 0, glass(clear));
   scene.environment.color = {1, 1, 1};
-  RenderOptions options{.width = image_width, .height = image_height};
+  RenderOptions options{.width = glass_width, .height = glass_height};
   options.opaque_glass = true;
   options.display.is_transparent = true;
   const auto seen = [&] {
     return render(PreparedScene(scene), from_front(), {.samples = standard_pattern(4)}, options)
-        .color(image_width / 2, image_height / 2);
+        .color(glass_width / 2, glass_height / 2);
   };
   const Linear alone = seen();  // the diffuse quarter
   EXPECT_NEAR(alone.r, 0.25f, 1e-3f);
@@ -203,10 +203,10 @@ TEST(Transmission, GlassColoursTheBackground) {
   red.base_color = {1, 0.25f, 0.5f, 1};
   add_square(scene, 1, 0, red);
   scene.environment.color = {1, 1, 1};
-  RenderOptions options{.width = image_width, .height = image_height};
+  RenderOptions options{.width = glass_width, .height = glass_height};
   options.display.background = {1, 1, 0, 1};
   const LinearImage image = render(PreparedScene(scene), from_front(), {.samples = standard_pattern(4)}, options).color;
-  const Linear c = over_background(image, options.display)(image_width / 2, image_height / 2);
+  const Linear c = over_background(image, options.display)(glass_width / 2, glass_height / 2);
   EXPECT_NEAR(c.r, 1, 1e-3f);
   EXPECT_NEAR(c.g, 0.25f, 1e-3f);
   EXPECT_NEAR(c.b, 0, 1e-3f);
@@ -220,7 +220,7 @@ TEST(Transmission, GlassShowsBlendedSurfacesBehindIt) {
   for (const float z : {-1.0f, 1.0f}) {  // refracted behind the pane, composited in front of it
     Scene scene = pane(glass(clear));
     add_square(scene, 4, z, veil);
-    EXPECT_EQ(picture(scene)(image_width / 2 - 5, image_height / 2), (Linear{0.5f, 0, 0.25f, 1})) << z;
+    EXPECT_EQ(picture(scene)(glass_width / 2 - 5, glass_height / 2), (Linear{0.5f, 0, 0.25f, 1})) << z;
   }
 }
 
@@ -236,12 +236,12 @@ TEST(Transmission, GlassIsSeenThroughGlass) {
   add_square(scene, 4, -2, glowing({1, 1, 1}));
   add_square(scene, 4, -1, tinted({1, 0.5f, 1, 1}));
   add_square(scene, 4, 0, tinted({0.5f, 1, 1, 1}));
-  EXPECT_EQ(picture(scene)(image_width / 2, image_height / 2), (Linear{0.5f, 0.5f, 1, 1}));
+  EXPECT_EQ(picture(scene)(glass_width / 2, glass_height / 2), (Linear{0.5f, 0.5f, 1, 1}));
   // In any order in the file, and with others beside: each instance refracts the image of its own layer.
   std::swap(scene.instances[1], scene.instances[2]);
-  EXPECT_EQ(picture(scene)(image_width / 2, image_height / 2), (Linear{0.5f, 0.5f, 1, 1}));
+  EXPECT_EQ(picture(scene)(glass_width / 2, glass_height / 2), (Linear{0.5f, 0.5f, 1, 1}));
   add_square(scene, 4, 1, tinted({0.25f, 1, 0.5f, 1}));
-  EXPECT_EQ(picture(scene)(image_width / 2, image_height / 2), (Linear{0.125f, 0.5f, 0.5f, 1}));
+  EXPECT_EQ(picture(scene)(glass_width / 2, glass_height / 2), (Linear{0.125f, 0.5f, 0.5f, 1}));
 }
 
 TEST(Transmission, ManyPanesAreSeenAsFourLayers) {
@@ -253,7 +253,7 @@ TEST(Transmission, ManyPanesAreSeenAsFourLayers) {
   add_square(scene, 4, -2, glowing({1, 1, 1}));
   // The last two panes are the nearest to each other, and do not see each other.
   for (const float z : {-1.5f, -1.0f, -0.5f, 0.0f, 0.4f}) add_square(scene, 4, z, grey);
-  const float seen = picture(scene)(image_width / 2, image_height / 2).r;
+  const float seen = picture(scene)(glass_width / 2, glass_height / 2).r;
   EXPECT_EQ(seen, 0.0625f);
 }
 
@@ -267,9 +267,9 @@ TEST(Transmission, AVolumeRefracts) {
   const LinearImage seen = picture(scene);
   // Light enters at x; inside it runs at asin(sin a / 1.5) from the normal, to the right.
   const float inside = std::asin(std::sin(angle) / 1.5f), shift = std::sin(angle - inside);
-  const float pixels = shift * image_height / 3;
+  const float pixels = shift * glass_height / 3;
   ASSERT_GT(pixels, 2);
-  const int y = image_height / 2, middle = image_width / 2, edge = static_cast<int>(std::lround(pixels));
+  const int y = glass_height / 2, middle = glass_width / 2, edge = static_cast<int>(std::lround(pixels));
   int first_green = 0;
   for (int x = middle - 9; x < middle + 9; ++x)
     if (seen(x, y).g > 0.5f && first_green == 0) first_green = x;

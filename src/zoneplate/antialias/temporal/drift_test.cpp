@@ -20,7 +20,7 @@
 namespace zoneplate::antialias {
 namespace {
 
-constexpr int side = 40;
+constexpr int drift_side = 40;
 /// The light at a point of the image, in pixels, in a frame.
 using LightAt = std::function<Linear(double x, double y, int frame)>;
 
@@ -38,13 +38,13 @@ std::vector<LinearImage> accumulated(const std::string& method, const LightAt& l
     context.index = i, context.is_first = i == 0;
     const SamplePosition sample = accumulation.request(context).samples[0];
     Frame frame;
-    frame.color = LinearImage(side, side);
-    for (int y = 0; y < side; ++y)
-      for (int x = 0; x < side; ++x) frame.color(x, y) = light(x + sample.x / 256.0, y + sample.y / 256.0, i);
-    frame.reversed_depth = frame.depth = Plane<float>(side, side, 0.5f);
-    frame.object_id = Plane<std::uint32_t>(side, side, 7u);
-    frame.motion = Plane<float2>(side, side, float2{0, 0});
-    frame.last_position = Plane<float3>(side, side, float3{0, 0, -0.5f});
+    frame.color = LinearImage(drift_side, drift_side);
+    for (int y = 0; y < drift_side; ++y)
+      for (int x = 0; x < drift_side; ++x) frame.color(x, y) = light(x + sample.x / 256.0, y + sample.y / 256.0, i);
+    frame.reversed_depth = frame.depth = Plane<float>(drift_side, drift_side, 0.5f);
+    frame.object_id = Plane<std::uint32_t>(drift_side, drift_side, 7u);
+    frame.motion = Plane<float2>(drift_side, drift_side, float2{0, 0});
+    frame.last_position = Plane<float3>(drift_side, drift_side, float3{0, 0, -0.5f});
     out.push_back(accumulation.resolve(frame));
   }
   return out;
@@ -129,7 +129,7 @@ TEST(TaaDrift, FineDetailsFollow) {
 double centroid_of(const LinearImage& image) {
   double sum = 0, moment = 0;
   for (int y = 15; y < 25; ++y)
-    for (int x = 0; x < side; ++x) {
+    for (int x = 0; x < drift_side; ++x) {
       const double light = std::max(double{image(x, y).g} - 0.2, 0.0);
       sum += light, moment += light * (x + 0.5);
     }

@@ -18,7 +18,7 @@
 namespace zoneplate::antialias {
 namespace {
 
-constexpr const char* all_presets[] = {"best", "karis", "inside", "salvi", "three", "playcanvas", "bevy"};
+constexpr const char* taa_presets[] = {"best", "karis", "inside", "salvi", "three", "playcanvas", "bevy"};
 
 std::string of_preset(const std::string& preset) { return "taa:preset=" + preset; }
 
@@ -46,7 +46,7 @@ MovingScene turning_teapot() {
 
 TEST(Taa, BitsAreThoseOfEveryInstructionSetAndNumberOfThreads) {
   const MovingScene moving = turning_teapot();
-  for (const char* preset : all_presets) {
+  for (const char* preset : taa_presets) {
     const LinearImage scalar = with_isa(Isa::Scalar, [&] { return last_frame(moving, of_preset(preset), 4); });
     for (const Isa isa : supported_isas())
       for (const int threads : {1, 3})
@@ -206,7 +206,7 @@ TEST(Taa, AConstantColourIsAFixedPoint) {
     camera.world_from_camera = translation(float3{0.011f * static_cast<float>(i), 0.007f * static_cast<float>(i), 1});
     return camera;
   };
-  for (const char* preset : all_presets)
+  for (const char* preset : taa_presets)
     for (const char* more : {"", ",range=compressed", ",weigh=luma", ",history=catmull5", ",space=rgb,rectify=clamp"}) {
       const std::vector<LinearImage> images = film(wall, of_preset(preset) + more, 9);
       for (const LinearImage& image : images)

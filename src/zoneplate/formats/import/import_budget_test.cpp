@@ -26,7 +26,7 @@
 namespace zoneplate {
 namespace {
 
-constexpr int knots = 100, corners = 4096, points = 256;
+constexpr int knots = 100, budget_corners = 4096, points = 256;
 
 /// A corner of an outline with very many self-intersections, which is a worst case of triangulation.
 std::uint32_t knot_corner(int i) { return hash(static_cast<std::uint32_t>(i)) % points; }
@@ -41,8 +41,8 @@ std::string ply_of_knots() {
                      "\nproperty list uint uint vertex_indices\nend_header\n";
   for (std::uint32_t p = 0; p < points; ++p) text += place(p);
   for (int k = 0; k < knots; ++k) {
-    text += std::to_string(corners);
-    for (int i = 0; i < corners; ++i) text += " " + std::to_string(knot_corner(i));
+    text += std::to_string(budget_corners);
+    for (int i = 0; i < budget_corners; ++i) text += " " + std::to_string(knot_corner(i));
     text += "\n";
   }
   return text;
@@ -53,7 +53,7 @@ std::string obj_of_knots() {
   for (std::uint32_t p = 0; p < points; ++p) text += "v " + place(p);
   for (int k = 0; k < knots; ++k) {
     text += "f";
-    for (int i = 0; i < corners; ++i) text += " " + std::to_string(1 + knot_corner(i));
+    for (int i = 0; i < budget_corners; ++i) text += " " + std::to_string(1 + knot_corner(i));
     text += "\n";
   }
   return text;
@@ -63,7 +63,7 @@ std::string stl_of_knots() {
   std::string text = "solid knots\n";
   for (int k = 0; k < knots; ++k) {
     text += "facet normal 0 0 1 outer loop\n";
-    for (int i = 0; i < corners; ++i) text += "vertex " + place(knot_corner(i));
+    for (int i = 0; i < budget_corners; ++i) text += "vertex " + place(knot_corner(i));
     text += "endloop endfacet\n";
   }
   return text;

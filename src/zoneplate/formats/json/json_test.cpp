@@ -13,7 +13,7 @@ JsonValue parse(const std::string& text, const LoadLimits& limits = {}) {
   return parse_json({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, budget);
 }
 
-std::string error_of(const std::string& text, const LoadLimits& limits = {}) {
+std::string json_error(const std::string& text, const LoadLimits& limits = {}) {
   try {
     parse(text, limits);
   } catch (const Error& e) {
@@ -47,21 +47,21 @@ TEST(GltfJson, KeepsEveryKindOfValue) {
 }
 
 TEST(GltfJson, RefusesWhatIsNotJson) {
-  EXPECT_NE(error_of("").find("f.gltf: not JSON: "), std::string::npos);
-  EXPECT_NE(error_of("{\"a\":1,}").find("line 1, column 8"), std::string::npos);
-  EXPECT_NE(error_of("{} x"), "");
-  EXPECT_NE(error_of("{\"a\":\"\xff\"}"), "");
-  EXPECT_NE(error_of("{\"a\":1e999}"), "");
-  EXPECT_EQ(error_of("{\"a\":\"b\nc\"}").find('\n'), std::string::npos);
+  EXPECT_NE(json_error("").find("f.gltf: not JSON: "), std::string::npos);
+  EXPECT_NE(json_error("{\"a\":1,}").find("line 1, column 8"), std::string::npos);
+  EXPECT_NE(json_error("{} x"), "");
+  EXPECT_NE(json_error("{\"a\":\"\xff\"}"), "");
+  EXPECT_NE(json_error("{\"a\":1e999}"), "");
+  EXPECT_EQ(json_error("{\"a\":\"b\nc\"}").find('\n'), std::string::npos);
 }
 
 TEST(GltfJson, LimitsDepthAndMemory) {
-  EXPECT_EQ(error_of(std::string(64, '[') + std::string(64, ']')), "");
-  EXPECT_EQ(error_of(std::string(65, '[') + std::string(65, ']')), "f.gltf: JSON nested deeper than 64");
-  EXPECT_NE(error_of(std::string(1000000, '[')), "");
+  EXPECT_EQ(json_error(std::string(64, '[') + std::string(64, ']')), "");
+  EXPECT_EQ(json_error(std::string(65, '[') + std::string(65, ']')), "f.gltf: JSON nested deeper than 64");
+  EXPECT_NE(json_error(std::string(1000000, '[')), "");
   std::string many = "[0";
   for (int i = 0; i < 1000; ++i) many += ",0";
-  EXPECT_NE(error_of(many + "]", {.memory = 100000}).find("--max-memory"), std::string::npos);
+  EXPECT_NE(json_error(many + "]", {.memory = 100000}).find("--max-memory"), std::string::npos);
 }
 
 TEST(GltfJson, DefaultsStandForMissingKeysOnly) {

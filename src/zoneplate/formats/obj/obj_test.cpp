@@ -63,10 +63,10 @@ class ObjModel : public testing::Test {
   fs::path folder_;
 };
 
-const std::string square = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+const std::string square_text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 TEST_F(ObjModel, ReadsEveryFormOfIndices) {
-  const std::string attributes = square + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 2\n";
+  const std::string attributes = square_text + "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 2\n";
   const std::vector<float3> corners = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   const std::vector<std::uint32_t> two = {0, 1, 2, 0, 2, 3};
   for (const char* face : {"f 1/1/1 2/2/1 3/3/1 4/4/1", "f -4/-4/-1 -3/-3/-1 -2/-2/-1 -1/-1/-1",
@@ -85,7 +85,7 @@ TEST_F(ObjModel, ReadsEveryFormOfIndices) {
 }
 
 TEST_F(ObjModel, IndicesMayComeBeforeTheirVertices) {
-  EXPECT_EQ(load("f 1 2 3\n" + square).meshes.at(0).primitives(), 1u);
+  EXPECT_EQ(load("f 1 2 3\n" + square_text).meshes.at(0).primitives(), 1u);
 }
 
 TEST_F(ObjModel, ReadsLinesOfEveryKind) {
@@ -97,7 +97,7 @@ TEST_F(ObjModel, ReadsLinesOfEveryKind) {
 
 TEST_F(ObjModel, SharesVerticesInTheOrderOfFirstUse) {
   const Mesh mesh =
-      load(square + "v 5 5 5\nvt 0 0\nvt 1 1\nf 4/1 1/1 2/1\nf 4/1 2/1 3/1\nf 1/2 2/1 3/1\n").meshes.at(0);
+      load(square_text + "v 5 5 5\nvt 0 0\nvt 1 1\nf 4/1 1/1 2/1\nf 4/1 2/1 3/1\nf 1/2 2/1 3/1\n").meshes.at(0);
   EXPECT_EQ(mesh.index, (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3, 4, 2, 3}));
   EXPECT_EQ(mesh.position.size(), 5u);
   EXPECT_EQ(mesh.position[4], mesh.position[1]);
@@ -105,7 +105,7 @@ TEST_F(ObjModel, SharesVerticesInTheOrderOfFirstUse) {
 
 TEST_F(ObjModel, SharesVerticesWhereOnePositionHasManyTextureCoordinates) {
   // Thousands of vertices at one position, each used three times: more than the hash of nearby vertices can separate.
-  std::string text = square;
+  std::string text = square_text;
   for (int i = 0; i < 3000; ++i) text += "vt " + std::to_string(i) + " 0\n";
   for (int round = 0; round < 3; ++round)
     for (int i = 1; i <= 3000; ++i) text += "f 1/" + std::to_string(i) + " 2/1 3/1\n";
@@ -117,7 +117,7 @@ TEST_F(ObjModel, SharesVerticesWhereOnePositionHasManyTextureCoordinates) {
 }
 
 TEST_F(ObjModel, MakesAMeshForEachMaterialOfEachObject) {
-  const Scene scene = load(square +
+  const Scene scene = load(square_text +
                            "f 1 2 3\no a\ng left\nusemtl red\nf 1 2 3\ng right\nf 1 3 4\nusemtl blue\nf 1 2 4\n"
                            "o b\nusemtl red\nf 2 3 4\nl 1 2 3\no a\nf 1 2 3\no empty\n");
   EXPECT_EQ(scene.objects, (std::vector<std::string>{"model", "a", "b"}));
@@ -138,17 +138,17 @@ TEST_F(ObjModel, MakesAMeshForEachMaterialOfEachObject) {
   EXPECT_TRUE(scene.meshes[4].normal.empty());
 
   // Without any `o`, groups become the objects.
-  EXPECT_EQ(load(square + "g left side\nf 1 2 3\ng right\nf 1 3 4\n").objects,
+  EXPECT_EQ(load(square_text + "g left side\nf 1 2 3\ng right\nf 1 3 4\n").objects,
             (std::vector<std::string>{"left side", "right"}));
 }
 
 TEST_F(ObjModel, ReadsPointsAndLinesAndClouds) {
-  const Scene scene = load(square + "p 1 2\np -1\nl 1 2 3 4\n");
+  const Scene scene = load(square_text + "p 1 2\np -1\nl 1 2 3 4\n");
   EXPECT_EQ(scene.meshes.at(0).topology, Topology::Points);
   EXPECT_EQ(scene.meshes[0].index, (std::vector<std::uint32_t>{0, 1, 2}));
   EXPECT_EQ(scene.meshes.at(1).topology, Topology::Lines);
   EXPECT_EQ(scene.meshes[1].index, (std::vector<std::uint32_t>{0, 1, 1, 2, 2, 3}));
-  const Scene cloud = load(square);
+  const Scene cloud = load(square_text);
   EXPECT_EQ(cloud.meshes.at(0).topology, Topology::Points);
   EXPECT_EQ(cloud.meshes[0].primitives(), 4u);
 }
@@ -157,7 +157,7 @@ TEST_F(ObjModel, ReadsVertexColours) {
   const Mesh mesh = load("v 0 0 0 1 0.5 0\nv 1 0 0 2 -1 1 0.25\nv 0 1 0\nv 0 0 1 1\nf 1 2 3 4\n").meshes.at(0);
   EXPECT_EQ(mesh.color,
             (std::vector<float4>{{1, decode_srgb(0.5f), 0, 1}, {1, 0, 1, 0.25f}, {1, 1, 1, 1}, {1, 1, 1, 1}}));
-  EXPECT_TRUE(load(square + "f 1 2 3").meshes.at(0).color.empty());
+  EXPECT_TRUE(load(square_text + "f 1 2 3").meshes.at(0).color.empty());
   const Mesh odd = load("v 0 0 0 nan inf -inf nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").meshes.at(0);
   EXPECT_EQ(odd.color[0], (float4{0, 1, 0, 1}));
 }
@@ -238,13 +238,13 @@ TEST_F(ObjModel, AFanOfThousandsIsSmoothedInTime) {
 }
 
 TEST_F(ObjModel, UsesNormalsThatAreThereAndMakesTheOthers) {
-  const Mesh mesh = load(square + "vn 0 1 0\nvn 0 0 0\nvn nan 0 1\nf 1//1 2//2 3//3 4\n").meshes.at(0);
+  const Mesh mesh = load(square_text + "vn 0 1 0\nvn 0 0 0\nvn nan 0 1\nf 1//1 2//2 3//3 4\n").meshes.at(0);
   EXPECT_EQ(mesh.normal, (std::vector<float3>{{0, 1, 0}, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}}));
 }
 
 TEST_F(ObjModel, DropsWhatIsNotFinite) {
-  const Scene scene = load("v nan 0 0\nv 1.#IND 0 0\nv 1e99 0 0\n" + square + "vt inf 0\nf 1 4 5\nf 2 4 5\nf 3 4 5\n" +
-                           "f 4/1 5/1 6/1\nl 1 4\np 2\n");
+  const Scene scene = load("v nan 0 0\nv 1.#IND 0 0\nv 1e99 0 0\n" + square_text +
+                           "vt inf 0\nf 1 4 5\nf 2 4 5\nf 3 4 5\n" + "f 4/1 5/1 6/1\nl 1 4\np 2\n");
   EXPECT_EQ(scene.meshes.size(), 1u);
   EXPECT_EQ(scene.meshes[0].primitives(), 1u);
   EXPECT_EQ(warnings_of(scene),
@@ -254,16 +254,16 @@ TEST_F(ObjModel, DropsWhatIsNotFinite) {
 
 TEST_F(ObjModel, SaysWhatIsWrongAndWhere) {
   const std::string nothing = " (4 vertices) is dropped; nothing is left that can be drawn";
-  EXPECT_EQ(refusal(square + "f 1 2 99\n"), "model.obj: line 5: face with the corner '99'" + nothing);
-  EXPECT_EQ(refusal(square + "\n\nf 1 2 0\n"), "model.obj: line 7: face with the corner '0'" + nothing);
-  EXPECT_EQ(refusal(square + "f -5 \\\n1 2\n"), "model.obj: line 5: face with the corner '-5'" + nothing);
-  EXPECT_EQ(refusal(square + "l 1 x\n"), "model.obj: line 5: line with the corner 'x'" + nothing);
-  EXPECT_EQ(refusal(square + "f 1/2/3/4 2 3\n"), "model.obj: line 5: face with the corner '1/2/3/4'" + nothing);
+  EXPECT_EQ(refusal(square_text + "f 1 2 99\n"), "model.obj: line 5: face with the corner '99'" + nothing);
+  EXPECT_EQ(refusal(square_text + "\n\nf 1 2 0\n"), "model.obj: line 7: face with the corner '0'" + nothing);
+  EXPECT_EQ(refusal(square_text + "f -5 \\\n1 2\n"), "model.obj: line 5: face with the corner '-5'" + nothing);
+  EXPECT_EQ(refusal(square_text + "l 1 x\n"), "model.obj: line 5: line with the corner 'x'" + nothing);
+  EXPECT_EQ(refusal(square_text + "f 1/2/3/4 2 3\n"), "model.obj: line 5: face with the corner '1/2/3/4'" + nothing);
   EXPECT_EQ(refusal("v 1 2\n"), "model.obj: line 1: vertex has 2 numbers, expected 3");
   EXPECT_EQ(refusal("v 1 2 3,5\n"), "model.obj: line 1: vertex: '3,5' is not a number");
   EXPECT_EQ(refusal(""), "model.obj: holds no faces, lines or points");
   EXPECT_EQ(
-      refusal(square + "f 1\nf 1 2\n"),
+      refusal(square_text + "f 1\nf 1 2\n"),
       "model.obj: line 5: face has too few corners and is dropped (and 1 more); nothing is left that can be drawn");
   EXPECT_EQ(refusal("hello\n"), "model.obj: line 1: hello is unknown and ignored; nothing is left that can be drawn");
   EXPECT_EQ(refusal("f 99999999999999999999 1 1\n").substr(0, 60),
@@ -278,7 +278,8 @@ TEST_F(ObjModel, SaysWhatIsWrongAndWhere) {
 
 // A file whose faces are cut into parts reads them twice: the counts of vertices that follow are known only then.
 TEST_F(ObjModel, OneBadFaceDoesNotCostTheModel) {
-  const Scene scene = load(square + "f 0 1 2\nf 1 2 3\nf 1 2 99\nf 1 x 3\nf 1x 2 3\nf 1// 2 /\nf -9 1 2\nf -4 -2 -1\n");
+  const Scene scene =
+      load(square_text + "f 0 1 2\nf 1 2 3\nf 1 2 99\nf 1 x 3\nf 1x 2 3\nf 1// 2 /\nf -9 1 2\nf -4 -2 -1\n");
   ASSERT_EQ(scene.meshes.size(), 1u);
   EXPECT_EQ(scene.meshes[0].index, (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
   EXPECT_EQ(warnings_of(scene), "model.obj: line 5: face with the corner '0' (4 vertices) is dropped (and 5 more)\n");
@@ -286,8 +287,8 @@ TEST_F(ObjModel, OneBadFaceDoesNotCostTheModel) {
 
 TEST_F(ObjModel, NormalsDecideWhichSideIsOutside) {
   const std::string normal = "vn 0 0 1\n";
-  const Scene counter = load(square + normal + "f 1//1 2//1 3//1 4//1\n");
-  const Scene clockwise = load(square + normal + "f 4//1 3//1 2//1 1//1\n");
+  const Scene counter = load(square_text + normal + "f 1//1 2//1 3//1 4//1\n");
+  const Scene clockwise = load(square_text + normal + "f 4//1 3//1 2//1 1//1\n");
   for (const Scene* scene : {&counter, &clockwise}) {
     const Mesh& m = scene->meshes.at(0);
     for (std::size_t i = 0; i < m.index.size(); i += 3) {
@@ -303,7 +304,7 @@ TEST_F(ObjModel, NamesTextInUtf16) {
 }
 
 TEST_F(ObjModel, WarnsOfWhatItPassesOver) {
-  const Scene scene = load(square + "f 1 2 3\nf 1 2\nf 1//1 2//1 3//1\nf 1/7 2 3\ncurv 1 2\nfoo\nfoo\nlod 3\n");
+  const Scene scene = load(square_text + "f 1 2 3\nf 1 2\nf 1//1 2//1 3//1\nf 1/7 2 3\ncurv 1 2\nfoo\nfoo\nlod 3\n");
   EXPECT_EQ(warnings_of(scene),
             "model.obj: line 6: face has too few corners and is dropped\n"
             "model.obj: line 9: curv is free-form geometry, which is not drawn\n"
@@ -313,7 +314,7 @@ TEST_F(ObjModel, WarnsOfWhatItPassesOver) {
 }
 
 TEST_F(ObjModel, KeepsWithinItsLimits) {
-  std::string text = square;
+  std::string text = square_text;
   for (int i = 0; i < 2000; ++i) text += "f 1 2 3\n";
   EXPECT_EQ(refusal(text, {.memory = 30000}), "model.obj: needs more than the limit of 29.3 kB (--max-memory)");
   EXPECT_EQ(refusal(text, {.memory = 100}).substr(0, 29), "model.obj: cannot be read: la");

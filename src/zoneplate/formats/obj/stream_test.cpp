@@ -55,7 +55,7 @@ std::string terrain(const FileKind& kind, std::uint32_t side) {
   return out;
 }
 
-std::vector<std::uint8_t> bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
+std::vector<std::uint8_t> stream_bytes(const std::string& text) { return {text.begin(), text.end()}; }
 
 TEST(ObjStream, HasTheSceneOfTheLoader) {
   for (const FileKind& kind :
@@ -67,7 +67,7 @@ TEST(ObjStream, HasTheSceneOfTheLoader) {
     const MemoryFile file;
     const std::string text = terrain(kind, 150);
     ASSERT_GT(text.size(), std::size_t{1} << 20);  // of more than one part
-    const std::string path = file.write(bytes_of(text));
+    const std::string path = file.write(stream_bytes(text));
     const Scene whole = load_obj(path);
     const std::unique_ptr<FileStream> stream = open_obj_stream(path, {});
     ASSERT_TRUE(stream);
@@ -79,7 +79,7 @@ TEST(ObjStream, HasTheSceneOfTheLoader) {
 // Little memory: each part is read again and again.
 TEST(ObjStream, NeedsNoPartForLong) {
   const MemoryFile file;
-  const std::string path = file.write(bytes_of(terrain({.name = "large", .has_groups = true}, 250)));
+  const std::string path = file.write(stream_bytes(terrain({.name = "large", .has_groups = true}, 250)));
   const std::unique_ptr<FileStream> stream = open_obj_stream(path, {.memory = 1 << 20});
   ASSERT_TRUE(stream);
   EXPECT_GT(stream->bytes_in_memory(), std::uint64_t{1} << 20);
@@ -94,7 +94,7 @@ TEST(ObjStream, NeedsNoPartForLong) {
 
 TEST(ObjStream, SamplesSayWhetherItMayFit) {
   const MemoryFile file;
-  const std::string path = file.write(bytes_of(terrain({"plain"}, 100)));
+  const std::string path = file.write(stream_bytes(terrain({"plain"}, 100)));
   EXPECT_FALSE(obj_may_exceed_memory(path, {.memory = 20'000'000}));
   EXPECT_TRUE(obj_may_exceed_memory(path, {.memory = 2'000'000}));
 }
@@ -107,7 +107,7 @@ TEST(ObjStream, RefusesByNameWhatDependsOnTheWhole) {
            {"vn 0 0 1\nf 1//1 2//1 3//1\nf 1 2 3\n", "without normals"},
            {"vn 0 0 0\nf 1//1 2//1 3//1\n", "without normals"}}) {
     const MemoryFile file;
-    const std::unique_ptr<FileStream> stream = open_obj_stream(file.write(bytes_of(vertices + text)), {});
+    const std::unique_ptr<FileStream> stream = open_obj_stream(file.write(stream_bytes(vertices + text)), {});
     ASSERT_TRUE(stream);
     std::string found;
     try {
@@ -120,17 +120,17 @@ TEST(ObjStream, RefusesByNameWhatDependsOnTheWhole) {
     EXPECT_NE(found.find(cause), found.npos) << found;
   }
   const MemoryFile points;
-  EXPECT_EQ(open_obj_stream(points.write(bytes_of(vertices)), {}), nullptr);
+  EXPECT_EQ(open_obj_stream(points.write(stream_bytes(vertices)), {}), nullptr);
 }
 
 TEST(ObjStream, ReportsAFileThatIsChanged) {
   const std::string text = terrain({.name = "plain", .has_quads = true}, 150);
   for (const char letter : {'x', 'v', '\n', '9'}) {
     const MemoryFile file;
-    const std::string path = file.write(bytes_of(text));
+    const std::string path = file.write(stream_bytes(text));
     const std::unique_ptr<FileStream> stream = open_obj_stream(path, {.memory = 1 << 16});
     const StreamOutline outline(*stream, path, {});
-    file.write(bytes_of(std::string(text.size(), letter)));
+    file.write(stream_bytes(std::string(text.size(), letter)));
     std::vector<std::uint32_t> all;
     for (std::uint32_t t = 0; t < stream->count(); ++t) all.push_back(t);
     EXPECT_THROW(stream->mesh(all), Error);
@@ -154,7 +154,7 @@ TEST(ObjStream, AgreesWithTheLoaderAboutDamagedFiles) {
       text[hash(seed, k) % text.size()] = "0123456789 /-.\nvfntexlpso"[hash(seed, k, 1) % 25];
     if (seed % 50 == 7) text.resize(hash(seed, 9) % text.size());
     const MemoryFile file;
-    const std::string path = file.write(bytes_of(text));
+    const std::string path = file.write(stream_bytes(text));
     try {
       const std::unique_ptr<FileStream> stream = open_obj_stream(path, {.memory = 1 << 24});
       if (!stream) continue;

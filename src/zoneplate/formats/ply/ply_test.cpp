@@ -21,13 +21,13 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-Scene load(const Bytes& bytes) {
+Scene loaded_ply(const Bytes& bytes) {
   const MemoryFile file;
   return load_ply(file.write(bytes));
 }
-Scene load(const std::string& text) { return load(Bytes(text.begin(), text.end())); }
+Scene loaded_ply(const std::string& text) { return loaded_ply(Bytes(text.begin(), text.end())); }
 
-std::string refusal(const std::string& text) {
+std::string ply_refusal(const std::string& text) {
   const MemoryFile file;
   const std::string path = file.write(Bytes(text.begin(), text.end()));
   const std::string error = load_soundly(load_ply, path);
@@ -39,12 +39,13 @@ const std::string ascii = "ply\nformat ascii 1.0\n";
 const std::string xyz = "property float x\nproperty float y\nproperty float z\n";
 
 TEST(Ply, AsciiQuadWithColorsAndUv) {
-  const Scene s = load(ascii + "comment by hand\nelement vertex 4\n" + xyz +
-                       "property float s\nproperty float t\nproperty uchar red\nproperty uchar green\n"
-                       "property uchar blue\nproperty uchar alpha\nelement face 1\n"
-                       "property list uchar int vertex_indices\nend_header\n"
-                       "0 0 0 0 0 255 0 0 255\n1 0 0 1 0 0 128 0 255\n1 1 0 1 1 0 0 0 51\n0 1 0 0 0.75 9 9 9 255\n"
-                       "4 0 1 2 3\n");
+  const Scene s =
+      loaded_ply(ascii + "comment by hand\nelement vertex 4\n" + xyz +
+                 "property float s\nproperty float t\nproperty uchar red\nproperty uchar green\n"
+                 "property uchar blue\nproperty uchar alpha\nelement face 1\n"
+                 "property list uchar int vertex_indices\nend_header\n"
+                 "0 0 0 0 0 255 0 0 255\n1 0 0 1 0 0 128 0 255\n1 1 0 1 1 0 0 0 51\n0 1 0 0 0.75 9 9 9 255\n"
+                 "4 0 1 2 3\n");
   ASSERT_EQ(s.meshes.size(), 1u);
   const Mesh& m = s.meshes[0];
   EXPECT_EQ(m.index, (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3}));
@@ -62,7 +63,7 @@ TEST(Ply, GaussianSplatsArePointsOfTheirColor) {
       ascii + "element vertex 2\n" + xyz +
       "property float nx\nproperty float ny\nproperty float nz\nproperty float f_dc_0\nproperty float f_dc_1\n"
       "property float f_dc_2\nproperty float opacity\nproperty float scale_0\nproperty float rot_0\nend_header\n";
-  const Scene s = load(head + "0 0 0 0 0 0 0.5 -9 9 -4 1 1\n1 0 0 0 0 0 0 0 nan 4 1 1\n");
+  const Scene s = loaded_ply(head + "0 0 0 0 0 0 0.5 -9 9 -4 1 1\n1 0 0 0 0 0 0 0 nan 4 1 1\n");
   const Mesh& m = s.meshes.at(0);
   EXPECT_EQ(m.topology, Topology::Points);
   EXPECT_TRUE(m.normal.empty());
@@ -102,7 +103,7 @@ Bytes pyramid(const char* type, bool is_big) {
 template <class T>
 void expect_pyramid(const char* type) {
   for (const bool is_big : {false, true}) {
-    const Scene s = load(pyramid<T>(type, is_big));
+    const Scene s = loaded_ply(pyramid<T>(type, is_big));
     const Mesh& m = s.meshes[0];
     EXPECT_EQ(m.primitives(), 3u) << type;
     for (std::size_t k : {0u, 1u, 2u})
@@ -141,8 +142,8 @@ TEST(Ply, PlainTrianglesAndListsOfAnyLengthAgreeForAnyNumberOfThreads) {
       for (int k : {0, 2, 4, 3, 1}) add(k);
     }
     Scene one, four;
-    with_threads(1, [&] { one = load(bytes); });
-    with_threads(4, [&] { four = load(bytes); });
+    with_threads(1, [&] { one = loaded_ply(bytes); });
+    with_threads(4, [&] { four = loaded_ply(bytes); });
     EXPECT_EQ(one.meshes[0].primitives(), static_cast<std::size_t>(n - 2 + (has_pentagon ? 3 : 0)));
     EXPECT_EQ(one.meshes[0].index[3 * 777], 777u);
     EXPECT_EQ(one.meshes[0].index, four.meshes[0].index);
@@ -154,15 +155,15 @@ TEST(Ply, PlainTrianglesAndListsOfAnyLengthAgreeForAnyNumberOfThreads) {
 TEST(Ply, PointsLinesAndStrips) {
   const std::string vertices = "element vertex 4\n" + xyz;
   const std::string body = "end_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n";
-  const Scene points = load(ascii + vertices + body);
+  const Scene points = loaded_ply(ascii + vertices + body);
   EXPECT_EQ(points.meshes[0].topology, Topology::Points);
   EXPECT_EQ(points.meshes[0].primitives(), 4u);
-  const Scene lines =
-      load(ascii + vertices + "element edge 2\nproperty int vertex1\nproperty int vertex2\n" + body + "0 1\n3 2\n");
+  const Scene lines = loaded_ply(ascii + vertices + "element edge 2\nproperty int vertex1\nproperty int vertex2\n" +
+                                 body + "0 1\n3 2\n");
   EXPECT_EQ(lines.meshes[0].topology, Topology::Lines);
   EXPECT_EQ(lines.meshes[0].index, (std::vector<std::uint32_t>{0, 1, 3, 2}));
-  const Scene strips = load(ascii + vertices + "element tristrips 1\nproperty list int int vertex_indices\n" + body +
-                            "8 0 1 2 3 -1 0 2 1\n");
+  const Scene strips = loaded_ply(ascii + vertices + "element tristrips 1\nproperty list int int vertex_indices\n" +
+                                  body + "8 0 1 2 3 -1 0 2 1\n");
   std::vector<float3> corners;
   for (const std::uint32_t k : strips.meshes[0].index) corners.push_back(strips.meshes[0].position[k]);
   constexpr float3 a{0, 0, 0}, b{1, 0, 0}, c{0, 1, 0}, d{1, 1, 0};
@@ -209,9 +210,9 @@ TEST(Ply, ColoursOfWideTypesMayBeThoseOfBytes) {
   const auto color_of = [](const std::string& type, const std::string& first) {
     const std::string red = "property " + type + " red\n", green = "property " + type + " green\n",
                       blue = "property " + type + " blue\n";
-    return load(ascii + "element vertex 3\n" + xyz + red + green + blue +
-                "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 " + first +
-                "\n1 0 0 0 0 0\n0 1 0 0 0 0\n3 0 1 2\n")
+    return loaded_ply(ascii + "element vertex 3\n" + xyz + red + green + blue +
+                      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 " + first +
+                      "\n1 0 0 0 0 0\n0 1 0 0 0 0\n3 0 1 2\n")
         .meshes.at(0)
         .color.at(0);
   };
@@ -223,11 +224,11 @@ TEST(Ply, ColoursOfWideTypesMayBeThoseOfBytes) {
 
 TEST(Ply, AlphaThatIsZeroEverywhereIsNotMeant) {
   const auto load_with = [](const char* alpha) {
-    return load(ascii + "element vertex 3\n" + xyz +
-                "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n"
-                "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
-                "0 0 0 9 9 9 0\n1 0 0 9 9 9 0\n0 1 0 9 9 9 " +
-                alpha + "\n3 0 1 2\n");
+    return loaded_ply(ascii + "element vertex 3\n" + xyz +
+                      "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n"
+                      "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                      "0 0 0 9 9 9 0\n1 0 0 9 9 9 0\n0 1 0 9 9 9 " +
+                      alpha + "\n3 0 1 2\n");
   };
   const Scene all = load_with("0"), some = load_with("1");
   EXPECT_EQ(all.meshes[0].color[0].w, 1);
@@ -263,7 +264,7 @@ TEST(Ply, FacesMayHaveSeveralTextures) {
 TEST(Ply, OneFlawDoesNotCostTheModel) {
   const std::string faces = "element face 2\nproperty list uchar int vertex_indices\nend_header\n";
   const auto warning_of = [](const std::string& text, std::size_t triangles) {
-    const Scene s = load(text);
+    const Scene s = loaded_ply(text);
     EXPECT_EQ(s.meshes.at(0).primitives(), triangles);
     EXPECT_EQ(s.warnings.size(), 1u);
     return s.warnings.empty() ? "" : s.warnings[0].substr(s.warnings[0].find(": ") + 2);
@@ -289,39 +290,40 @@ TEST(Ply, OneFlawDoesNotCostTheModel) {
 }
 
 TEST(Ply, NormalsDecideWhichSideIsOutside) {
-  const Scene s = load(ascii + "element vertex 3\n" + xyz +
-                       "property float nx\nproperty float ny\nproperty float nz\nelement face 1\n"
-                       "property list uchar int vertex_indices\nend_header\n"
-                       "0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 2 1\n");
+  const Scene s = loaded_ply(ascii + "element vertex 3\n" + xyz +
+                             "property float nx\nproperty float ny\nproperty float nz\nelement face 1\n"
+                             "property list uchar int vertex_indices\nend_header\n"
+                             "0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n3 0 2 1\n");
   EXPECT_EQ(s.meshes[0].index, (std::vector<std::uint32_t>{0, 1, 2}));
 }
 
 TEST(Ply, WhatIsNotFiniteIsDropped) {
-  const Scene s = load(ascii + "element vertex 4\n" + xyz +
-                       "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
-                       "0 0 0\n1 0 0\n0 1 0\nnan 0 0\n3 0 1 2\n3 0 1 3\n");
+  const Scene s = loaded_ply(ascii + "element vertex 4\n" + xyz +
+                             "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+                             "0 0 0\n1 0 0\n0 1 0\nnan 0 0\n3 0 1 2\n3 0 1 3\n");
   EXPECT_EQ(s.meshes[0].primitives(), 1u);
   EXPECT_EQ(s.warnings.size(), 1u);
 }
 
 TEST(Ply, Refusals) {
-  EXPECT_EQ(refusal("plyx\n"), "line 1: does not begin with 'ply'");
-  EXPECT_EQ(refusal("ply\nformat ascii 2.0\n"), "line 2: version '2.0', expected 1.0");
-  EXPECT_EQ(refusal(ascii + "element vertex many\n"), "line 3: element vertex: 'many' is not a number of elements");
-  EXPECT_EQ(refusal(ascii + "property float x\n"), "line 3: a property before the first element");
-  EXPECT_EQ(refusal(ascii + "element vertex 1\nproperty real x\n"), "line 4: property: 'real' is not a type");
-  EXPECT_EQ(refusal(ascii + "element vertex 1\n"), "line 3: the header has no end_header");
-  EXPECT_EQ(refusal(ascii + "end_header\n"), "has no element vertex");
-  EXPECT_EQ(refusal(ascii + "element vertex 1\nproperty float x\nend_header\n1\n"),
+  EXPECT_EQ(ply_refusal("plyx\n"), "line 1: does not begin with 'ply'");
+  EXPECT_EQ(ply_refusal("ply\nformat ascii 2.0\n"), "line 2: version '2.0', expected 1.0");
+  EXPECT_EQ(ply_refusal(ascii + "element vertex many\n"), "line 3: element vertex: 'many' is not a number of elements");
+  EXPECT_EQ(ply_refusal(ascii + "property float x\n"), "line 3: a property before the first element");
+  EXPECT_EQ(ply_refusal(ascii + "element vertex 1\nproperty real x\n"), "line 4: property: 'real' is not a type");
+  EXPECT_EQ(ply_refusal(ascii + "element vertex 1\n"), "line 3: the header has no end_header");
+  EXPECT_EQ(ply_refusal(ascii + "end_header\n"), "has no element vertex");
+  EXPECT_EQ(ply_refusal(ascii + "element vertex 1\nproperty float x\nend_header\n1\n"),
             "element vertex: has no x, y and z");
-  EXPECT_EQ(refusal(ascii + "element vertex 1\n" + xyz + "end_header\n1 2\n"),
+  EXPECT_EQ(ply_refusal(ascii + "element vertex 1\n" + xyz + "end_header\n1 2\n"),
             "element vertex: the file ends in row 0 of 1");
-  EXPECT_EQ(refusal(ascii + "element vertex 1\n" + xyz + "end_header\n1 two 3\n"), "line 8: 'two' is not a number");
-  EXPECT_EQ(refusal(ascii + "element vertex 2\n" + xyz + "end_header\n1 2 3\n4 five 6\n"),
+  EXPECT_EQ(ply_refusal(ascii + "element vertex 1\n" + xyz + "end_header\n1 two 3\n"), "line 8: 'two' is not a number");
+  EXPECT_EQ(ply_refusal(ascii + "element vertex 2\n" + xyz + "end_header\n1 2 3\n4 five 6\n"),
             "line 9: 'five' is not a number");
-  EXPECT_EQ(refusal(ascii + "element vertex 1\n" + xyz +
-                    "element face 2\nproperty list uchar int vertex_indices\nend_header\n1 2 3\n3 0 0 1\n3 0 0 1\n"),
-            "face 0 uses vertex 1, there are 1: it is dropped (and 1 more); nothing is left to draw");
+  EXPECT_EQ(
+      ply_refusal(ascii + "element vertex 1\n" + xyz +
+                  "element face 2\nproperty list uchar int vertex_indices\nend_header\n1 2 3\n3 0 0 1\n3 0 0 1\n"),
+      "face 0 uses vertex 1, there are 1: it is dropped (and 1 more); nothing is left to draw");
 }
 
 /// The normal of each corner of a mesh, in the order of its indices.
@@ -450,7 +452,7 @@ Bytes far_cloud(bool is_binary, bool has_lists) {
 TEST(Ply, DoublesFarFromTheOriginKeepTheirPlaces) {
   for (const bool is_binary : {false, true})
     for (const bool has_lists : {false, true}) {
-      const Scene s = load(far_cloud(is_binary, has_lists));
+      const Scene s = loaded_ply(far_cloud(is_binary, has_lists));
       EXPECT_EQ(s.origin, (double3{500000.3125, 5200000.3125, 100.5}));
       for (int i = 0; i < 3600; ++i) {
         const double3 p = s.in_file(s.meshes[0].position[static_cast<std::size_t>(i)]);
@@ -463,7 +465,8 @@ TEST(Ply, DoublesFarFromTheOriginKeepTheirPlaces) {
 
 TEST(Ply, FloatsFarFromTheOriginKeepTheirBits) {
   const std::string head = "ply\nformat ascii 1.0\nelement vertex 2\n" + xyz + "end_header\n";
-  const Scene far = load(head + "4200000.5 7 0\n4200001 7 0\n"), near = load(head + "60.1 7 0\n61.3 7.7 0.3\n");
+  const Scene far = loaded_ply(head + "4200000.5 7 0\n4200001 7 0\n"),
+              near = loaded_ply(head + "60.1 7 0\n61.3 7.7 0.3\n");
   EXPECT_EQ(far.in_file(far.meshes[0].position[0]), (double3{4200000.5, 7, 0}));
   EXPECT_NE(far.origin, double3{});
   EXPECT_EQ(near.origin, double3{});

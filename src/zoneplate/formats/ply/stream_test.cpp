@@ -21,7 +21,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-struct FileKind {
+struct PlyKind {
   const char* name;
   bool has_doubles = false, has_normals = false, is_turned = false, has_colors = false, has_flags = false;
   bool is_big = false;  ///< big-endian
@@ -40,7 +40,7 @@ void put_as(bool is_big, T value, Bytes& out) {
 }
 
 /// Terrain, smooth with a rough part, whose faces are in a scattered order.
-Bytes terrain(const FileKind& kind, std::uint8_t alpha = 255, std::uint32_t side = large) {
+Bytes terrain(const PlyKind& kind, std::uint8_t alpha = 255, std::uint32_t side = large) {
   const auto put = [&](auto value, Bytes& to) { put_as(kind.is_big, value, to); };
   std::string head = fmt::format("ply\nformat binary_{}_endian 1.0\n", kind.is_big ? "big" : "little");
   head += fmt::format("element vertex {}\n", vertices_of(side));
@@ -107,11 +107,11 @@ TEST(PlyStream, ReportsAFileThatIsChanged) {
 }
 
 TEST(PlyStream, HasTheMeshOfTheLoader) {
-  for (const FileKind& kind : {FileKind{"plain"}, FileKind{.name = "doubles", .has_doubles = true},
-                               FileKind{.name = "normals", .has_normals = true},
-                               FileKind{.name = "turned", .has_normals = true, .is_turned = true},
-                               FileKind{.name = "colors", .has_colors = true, .has_flags = true},
-                               FileKind{.name = "big", .has_normals = true, .has_colors = true, .is_big = true}}) {
+  for (const PlyKind& kind : {PlyKind{"plain"}, PlyKind{.name = "doubles", .has_doubles = true},
+                              PlyKind{.name = "normals", .has_normals = true},
+                              PlyKind{.name = "turned", .has_normals = true, .is_turned = true},
+                              PlyKind{.name = "colors", .has_colors = true, .has_flags = true},
+                              PlyKind{.name = "big", .has_normals = true, .has_colors = true, .is_big = true}}) {
     SCOPED_TRACE(kind.name);
     const MemoryFile file;
     const std::string path = file.write(terrain(kind));
@@ -149,7 +149,7 @@ TEST(PlyStream, HasTheMeshOfTheLoader) {
 
 TEST(PlyStream, RefusesWhatDependsOnTheWhole) {
   const MemoryFile file;
-  const FileKind colors{.name = "colors", .has_colors = true};
+  const PlyKind colors{.name = "colors", .has_colors = true};
   EXPECT_NO_THROW(open_ply_stream(file.write(terrain(colors)), {})->check());
   EXPECT_THROW(open_ply_stream(file.write(terrain(colors, 254)), {})->check(), Error);
 
@@ -191,12 +191,12 @@ TEST(PlyStream, IsMadeOfPlainTrianglesAlone) {
 TEST(PlyStream, AgreesWithTheLoaderAboutDamagedFiles) {
   int agreed = 0, refused = 0;
   for (std::uint32_t seed = 0; seed < 1500; ++seed) {
-    const FileKind kind{.name = "damaged",
-                        .has_doubles = seed % 5 == 0,
-                        .has_normals = seed % 3 == 0,
-                        .has_colors = seed % 4 == 0,
-                        .has_flags = seed % 7 == 0,
-                        .is_big = seed % 6 == 0};
+    const PlyKind kind{.name = "damaged",
+                       .has_doubles = seed % 5 == 0,
+                       .has_normals = seed % 3 == 0,
+                       .has_colors = seed % 4 == 0,
+                       .has_flags = seed % 7 == 0,
+                       .is_big = seed % 6 == 0};
     Bytes bytes = terrain(kind, 255, 8);
     for (std::uint32_t k = 0; k <= seed % 3; ++k)
       bytes[hash(seed, k) % bytes.size()] = static_cast<std::uint8_t>(hash(seed, k, 1));

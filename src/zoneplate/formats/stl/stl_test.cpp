@@ -38,13 +38,13 @@ Bytes binary(const std::vector<Facet>& facets, std::string header = "") {
 
 constexpr std::array<float, 9> corner = {0, 0, 0, 1, 0, 0, 0, 1, 0};
 
-Scene load(const Bytes& bytes) {
+Scene loaded_stl(const Bytes& bytes) {
   const MemoryFile file;
   return load_stl(file.write(bytes));
 }
-Scene load(const std::string& text) { return load(Bytes(text.begin(), text.end())); }
+Scene loaded_stl(const std::string& text) { return loaded_stl(Bytes(text.begin(), text.end())); }
 
-std::string refusal(const std::string& text) {
+std::string stl_refusal(const std::string& text) {
   const MemoryFile file;
   const std::string path = file.write(Bytes(text.begin(), text.end()));
   std::string error = load_soundly(load_stl, path);
@@ -53,7 +53,7 @@ std::string refusal(const std::string& text) {
 }
 
 TEST(Stl, BinaryFacetsAreFlatAndNormalsFollowFromCorners) {
-  const Scene s = load(binary({{corner}, {{0, 0, 0, 0, 2, 0, 2, 0, 0}}}, "solid that is binary"));
+  const Scene s = loaded_stl(binary({{corner}, {{0, 0, 0, 0, 2, 0, 2, 0, 0}}}, "solid that is binary"));
   ASSERT_EQ(s.meshes.size(), 1u);
   const Mesh& m = s.meshes[0];
   EXPECT_EQ(m.position, (std::vector<float3>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 0}, {0, 2, 0}, {2, 0, 0}}));
@@ -64,7 +64,7 @@ TEST(Stl, BinaryFacetsAreFlatAndNormalsFollowFromCorners) {
 }
 
 TEST(Stl, VisCamColorsHaveRedHighAndCountWhereTheirBitIsSet) {
-  const Scene s = load(binary({{corner, 0x8000 | 31 << 10}, {corner, 31 << 10}, {corner, 0x8000 | 15}}));
+  const Scene s = loaded_stl(binary({{corner, 0x8000 | 31 << 10}, {corner, 31 << 10}, {corner, 0x8000 | 15}}));
   const Mesh& m = s.meshes[0];
   ASSERT_EQ(m.color.size(), 9u);
   EXPECT_EQ(m.color[0], (float4{1, 0, 0, 1}));
@@ -73,7 +73,7 @@ TEST(Stl, VisCamColorsHaveRedHighAndCountWhereTheirBitIsSet) {
 }
 
 TEST(Stl, MagicsColorsHaveRedLowAndTheHeadersWhereTheirBitIsSet) {
-  const Scene s = load(binary({{corner, 31}, {corner, 0x8000}}, std::string("x COLOR=\x80\x00\xff\xff", 12)));
+  const Scene s = loaded_stl(binary({{corner, 31}, {corner, 0x8000}}, std::string("x COLOR=\x80\x00\xff\xff", 12)));
   const Mesh& m = s.meshes[0];
   EXPECT_EQ(m.color[0], (float4{1, 0, 0, 1}));
   EXPECT_EQ(m.color[3], (float4{decode_srgb8(128), 0, 1, 1}));
@@ -81,14 +81,14 @@ TEST(Stl, MagicsColorsHaveRedLowAndTheHeadersWhereTheirBitIsSet) {
 
 TEST(Stl, AttributesThatAreAllZeroAreNotBlack) {
   const std::string header("x COLOR=\x80\x00\xff\xff", 12);
-  const Scene all = load(binary({{corner, 0}, {corner, 0}}, header)),
-              one = load(binary({{corner, 0}, {corner, 31}}, header));
+  const Scene all = loaded_stl(binary({{corner, 0}, {corner, 0}}, header)),
+              one = loaded_stl(binary({{corner, 0}, {corner, 31}}, header));
   for (const float4 c : all.meshes[0].color) EXPECT_EQ(c, (float4{decode_srgb8(128), 0, 1, 1}));
   EXPECT_EQ(one.meshes[0].color[0], (float4{0, 0, 0, 1}));
 }
 
 TEST(Stl, AsciiSolidsAreObjectsAndLoopsPolygons) {
-  const Scene s = load(std::string(
+  const Scene s = loaded_stl(std::string(
       "  solid one two\r\nfacet normal 0 0 1\r\n outer loop\r\n vertex 0 0 0\r\n vertex 1 0 0\r\n vertex 0 1 0\r\n"
       "endloop endfacet endsolid one two\r\nsolid\nfacet normal 0 0 1 outer loop vertex 0 0 0 vertex 4 0 0\n"
       "vertex 1 1 0 vertex 0 4 0 endloop endfacet endsolid"));
@@ -108,8 +108,8 @@ TEST(Stl, LongAsciiFilesAreTheSameForAnyNumberOfThreads) {
             " 0 0\n vertex 0 " + std::to_string(i) + ".5 1\n endloop\nendfacet\n";
   }
   Scene one, two;
-  with_threads(1, [&] { one = load(text); });
-  with_threads(4, [&] { two = load(text); });
+  with_threads(1, [&] { one = loaded_stl(text); });
+  with_threads(4, [&] { two = loaded_stl(text); });
   ASSERT_EQ(one.meshes.size(), 2u);
   EXPECT_EQ(one.meshes[0].primitives(), 17000u);
   EXPECT_EQ(one.meshes[1].primitives(), 13000u);
@@ -123,64 +123,64 @@ TEST(Stl, LongAsciiFilesAreTheSameForAnyNumberOfThreads) {
 TEST(Stl, MarksCommentsAndSingleLinesAreText) {
   const std::string facet = "facet normal 0 0 1 outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0 endloop endfacet ";
   for (const std::string front : {"\xef\xbb\xbf", "; made by hand\n", "# x\r\n// y\r\n\n", ""}) {
-    const Scene s = load(front + "solid a b " + facet + facet + "endsolid a b\n# the end");
+    const Scene s = loaded_stl(front + "solid a b " + facet + facet + "endsolid a b\n# the end");
     ASSERT_EQ(s.meshes.size(), 1u) << front;
     EXPECT_EQ(s.objects[0], "a b");
     EXPECT_EQ(s.meshes[0].primitives(), 2u);
     EXPECT_TRUE(s.warnings.empty());
   }
-  EXPECT_EQ(refusal("; x\nsolid a\nfacet normal 0 0 z"), "line 3: 'z' is not a number");
+  EXPECT_EQ(stl_refusal("; x\nsolid a\nfacet normal 0 0 z"), "line 3: 'z' is not a number");
 }
 
 TEST(Stl, TheSizeOfTheFileDecidesHowManyFacetsThereAre) {
   for (const std::uint32_t count : {0u, 1000u, 0xffffffffu}) {
     Bytes bytes = binary({{corner}, {corner}});
     std::memcpy(&bytes[80], &count, 4);
-    const Scene s = load(bytes);
+    const Scene s = loaded_stl(bytes);
     EXPECT_EQ(s.meshes.at(0).primitives(), 2u);
     ASSERT_EQ(s.warnings.size(), 1u);
     EXPECT_TRUE(s.warnings[0].ends_with("its header states " + std::to_string(count) +
                                         " triangles, the file has 2, which are drawn"));
     bytes.pop_back();
     if (count == 0) continue;
-    EXPECT_NE(refusal(std::string(bytes.begin(), bytes.end())).find("or cut off"), std::string::npos) << count;
+    EXPECT_NE(stl_refusal(std::string(bytes.begin(), bytes.end())).find("or cut off"), std::string::npos) << count;
   }
 }
 
 TEST(Stl, WhatIsNotFiniteIsDropped) {
   Facet bad{corner};
   bad.corners[4] = NAN;
-  const Scene s = load(binary({{corner}, bad, {corner}}));
+  const Scene s = loaded_stl(binary({{corner}, bad, {corner}}));
   EXPECT_EQ(s.meshes[0].primitives(), 2u);
   ASSERT_EQ(s.warnings.size(), 1u);
   EXPECT_NE(s.warnings[0].find("1 triangles that are not finite"), std::string::npos);
 }
 
 TEST(Stl, Refusals) {
-  EXPECT_EQ(refusal("solid nothing\nendsolid nothing\n"), "holds no triangles");
-  EXPECT_EQ(refusal("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 zero 0"), "line 4: 'zero' is not a number");
-  EXPECT_EQ(refusal("solid x\nfacets"), "line 2: 'facets' is not a word of STL");
-  EXPECT_EQ(refusal("hello"), "neither ASCII STL nor binary STL: 5 bytes, expected 84 at least");
-  EXPECT_EQ(refusal(std::string(84, 1)),
+  EXPECT_EQ(stl_refusal("solid nothing\nendsolid nothing\n"), "holds no triangles");
+  EXPECT_EQ(stl_refusal("solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 zero 0"), "line 4: 'zero' is not a number");
+  EXPECT_EQ(stl_refusal("solid x\nfacets"), "line 2: 'facets' is not a word of STL");
+  EXPECT_EQ(stl_refusal("hello"), "neither ASCII STL nor binary STL: 5 bytes, expected 84 at least");
+  EXPECT_EQ(stl_refusal(std::string(84, 1)),
             "not an STL file, or cut off: its header states 16843009 triangles, the file has 0");
 }
 
 TEST(Stl, SolidsCountAsMemory) {
   std::string text;
   for (int i = 0; i < 100000; ++i) text += "solid\n";
-  EXPECT_EQ(load(text + "facet outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0").meshes.size(),
+  EXPECT_EQ(loaded_stl(text + "facet outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0").meshes.size(),
             1u);  // solids without loops are not kept
   text.clear();
   for (int i = 0; i < 40000; ++i) text += "solid facet outer loop vertex 0 0 0 vertex 1 0 0 vertex 0 1 0\n";
   for (std::size_t at = 0; (at = text.find("solid facet", at)) != text.npos;) text[at + 5] = '\n';
-  EXPECT_EQ(refusal(text), "needs more than the limit of 16 MB (--max-memory)");
+  EXPECT_EQ(stl_refusal(text), "needs more than the limit of 16 MB (--max-memory)");
 }
 
 TEST(Stl, TextFarFromTheOriginKeepsItsPlaces) {
   const std::string facet =
       "facet normal 0 0 1 outer loop vertex 500000.01 5200000.02 100.03 vertex 500000.04 5200000.02 "
       "100.03 vertex 500000.01 5200000.05 100.03 endloop endfacet ";
-  const Scene s = load("solid a\n" + facet + "endsolid a\nsolid b\n" + facet + "endsolid b\n");
+  const Scene s = loaded_stl("solid a\n" + facet + "endsolid a\nsolid b\n" + facet + "endsolid b\n");
   ASSERT_EQ(s.meshes.size(), 2u);
   EXPECT_NE(s.origin, double3{});
   for (const Mesh& mesh : s.meshes) {
@@ -194,12 +194,12 @@ TEST(Stl, TextFarFromTheOriginKeepsItsPlaces) {
 
 TEST(Stl, BinaryFarFromTheOriginKeepsItsFloats) {
   constexpr float x = 1000000.5f;
-  const Scene s = load(binary({{{x, 0, 0, x + 1, 0, 0, x, 1, 0}}}));
+  const Scene s = loaded_stl(binary({{{x, 0, 0, x + 1, 0, 0, x, 1, 0}}}));
   EXPECT_NE(s.origin, double3{});
   EXPECT_EQ(s.in_file(transform_point(s.instances[0].world_from_object, s.meshes[0].position[1])),
             (double3{1000001.5, 0, 0}));
   EXPECT_LT(std::abs(s.meshes[0].position[1].x), 2);
-  EXPECT_EQ(load(binary({{{9.1f, 0, 0, 8, 0, 0, 9, 1, 0}}})).meshes[0].position[0], (float3{9.1f, 0, 0}));
+  EXPECT_EQ(loaded_stl(binary({{{9.1f, 0, 0, 8, 0, 0, 9, 1, 0}}})).meshes[0].position[0], (float3{9.1f, 0, 0}));
 }
 
 }  // namespace

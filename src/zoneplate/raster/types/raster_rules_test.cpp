@@ -81,7 +81,7 @@ struct Layered {
 };
 
 /// All that a target can hold.
-struct Planes {
+struct RulePlanes {
   LinearImage color;
   Plane<float> depth, coverage;
   Plane<float3> normal, albedo;
@@ -96,7 +96,7 @@ enum class Route { Color, Data, SampleColors, Samples };
 
 constexpr int size = 72;
 
-Target target_of(Planes& p, Route route, const SamplePattern& samples) {
+Target target_of(RulePlanes& p, Route route, const SamplePattern& samples) {
   Target t;
   t.viewport = {size, size};
   t.width = t.height = size;
@@ -131,7 +131,7 @@ void expect_bits(const Plane<T>& a, const Plane<T>& b, const char* name) {
   EXPECT_EQ(std::memcmp(a.values().data(), b.values().data(), a.values().size() * sizeof(T)), 0) << name;
 }
 
-void expect_same(const Planes& a, const Planes& b) {
+void expect_same(const RulePlanes& a, const RulePlanes& b) {
   expect_bits(a.color, b.color, "color");
   expect_bits(a.depth, b.depth, "depth"), expect_bits(a.coverage, b.coverage, "coverage");
   expect_bits(a.normal, b.normal, "normal"), expect_bits(a.albedo, b.albedo, "albedo"), expect_bits(a.uv, b.uv, "uv");
@@ -164,8 +164,8 @@ std::vector<Case> cases() {
           {Route::Samples, standard_pattern(4), true}};
 }
 
-Planes drawn(const Layered& scene, const Case& of, const RasterCapacity& capacity) {
-  Planes planes;
+RulePlanes drawn(const Layered& scene, const Case& of, const RasterCapacity& capacity) {
+  RulePlanes planes;
   Target target = target_of(planes, of.route, of.samples);
   target.is_per_sample = of.is_per_sample;
   target.alpha = of.alpha;
@@ -176,7 +176,7 @@ Planes drawn(const Layered& scene, const Case& of, const RasterCapacity& capacit
 TEST(RasterCapacity, LayersAreTheSameInOnePartAndInMany) {
   const Layered scene;
   for (const Case& c : cases()) {
-    const Planes expected = drawn(scene, c, {});
+    const RulePlanes expected = drawn(scene, c, {});
     // One layer at a time: every pixel with layers is peeled; then rows, parts of strips, and strips fit.
     for (const std::size_t share :
          {std::size_t{1}, std::size_t{2}, std::size_t{7}, std::size_t{60}, std::size_t{900}}) {
@@ -189,7 +189,7 @@ TEST(RasterCapacity, LayersAreTheSameInOnePartAndInMany) {
 TEST(RasterCapacity, ScreenVerticesAreTheSameKeptAndFoundAgain) {
   const Layered scene;
   for (const Case& c : cases()) {
-    const Planes expected = drawn(scene, c, {});
+    const RulePlanes expected = drawn(scene, c, {});
     for (const std::size_t kept : {std::size_t{0}, 5 * scene.position.size() + 1})
       expect_same(drawn(scene, c, {.screen_vertices = kept}), expected);
   }

@@ -34,7 +34,7 @@ double mean_of_spiral(const DiscSpiral& spiral, std::uint32_t seed, const Functi
 double random_number(std::uint32_t a, std::uint32_t b) { return double{unit_float(hash(a, b, 77))}; }
 
 /// The error of means, in 255ths.
-struct Error {
+struct DiscError {
   double squares = 0, sum = 0;
   int count = 0;
   void add(double difference) { squares += difference * difference, sum += difference, ++count; }
@@ -92,7 +92,7 @@ TEST(AdaptiveDisc, AnEdgeHasHalfTheErrorOfASpiral) {
   for (const int count : {192, 256, 1000}) {
     const AdaptiveDisc disc(count);
     const DiscSpiral spiral(count);
-    Error adaptive, even;
+    DiscError adaptive, even;
     for (std::uint32_t seed = 0; seed < 2000; ++seed) {
       const double angle = 6.283185307 * random_number(seed, 1), h = 2 * random_number(seed, 2) - 1;
       const Function f = [&](double x, double y) { return x * std::cos(angle) + y * std::sin(angle) > h; };
@@ -114,7 +114,7 @@ TEST(AdaptiveDisc, SmallFeaturesAreNotLost) {
   const AdaptiveDisc disc(256);
   const DiscSpiral spiral(256), reference(6000);
   for (const Case c : {Case{0.02, 8}, {0.02, 100}, {0.03, 200}, {0.05, 12}, {0.08, 2}, {0.08, 45}, {0.15, 4}}) {
-    Error adaptive, even;
+    DiscError adaptive, even;
     for (std::uint32_t seed = 0; seed < 150; ++seed) {
       const Function f = dots(c.radius, c.number, seed);
       const double exact = mean_of_spiral(reference, seed, f);

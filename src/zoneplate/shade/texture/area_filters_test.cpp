@@ -24,7 +24,7 @@ using Kind = TextureFilter::Kind;
 constexpr Kind area_kinds[] = {Kind::CatmullRom, Kind::BSpline, Kind::Mitchell,  Kind::Ripmap,
                                Kind::Ewa,        Kind::Sat,     Kind::Stochastic};
 
-float random(std::uint32_t i, std::uint32_t dimension) { return unit_float(hash(i, dimension, 77)); }
+float area_random(std::uint32_t i, std::uint32_t dimension) { return unit_float(hash(i, dimension, 77)); }
 
 /// Fragments whose coordinates and footprints differ; some are not finite.
 struct AreaPoints {
@@ -32,10 +32,10 @@ struct AreaPoints {
   alignas(64) float value[9][Taps::padded_capacity] = {};
   AreaPoints() {
     for (std::uint32_t i = 0; i < count; ++i) {
-      value[0][i] = 6 * random(i, 0) - 3, value[1][i] = 6 * random(i, 1) - 3;
+      value[0][i] = 6 * area_random(i, 0) - 3, value[1][i] = 6 * area_random(i, 1) - 3;
       for (std::uint32_t d = 2; d < 6; ++d)
-        value[d][i] = (2 * random(i, d) - 1) * std::exp2(-9 * random(i, 9) + (d < 4 ? 1.0f : -2.0f));
-      for (std::uint32_t d = 6; d < 9; ++d) value[d][i] = random(i, d);
+        value[d][i] = (2 * area_random(i, d) - 1) * std::exp2(-9 * area_random(i, 9) + (d < 4 ? 1.0f : -2.0f));
+      for (std::uint32_t d = 6; d < 9; ++d) value[d][i] = area_random(i, d);
     }
     constexpr float infinity = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
     value[0][40] = infinity, value[1][41] = nan, value[0][42] = -1e30f;
@@ -202,7 +202,8 @@ TEST(Sums, AreTheMeanOverTheBoundingBox) {
   const Rgba8Image image = noise(16, 16, 3);
   const Texture texture(image, TexelMeaning::Values);
   for (std::uint32_t n = 0; n < 24; ++n) {
-    const float u = 4 * random(n, 0) - 2, v = 4 * random(n, 1) - 2, w = 0.4f * random(n, 2), h = 0.4f * random(n, 3);
+    const float u = 4 * area_random(n, 0) - 2, v = 4 * area_random(n, 1) - 2, w = 0.4f * area_random(n, 2),
+                h = 0.4f * area_random(n, 3);
     for (const bool mirrors : {false, true}) {
       const Wrap wrap = mirrors ? Wrap::Mirror : Wrap::Repeat;
       const float4 value =
@@ -235,8 +236,8 @@ TEST(Ewa, AgreesWithItsOwnGaussianOverLevelZero) {
   double fine = 0, coarse = 0, trilinear = 0;
   constexpr int count = 60;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const float angle = 6.28f * random(i, 0), turn = 6.28f * random(i, 1), ratio = 1 + 10 * random(i, 2);
-    const float2 uv{random(i, 3), random(i, 4)};
+    const float angle = 6.28f * area_random(i, 0), turn = 6.28f * area_random(i, 1), ratio = 1 + 10 * area_random(i, 2);
+    const float2 uv{area_random(i, 3), area_random(i, 4)};
     const auto footprints = [&](float shorter) {
       const float l = shorter * ratio / 128, s = shorter / 128, c = std::cos(angle), d = std::sin(angle);
       const float e = std::cos(turn), f = std::sin(turn);
@@ -247,7 +248,7 @@ TEST(Ewa, AgreesWithItsOwnGaussianOverLevelZero) {
     const auto [fx, fy] = footprints(1.5f);
     fine = std::max(
         fine, std::abs(static_cast<double>(look(texture, Kind::Ewa, uv, fx, fy).x) - ellipse_mean(image, uv, fx, fy)));
-    const auto [cx, cy] = footprints(2.0f + 4 * random(i, 5));
+    const auto [cx, cy] = footprints(2.0f + 4 * area_random(i, 5));
     const double reference = ellipse_mean(image, uv, cx, cy);
     coarse += std::pow(static_cast<double>(look(texture, Kind::Ewa, uv, cx, cy).x) - reference, 2);
     trilinear += std::pow(static_cast<double>(sample(texture, {}, uv, cx, cy).x) - reference, 2);
@@ -277,7 +278,8 @@ TEST(Stochastic, AveragesToTrilinear) {
   constexpr std::uint32_t count = 40'000;
   double sum = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const float value = look(texture, Kind::Stochastic, uv, dx, dy, {random(i, 0), random(i, 1), random(i, 2)}).x;
+    const float value =
+        look(texture, Kind::Stochastic, uv, dx, dy, {area_random(i, 0), area_random(i, 1), area_random(i, 2)}).x;
     EXPECT_NEAR(value * 255, std::round(value * 255), 1e-4);  // one texel
     sum += static_cast<double>(value);
   }

@@ -21,7 +21,7 @@ std::vector<float> random_floats(std::size_t count, std::uint32_t seed) {
 
 /// The indices of a square of triangles, in a scattered order.
 template <class T>
-std::vector<T> indices() {
+std::vector<T> grid_indices() {
   std::vector<T> out;
   for (std::uint32_t k = 0; k < side * side; ++k) {
     const std::uint32_t square = k * 7 % (side * side), a = square / side * (side + 1) + square % side;
@@ -39,8 +39,8 @@ GltfMaker patches() {
   const std::string normal = m.floats("VEC3", random_floats(3 * vertices, 2));
   const std::string color = m.floats("VEC4", random_floats(4 * vertices, 3));
   const std::string uv = m.floats("VEC2", random_floats(2 * vertices, 4));
-  const std::string shorts = m.values<std::uint16_t>("SCALAR", indices<std::uint16_t>());
-  const std::string words = m.values<std::uint32_t>("SCALAR", indices<std::uint32_t>());
+  const std::string shorts = m.values<std::uint16_t>("SCALAR", grid_indices<std::uint16_t>());
+  const std::string words = m.values<std::uint32_t>("SCALAR", grid_indices<std::uint32_t>());
   std::vector<std::int8_t> bytes;
   for (std::uint32_t i = 0; i < 4 * vertices; ++i) bytes.push_back(static_cast<std::int8_t>(hash(i, 6) % 200));
   const std::string packed =
