@@ -4,10 +4,9 @@
 #include <string>
 
 #include "zoneplate/report/json.h"
+#include "zoneplate/scene/scene.h"
 
 namespace zoneplate {
-
-struct Scene;
 
 /// The contents of a scene, as `zoneplate info --json` prints them after the name of the input.
 Json::Object scene_contents(const Scene& scene);

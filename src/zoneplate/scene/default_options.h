@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace zoneplate {
+#include "zoneplate/scene/scene.h"
 
-struct Scene;
+namespace zoneplate {
 
 /// The antialiasing of images whose user names none: eight samples a pixel, and the alpha test of masked surfaces at
 /// each of them. Elsewhere the test costs nothing; in `foliage` it doubles the time.

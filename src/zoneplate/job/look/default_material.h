@@ -7,10 +7,7 @@
 
 #include "zoneplate/formats/import/load_options.h"
 #include "zoneplate/math/vec.h"
-
-namespace zoneplate {
-struct Scene;
-}  // namespace zoneplate
+#include "zoneplate/scene/scene.h"
 
 namespace zoneplate {
 

@@ -3,9 +3,7 @@
 
 #include <string>
 
-namespace zoneplate {
-struct Scene;
-}  // namespace zoneplate
+#include "zoneplate/scene/scene.h"
 
 namespace zoneplate {
 

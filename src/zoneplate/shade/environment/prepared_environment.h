@@ -8,13 +8,12 @@
 #include <vector>
 
 #include "zoneplate/math/mat.h"
+#include "zoneplate/scene/environment.h"
 #include "zoneplate/scene/texel_image.h"
 #include "zoneplate/shade/environment/cube.h"
 #include "zoneplate/shade/environment/environment_view.h"
 
 namespace zoneplate {
-
-struct Environment;
 
 /// An environment's radiance, filtered for reflection by surfaces of every roughness.
 ///

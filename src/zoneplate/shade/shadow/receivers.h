@@ -6,11 +6,10 @@
 
 #include "zoneplate/math/vec.h"
 #include "zoneplate/ray/trace.h"
+#include "zoneplate/scene/scene.h"
 #include "zoneplate/shade/shadow/light_visibility.h"
 
 namespace zoneplate {
-
-struct Scene;
 
 /// The viewer: a position, or the direction to an orthographic camera.
 struct ReceiversViewer {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace zoneplate {
+#include "zoneplate/scene/light.h"
 
-struct Light;
+namespace zoneplate {
 
 /// A light in the form that kernels read.
 struct PreparedLight {

@@ -3,10 +3,10 @@
 
 #include "zoneplate/base/isa.h"
 #include "zoneplate/shade/texture/filtering.h"
+#include "zoneplate/shade/texture/texture.h"
 
 namespace zoneplate {
 
-class Texture;
 struct RipmapView;
 struct SumsView;
 struct TextureView;

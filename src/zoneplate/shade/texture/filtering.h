@@ -4,11 +4,11 @@
 #include <cstdint>
 
 #include "zoneplate/base/isa.h"
+#include "zoneplate/scene/material.h"
 #include "zoneplate/scene/texture_filter.h"
 
 namespace zoneplate {
 
-struct Sampler;
 struct TextureView;
 
 /// The state of a sampler in the form that kernels read.

@@ -2,10 +2,9 @@
 #pragma once
 
 #include "zoneplate/base/isa.h"
+#include "zoneplate/scene/solid_texture.h"
 
 namespace zoneplate {
-
-struct SolidTexture;
 
 /// The points of fragments in object space, and their screen-space derivatives per pixel: x, y and z.
 struct SolidPoints {

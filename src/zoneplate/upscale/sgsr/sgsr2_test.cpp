@@ -11,7 +11,7 @@
 namespace zoneplate::upscale {
 namespace {
 
-constexpr int width = 96, height = 64;
+constexpr int sgsr2_width = 96, sgsr2_height = 64;
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 float2 jitter_of(int index) {
@@ -25,10 +25,10 @@ float2 jitter_of(int index) {
 }
 
 Sgsr2Frame constant(int index, Linear color) {
-  return {.color = LinearImage(width, height, color),
-          .depth = Plane<float>(width, height, 0.5f),
-          .motion_x = Plane<float>(width, height, nan),
-          .motion_y = Plane<float>(width, height, nan),
+  return {.color = LinearImage(sgsr2_width, sgsr2_height, color),
+          .depth = Plane<float>(sgsr2_width, sgsr2_height, 0.5f),
+          .motion_x = Plane<float>(sgsr2_width, sgsr2_height, nan),
+          .motion_y = Plane<float>(sgsr2_width, sgsr2_height, nan),
           .jitter = jitter_of(index),
           .half_width = 0.75f,
           .is_first = index == 0};
@@ -40,13 +40,13 @@ Sgsr2Frame squares(int index) {
   Sgsr2Frame frame = constant(index, {0, 0, 0, 1});
   frame.is_camera_at_rest = index == 0;
   if (index > 0) frame.last_clip_from_clip.column[3].x = 1.0f / 64;
-  for (int y = 0; y < height; ++y)
-    for (int x = 0; x < width; ++x) {
+  for (int y = 0; y < sgsr2_height; ++y)
+    for (int x = 0; x < sgsr2_width; ++x) {
       const int moved = x + index;
       const float v = static_cast<float>((moved * 7 + y * 13 + moved / 5 * (y / 3) * 3) % 16) / 16 * 0.75f + 0.05f;
       frame.color(x, y) = {v, 0.5f * v + 0.1f, (moved + y) % 8 == 0 ? 1.75f : 0.25f, 1};
       frame.depth(x, y) = 0.5f + static_cast<float>(y) / 256;
-      if (index > 0 && y < 32) frame.motion_x(x, y) = -2.0f / width, frame.motion_y(x, y) = 0;
+      if (index > 0 && y < 32) frame.motion_x(x, y) = -2.0f / sgsr2_width, frame.motion_y(x, y) = 0;
     }
   return frame;
 }
@@ -56,7 +56,7 @@ Sgsr2Frame squares(int index) {
 // others by 60 dB: where the history lies on the border of the colours around it, rounding decides how much it counts.
 // With a tolerance of 2e-6 in that comparison, in the shader and here, a still sequence agrees by 101 dB.
 TEST(Sgsr2, AgreesWithFiguresOfTheShaders) {
-  Sgsr2 sgsr2(2 * width, 2 * height);
+  Sgsr2 sgsr2(2 * sgsr2_width, 2 * sgsr2_height);
   struct Figures {
     double sum, square;
   };
@@ -74,7 +74,7 @@ TEST(Sgsr2, AgreesWithFiguresOfTheShaders) {
 }
 
 TEST(Sgsr2, ConstantLightDarkensAsInTheShader) {
-  Sgsr2 sgsr2(2 * width, 2 * height);
+  Sgsr2 sgsr2(2 * sgsr2_width, 2 * sgsr2_height);
   const float light = 0.25f, code = std::floor(light / (1 + light) * 2047.5f) / 2047.5f;
   const float restored = code / (1 + 600.0f / 65504 - code);
   LinearImage image;
@@ -87,12 +87,12 @@ TEST(Sgsr2, ConstantLightDarkensAsInTheShader) {
 
 // The light of every row of a tilted edge is that of the edge's place, where one frame has steps of two pixels.
 TEST(Sgsr2, StillFramesAccumulate) {
-  Sgsr2 sgsr2(2 * width, 2 * height);
+  Sgsr2 sgsr2(2 * sgsr2_width, 2 * sgsr2_height);
   double first = 0, last = 0;
   for (int i = 0; i < 32; ++i) {
     Sgsr2Frame frame = constant(i, {0, 0, 0, 1});
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
+    for (int y = 0; y < sgsr2_height; ++y)
+      for (int x = 0; x < sgsr2_width; ++x) {
         const float px = static_cast<float>(x) + 0.5f - frame.jitter.x;
         const float py = static_cast<float>(y) + 0.5f - frame.jitter.y;
         const float v = px + 0.3f * py > 60 ? 0.8f : 0.1f;
@@ -100,12 +100,12 @@ TEST(Sgsr2, StillFramesAccumulate) {
       }
     const LinearImage image = sgsr2.accumulate(frame);
     double error = 0;
-    for (int y = 8; y < 2 * height - 8; ++y) {
+    for (int y = 8; y < 2 * sgsr2_height - 8; ++y) {
       double lit = 0;
-      const double dark = double{image(20, y).g}, light = double{image(2 * width - 10, y).g};
-      for (int x = 0; x < 2 * width; ++x) lit += (double{image(x, y).g} - dark) / (light - dark);
-      const double exact = 2 * width - 2 * (60 - 0.3 * (y + 0.5) / 2);
-      error += std::abs(lit - exact) / (2 * height - 16);
+      const double dark = double{image(20, y).g}, light = double{image(2 * sgsr2_width - 10, y).g};
+      for (int x = 0; x < 2 * sgsr2_width; ++x) lit += (double{image(x, y).g} - dark) / (light - dark);
+      const double exact = 2 * sgsr2_width - 2 * (60 - 0.3 * (y + 0.5) / 2);
+      error += std::abs(lit - exact) / (2 * sgsr2_height - 16);
     }
     (i == 0 ? first : last) = error;
   }
@@ -115,7 +115,7 @@ TEST(Sgsr2, StillFramesAccumulate) {
 
 TEST(Sgsr2, SameBitsOnEveryInstructionSet) {
   const auto made = [] {
-    Sgsr2 sgsr2(2 * width + 1, 2 * height - 3);
+    Sgsr2 sgsr2(2 * sgsr2_width + 1, 2 * sgsr2_height - 3);
     LinearImage image;
     for (int i = 0; i < 4; ++i) image = sgsr2.accumulate(squares(i));
     return image;
