@@ -161,7 +161,7 @@ TEST(GltfStream, AgreesWithTheLoaderAboutDamagedFiles) {
   for (std::uint32_t seed = 0; seed < 600; ++seed) {
     SCOPED_TRACE(seed);
     std::vector<std::uint8_t> bytes = good;
-    const std::size_t json = 20 + (bytes[12] | bytes[13] << 8);
+    const std::size_t json = 20 + std::size_t{bytes[12]} + 256 * std::size_t{bytes[13]};
     for (std::uint32_t k = 0; k <= seed % 3; ++k)
       bytes[hash(seed, k) % (seed % 2 == 0 ? json : bytes.size())] = static_cast<std::uint8_t>(hash(seed, k, 1));
     if (seed % 50 == 7) bytes.resize(hash(seed, 9) % bytes.size());
