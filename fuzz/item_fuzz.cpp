@@ -14,8 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::copy_n(left.begin(), out.size(), out.begin());
     left = left.subspan(out.size());
   };
-  cli::ItemEvents events;
-  const auto take_all = [](std::uint64_t bytes, const cli::ItemEvents::Read& read) {
+  ItemEvents events;
+  const auto take_all = [](std::uint64_t bytes, const ItemEvents::Read& read) {
     std::uint8_t part[64];
     for (; bytes > 0; bytes -= std::min<std::uint64_t>(bytes, sizeof part))
       read({part, static_cast<std::size_t>(std::min<std::uint64_t>(bytes, sizeof part))});
@@ -23,28 +23,26 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   events.progress = [](std::string_view, double done) {
     if (!(done >= 0 && done <= 1)) std::abort();
   };
-  events.file = [&](int, int layer, std::uint64_t bytes, const cli::ItemEvents::Read& read) {
+  events.file = [&](int, int layer, std::uint64_t bytes, const ItemEvents::Read& read) {
     if (layer < -1) std::abort();
     take_all(bytes, read);
   };
-  events.named_file = [&](const std::string&, std::uint64_t bytes, const cli::ItemEvents::Read& read) {
+  events.named_file = [&](const std::string&, std::uint64_t bytes, const ItemEvents::Read& read) {
     take_all(bytes, read);
   };
-  events.text = [](cli::TextKind kind, const std::string&) {
-    if (kind > cli::TextKind::Warning) std::abort();
+  events.text = [](TextKind kind, const std::string&) {
+    if (kind > TextKind::Warning) std::abort();
   };
   events.begins_to_read = [](const std::string&) {};
   events.film_frame = take_all;
-  events.environment = [&](std::uint64_t, std::uint64_t bytes, const cli::ItemEvents::Read& read) {
-    take_all(bytes, read);
-  };
+  events.environment = [&](std::uint64_t, std::uint64_t bytes, const ItemEvents::Read& read) { take_all(bytes, read); };
   events.has_read = [] {};
   events.needs_library = [](Library library, const std::string&) {
     if (library > Library::Lcms) std::abort();
   };
   try {
     for (;;)
-      if (const auto result = cli::receive_message("item", events, source)) cli::unpack_summary(*result);
+      if (const auto result = receive_message("item", events, source)) unpack_summary(*result);
   } catch (const Error&) {
   }
   return 0;
