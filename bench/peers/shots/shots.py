@@ -69,7 +69,7 @@ def directions(width, height):
 
 
 def studio(width, height, turn):
-    """Soft boxes, walls and a floor: the image of Zoneplate's default light (shade/environment/studio.cpp).
+    """Soft boxes, walls and a floor, like those of Zoneplate's default light.
 
     Its front is turned about +y by `turn`, to the side of the camera.
     """
@@ -147,9 +147,8 @@ class Shots:
 
     def view(self, model):
         """The camera that Zoneplate chooses, its ground, and the pixels of the model in images of the error."""
-        exr, pfm = self.work / "view.exr", self.work / "view.pfm"
-        size = self.arguments.error_size
-        self.zoneplate(model, exr, size, "--aa", "none")
+        exr = self.work / "view.exr"
+        self.zoneplate(model, exr, self.arguments.error_size, "--aa", "none")
         world = exr_matrix(exr, "worldToCamera")
         position = -world[:3, :3] @ world[3, :3]
         right, up, ahead = world[:3, 0], world[:3, 1], world[:3, 2]
@@ -297,14 +296,14 @@ def main():
     parser.add_argument("zoneplate")
     parser.add_argument("work")
     parser.add_argument("--size", default="1024x768")
-    parser.add_argument("--error-size", default="512x384", help="of Cycles' images whose error is measured")
+    parser.add_argument("--error-size", default="160x120", help="of Cycles' images whose error is measured")
     numbers = lambda text: [int(n) for n in text.split(",")]
     parser.add_argument("--threads", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--rounds", type=int, default=5)
-    parser.add_argument("--rays", type=int, default=4096, help="of each pixel of Zoneplate's converged image")
-    parser.add_argument("--samples", type=numbers, default=[4, 16, 64, 256])
-    parser.add_argument("--timed", type=numbers, default=[16, 64], help="samples of images whose time is measured")
-    parser.add_argument("--reference", type=int, default=4096, help="samples of Cycles' converged image")
+    parser.add_argument("--rays", type=int, default=512, help="of each pixel of Zoneplate's converged image")
+    parser.add_argument("--samples", type=numbers, default=[16, 64, 256])
+    parser.add_argument("--timed", type=numbers, default=[2, 6], help="samples of images whose time is measured")
+    parser.add_argument("--reference", type=int, default=512, help="samples of Cycles' converged image")
     parser.add_argument("--pictures", help="folder for the images")
     parser.add_argument("models", nargs="+", help=".gltf, .glb, .obj, or monkey: Blender's, of a million triangles")
     arguments = parser.parse_args()

@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "zoneplate/base/error.h"
 #include "zoneplate/formats/import/file_stream.h"
 #include "zoneplate/math/random.h"
 #include "zoneplate/scene/stream/stream_outline.h"
@@ -59,5 +61,30 @@ inline void expect_scene_of(FileStream& stream, const std::string& path, const S
     begin = instances[i].end;
   }
 }
+
+/// How many damaged files a stream and its loader agreed about, and how many a stream refused.
+struct DamagedFiles {
+  int agreed = 0, refused = 0;
+
+  /// Fails the test unless the stream `open`(path) refuses the file in one line, or has the scene that `load`(path)
+  /// gives, which then refuses nothing. A file of which `open` makes no stream does not count.
+  template <class Open, class Load>
+  void add(const std::string& path, const Open& open, const Load& load, float share) {
+    std::unique_ptr<FileStream> stream;
+    try {
+      stream = open(path);
+      if (!stream) return;
+      stream->check();
+      const StreamOutline outline(*stream, path, {});
+      static_cast<void>(stream->head());
+    } catch (const Error& error) {
+      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+      ++refused;
+      return;
+    }
+    expect_scene_of(*stream, path, load(path), share);
+    ++agreed;
+  }
+};
 
 }  // namespace zoneplate

@@ -138,7 +138,7 @@ TEST(ObjStream, ReportsAFileThatIsChanged) {
 }
 
 TEST(ObjStream, AgreesWithTheLoaderAboutDamagedFiles) {
-  int agreed = 0, refused = 0;
+  DamagedFiles files;
   for (std::uint32_t seed = 0; seed < 900; ++seed) {
     SCOPED_TRACE(seed);
     std::string text = terrain({.name = "damaged",
@@ -155,21 +155,13 @@ TEST(ObjStream, AgreesWithTheLoaderAboutDamagedFiles) {
     if (seed % 50 == 7) text.resize(hash(seed, 9) % text.size());
     const MemoryFile file;
     const std::string path = file.write(stream_bytes(text));
-    try {
-      const std::unique_ptr<FileStream> stream = open_obj_stream(path, {.memory = 1 << 24});
-      if (!stream) continue;
-      stream->check();
-      const StreamOutline outline(*stream, path, {});
-      expect_scene_of(*stream, path, load_obj(path), 0.2f);
-      if (HasFatalFailure()) return;
-      ++agreed;
-    } catch (const Error& error) {
-      EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
-      ++refused;
-    }
+    files.add(
+        path, [](const std::string& of) { return open_obj_stream(of, {.memory = 1 << 24}); },
+        [](const std::string& of) { return load_obj(of); }, 0.2f);
+    if (HasFatalFailure()) return;
   }
-  EXPECT_GT(agreed, 300);
-  EXPECT_GT(refused, 50);
+  EXPECT_GT(files.agreed, 300);
+  EXPECT_GT(files.refused, 50);
 }
 
 }  // namespace
