@@ -29,6 +29,9 @@
 #include "zoneplate/os/file.h"
 #include "zoneplate/scene/material_layers.h"
 
+/// Opens the libraries that encoders need (child_seam.cpp).
+extern "C" int LLVMFuzzerInitialize(int*, char***);
+
 namespace {
 
 using namespace zoneplate;
@@ -354,7 +357,8 @@ void write_printed(const std::string& root) {
 
 }  // namespace
 
-int main(int, char** argv) {
+int main(int argc, char** argv) {
+  LLVMFuzzerInitialize(&argc, &argv);
   const std::string root = argv[1];
   write(root + "/gltf", "everything", parts_of(everything()));
   write(root + "/gltf", "extended", parts_of(extended()));
