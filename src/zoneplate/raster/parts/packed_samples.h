@@ -67,6 +67,11 @@ struct BlockSamples {
   std::uint32_t depth[64], id[64];
 };
 
+/// The most bytes that pack_samples appends for a tile.
+constexpr std::size_t max_packed_bytes(int samples) {
+  return static_cast<std::size_t>(samples) * TileVisibility::blocks * (sizeof(PackedBlock) + sizeof(BlockSamples));
+}
+
 /// Reads what follows the head of a block.
 BlockSamples read_samples(const PackedBlock& head, ByteReader& reader);
 

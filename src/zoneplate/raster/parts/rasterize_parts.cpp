@@ -184,7 +184,8 @@ void PartsOfFrame::draw_pass() {
   Stopwatch watch;
   for_resolved(
       [](std::uint32_t, ResolvedTile& of, PartBuffers&) { of.samples.clear(), of.tested.clear(), of.colors.clear(); });
-  Outbox found(ranks_), passing(ranks_), known(ranks_), colors(ranks_);
+  const std::size_t tiles_of_rank = 1 + (last_ - first_) / static_cast<std::size_t>(ranks_.count());
+  Outbox found(ranks_, tiles_of_rank * max_packed_bytes(pass_count_)), passing(ranks_), known(ranks_), colors(ranks_);
   collect_samples(found);
   double pack_ms = 0;
   buffers_.for_each([&](PartBuffers& b) { pack_ms += std::exchange(b.pack_ms, 0); });
