@@ -42,9 +42,9 @@ std::unique_ptr<FileStream> open_large_file(const std::string& name, const LoadO
   } else if (extension.ends_with("obj")) {
     if (obj_may_exceed_memory(name, options.limits)) stream = open_obj_stream(name, options.limits);
   } else if (extension.ends_with("stl")) {
-    stream = open_stl_stream(name, options.limits);
+    if (stl_may_exceed_memory(name, options.limits)) stream = open_stl_stream(name, options.limits);
   } else if (extension.ends_with("ply")) {
-    stream = open_ply_stream(name, options.limits);
+    if (ply_may_exceed_memory(name, options.limits)) stream = open_ply_stream(name, options.limits);
   }
   if (!stream) return nullptr;
   return stream->bytes_to_draw() <= options.limits.memory ? nullptr : std::move(stream);

@@ -125,7 +125,7 @@ std::vector<Option> run_options(RenderArgs& a) {
        [&](auto&) { a.cache.clear(); }}};
   for (Option& option : limit_options(a.load.limits, a.max_seconds, a.is_sandboxed, group, "an item")) {
     if (names_of(option).front() == "--max-memory")
-      option.meaning += ". A glTF, OBJ, binary PLY or STL file that needs more is drawn in parts";
+      option.meaning += ". A glTF, OBJ, PLY or STL file that needs more is drawn in parts";
     options.push_back(std::move(option));
   }
   return options;

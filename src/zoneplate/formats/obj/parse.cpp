@@ -19,7 +19,8 @@ namespace {
 constexpr std::size_t chunk_bytes = std::size_t{1} << 20;
 
 /// Cuts the text after line ends that are not continued by a backslash. A part is slightly larger than `chunk_bytes`.
-std::vector<std::string_view> cut(std::string_view text, char separator) {
+std::vector<std::string_view> cut(std::string_view text, char separator,
+                                  const std::function<void(std::string_view)>& done) {
   std::vector<std::string_view> parts;
   while (!text.empty()) {
     std::size_t end = std::min(chunk_bytes, text.size());
@@ -35,6 +36,7 @@ std::vector<std::string_view> cut(std::string_view text, char separator) {
     }
     parts.push_back(text.substr(0, end));
     text.remove_prefix(end);
+    done(parts.back());
   }
   return parts;
 }
@@ -112,13 +114,14 @@ void center_far_positions(const ObjText& text, const std::vector<ObjCounts>& bef
 
 }  // namespace
 
-ObjText cut_obj(std::span<const std::uint8_t> bytes, const std::string& file) {
+ObjText cut_obj(std::span<const std::uint8_t> bytes, const std::string& file,
+                const std::function<void(std::string_view)>& done) {
   std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   if (const std::string_view mark = text.substr(0, 2); mark == "\xff\xfe" || mark == "\xfe\xff")
     throw Error(ErrorKind::Input, file + ": is text in UTF-16, expected UTF-8 or ASCII");
   if (text.substr(0, 3) == "\xef\xbb\xbf") text.remove_prefix(3);
   const char separator = text.find('\n') == text.npos && text.find('\r') != text.npos ? '\r' : '\n';
-  return {separator, cut(text, separator)};
+  return {separator, cut(text, separator, done)};
 }
 
 std::vector<ObjCounts> read_obj_parts(const ObjText& text, ImportBudget& budget,

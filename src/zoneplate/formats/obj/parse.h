@@ -31,8 +31,12 @@ struct ObjText {
   std::vector<std::string_view> parts;
 };
 
+/// `done` is called with each part that is not needed for the time being.
+///
 /// Errors    ErrorKind::Input naming `file` for text in UTF-16.
-ObjText cut_obj(std::span<const std::uint8_t> bytes, const std::string& file);
+ObjText cut_obj(
+    std::span<const std::uint8_t> bytes, const std::string& file,
+    const std::function<void(std::string_view)>& done = [](std::string_view) {});
 
 /// Reads the parts of a text, in parallel, and those again that depend on others. `keep` takes each part that is read,
 /// and may reduce it; `done` is called with each part of the text that is not needed for the time being. Returns the

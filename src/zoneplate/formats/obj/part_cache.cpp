@@ -7,34 +7,17 @@
 namespace zoneplate {
 
 ObjPartCache::ObjPartCache(ObjText text, std::vector<ObjCounts> before, std::uint64_t capacity)
-    : text_(std::move(text)), before_(std::move(before)), capacity_(capacity), slots_(text_.parts.size()) {}
+    : text_(std::move(text)),
+      before_(std::move(before)),
+      parts_(text_.parts.size(), capacity, [this](std::size_t i) { return read(i); }) {}
 
-std::shared_ptr<const ObjPart> ObjPartCache::part(std::size_t i) const {
-  {
-    const std::lock_guard lock(mutex_);
-    if (slots_[i].part) {
-      kept_.splice(kept_.begin(), kept_, slots_[i].place);
-      return slots_[i].part;
-    }
-  }
-  ++reads_;
-  auto found = std::make_shared<ObjPart>();
-  read_obj_part(text_.parts[i], text_.separator, before_[i], before_.back(), *found);
+ObjPart ObjPartCache::read(std::size_t i) const {
+  ObjPart found;
+  read_obj_part(text_.parts[i], text_.separator, before_[i], before_.back(), found);
   const ObjCounts &from = before_[i], &to = before_[i + 1];
-  if (found->counts.positions != to.positions - from.positions || found->counts.uvs != to.uvs - from.uvs ||
-      found->counts.normals != to.normals - from.normals)
+  if (found.counts.positions != to.positions - from.positions || found.counts.uvs != to.uvs - from.uvs ||
+      found.counts.normals != to.normals - from.normals)
     throw ObjLineError{from.lines, "has another number of vertices"};
-
-  const std::lock_guard lock(mutex_);
-  if (slots_[i].part) return slots_[i].part;
-  slots_[i] = {found, kept_.insert(kept_.begin(), i)};
-  bytes_ += found->bytes();
-  while (bytes_ > capacity_ && kept_.size() > 1) {
-    Slot& oldest = slots_[kept_.back()];
-    bytes_ -= oldest.part->bytes();
-    oldest.part.reset();
-    kept_.pop_back();
-  }
   return found;
 }
 
@@ -49,9 +32,7 @@ const ObjPart& ObjVertexReader::holding(std::int32_t i, std::uint64_t ObjCounts:
     const auto next = std::upper_bound(before.begin(), before.end(), v, begins_after);
     number = last_ = static_cast<std::size_t>(next - before.begin()) - 1;
   }
-  Held& held = held_[number % held_.size()];
-  if (held.number != number) held = {number, parts_.part(number)};
-  return *held.part;
+  return held_[number];
 }
 
 float4 ObjVertexReader::color(std::int32_t position) {

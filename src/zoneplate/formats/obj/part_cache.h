@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
-#include <atomic>
 #include <cstdint>
-#include <list>
 #include <memory>
-#include <mutex>
 #include <vector>
 
+#include "zoneplate/formats/import/part_cache.h"
 #include "zoneplate/formats/obj/parse.h"
 
 namespace zoneplate {
@@ -19,29 +16,20 @@ class ObjPartCache {
   /// `before`: what read_obj_parts returns. Parts are kept up to `capacity` bytes.
   ObjPartCache(ObjText text, std::vector<ObjCounts> before, std::uint64_t capacity);
 
-  std::size_t size() const { return text_.parts.size(); }
+  std::size_t size() const { return parts_.size(); }
   std::string_view text(std::size_t part) const { return text_.parts[part]; }
   const std::vector<ObjCounts>& before() const { return before_; }
-  /// How many parts were read so far, each as often as that.
-  std::uint64_t reads() const { return reads_; }
+  const PartCache<ObjPart>& parts() const { return parts_; }
 
   /// Errors    ObjLineError, and another number of vertices as one, if the text has changed.
-  std::shared_ptr<const ObjPart> part(std::size_t i) const;
+  std::shared_ptr<const ObjPart> part(std::size_t i) const { return parts_.part(i); }
 
  private:
-  struct Slot {
-    std::shared_ptr<const ObjPart> part;  ///< null: it is not kept
-    std::list<std::size_t>::iterator place;
-  };
+  ObjPart read(std::size_t i) const;
 
   ObjText text_;
   std::vector<ObjCounts> before_;
-  std::uint64_t capacity_;
-  mutable std::mutex mutex_;
-  mutable std::vector<Slot> slots_;
-  mutable std::list<std::size_t> kept_;  ///< parts, the one that was used last first
-  mutable std::uint64_t bytes_ = 0;      ///< of those
-  mutable std::atomic<std::uint64_t> reads_ = 0;
+  PartCache<ObjPart> parts_;
 };
 
 /// Reads single vertex data, for one thread.
@@ -49,7 +37,7 @@ class ObjPartCache {
 /// Errors    those of ObjPartCache::part, and ObjLineError for data that the text lacks.
 class ObjVertexReader {
  public:
-  explicit ObjVertexReader(const ObjPartCache& parts) : parts_(parts) {}
+  explicit ObjVertexReader(const ObjPartCache& parts) : parts_(parts), held_(parts.parts()) {}
 
   float3 position(std::int32_t i) { return find(i, &ObjCounts::positions, &ObjVertices::positions); }
   float3 normal(std::int32_t i) { return find(i, &ObjCounts::normals, &ObjVertices::normals); }
@@ -58,10 +46,6 @@ class ObjVertexReader {
   float4 color(std::int32_t position);
 
  private:
-  struct Held {
-    std::size_t number = ~std::size_t{0};
-    std::shared_ptr<const ObjPart> part;
-  };
   const ObjPart& holding(std::int32_t i, std::uint64_t ObjCounts::*kind, std::size_t& number);
   template <class V>
   V find(std::int32_t i, std::uint64_t ObjCounts::*kind, std::vector<V> ObjVertices::*list) {
@@ -72,7 +56,7 @@ class ObjVertexReader {
   }
 
   const ObjPartCache& parts_;
-  std::array<Held, 8> held_;  ///< by the last bits of their numbers
+  HeldParts<ObjPart> held_;
   std::size_t last_ = 0;
 };
 

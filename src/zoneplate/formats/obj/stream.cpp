@@ -183,7 +183,8 @@ class FaceCopies {
 class ObjStream : public FileStream {
  public:
   ObjStream(const std::string& path, const LoadLimits& limits) : FileStream(path, limits) {
-    ObjText text = cut_obj(file().bytes(), path);
+    const auto done = [&](std::string_view part) { file().forget(part.data(), part.size()); };
+    ObjText text = cut_obj(file().bytes(), path, done);
     ImportBudget import = budget();
     ObjFile skeleton;
     std::vector<ObjCounts> before = read_layout(text, import, skeleton);
@@ -215,9 +216,7 @@ class ObjStream : public FileStream {
   }
 
   void examine(std::size_t first, std::size_t count, const float3* corners) override {
-    // A scattered order of vertices would take hours.
-    constexpr std::uint64_t max_reads = 50, few = 1000;  // of each part, and of all parts of a small file
-    if (parts_->reads() > max_reads * parts_->size() + few) refuse("has vertices in an order too scattered");
+    if (parts_->parts().is_scattered()) refuse("has vertices in an order too scattered");
     guarded([&] {
       ObjVertexReader vertices(*parts_);
       std::map<std::size_t, std::int64_t> against;  // by instance

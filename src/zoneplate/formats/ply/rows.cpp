@@ -113,8 +113,6 @@ struct WordError {
   std::string word;
 };
 
-bool is_space(char c) { return static_cast<unsigned char>(c) <= ' '; }
-
 /// Parses integers of up to 15 digits on a fast path, and other numbers with the standard library's exact conversion.
 double parse_number(const char* begin, const char* end) {
   const bool is_negative = *begin == '-';
@@ -136,10 +134,10 @@ void parse_numbers(std::string_view part, std::vector<double>& out) {
   const char* at = part.data();
   const char* const end = at + part.size();
   while (true) {
-    while (at != end && is_space(*at)) ++at;
+    while (at != end && is_ply_space(*at)) ++at;
     if (at == end) return;
     const char* const begin = at;
-    while (at != end && !is_space(*at)) ++at;
+    while (at != end && !is_ply_space(*at)) ++at;
     out.push_back(parse_number(begin, at));
   }
 }
@@ -155,7 +153,7 @@ class BodyLines {
       const std::size_t end = std::min(rest_.find_first_of("\r\n"), rest_.size());
       const std::string_view line = rest_.substr(0, end);
       rest_.remove_prefix(std::min(end + 1, rest_.size()));
-      if (!std::all_of(line.begin(), line.end(), is_space)) return line;
+      if (!std::all_of(line.begin(), line.end(), is_ply_space)) return line;
     }
     return std::nullopt;
   }
@@ -236,7 +234,7 @@ std::vector<std::string_view> cut_at_spaces(std::string_view text) {
   std::vector<std::string_view> parts;
   while (!text.empty()) {
     std::size_t end = std::min(chunk_bytes, text.size());
-    while (end < text.size() && !is_space(text[end])) ++end;
+    while (end < text.size() && !is_ply_space(text[end])) ++end;
     parts.push_back(text.substr(0, end));
     text.remove_prefix(end);
   }
@@ -346,6 +344,23 @@ void read_ply_column(const PlyRows& rows, std::size_t begin, std::size_t end, st
   }
 }
 
+void state_doubles(PlyHeader& header) {
+  for (PlyElement& element : header.elements)
+    for (PlyProperty& p : element.properties) p.type = p.count_type = PlyType::Double;
+}
+
+std::vector<double> parse_ply_numbers(std::string_view text, std::size_t begin, std::size_t end,
+                                      const std::string& file) {
+  std::vector<double> numbers;
+  try {
+    parse_numbers(text.substr(begin, end - begin), numbers);
+  } catch (const WordError& error) {
+    const auto line = 1 + std::count(text.data(), error.at, '\n');
+    throw Error(ErrorKind::Input, fmt::format("{}: line {}: '{}' is not a number", file, line, error.word));
+  }
+  return numbers;
+}
+
 std::vector<double> parse_ply_text(std::string_view body, std::size_t lines_before, PlyHeader& header,
                                    ImportBudget& budget) {
   const std::vector<std::string_view> parts = cut_at_spaces(body);
@@ -394,8 +409,7 @@ std::vector<double> parse_ply_text(std::string_view body, std::size_t lines_befo
     budget.give_back((3 * before - all.size()) * sizeof(double));
     header.warnings.push_back(budget.file() + ": rows have more values than the header states, the rest is ignored");
   }
-  for (PlyElement& element : header.elements)
-    for (PlyProperty& p : element.properties) p.type = p.count_type = PlyType::Double;
+  state_doubles(header);
   return all;
 }
 

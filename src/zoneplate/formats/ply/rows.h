@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -32,6 +33,9 @@ struct PlyRows {
 
   std::size_t count() const { return static_cast<std::size_t>(element->count); }
 };
+
+/// Whether a character separates the numbers of an ASCII file.
+constexpr bool is_ply_space(char c) { return static_cast<unsigned char>(c) <= ' '; }
 
 /// A 32-bit integer that a file of this byte order stores so.
 inline std::uint32_t native_word(std::uint32_t stored, PlyOrder order) {
@@ -80,6 +84,15 @@ const std::uint8_t* floats_in_a_row(const PlyRows& rows, std::span<const std::si
 /// Requires  the property is not a list; the rows are one block, as parallel_ranges passes them.
 void read_ply_column(const PlyRows& rows, std::size_t begin, std::size_t end, std::size_t property, float* out,
                      std::size_t stride);
+
+/// Changes the types of all properties to double, as parse_ply_text stores their values.
+void state_doubles(PlyHeader& header);
+
+/// Parses the numbers in a part of an ASCII file's text, from the byte `begin` to `end`.
+///
+/// Errors    ErrorKind::Input naming `file` and the line of a word that is not a number.
+std::vector<double> parse_ply_numbers(std::string_view text, std::size_t begin, std::size_t end,
+                                      const std::string& file);
 
 /// Parses the body of an ASCII file into doubles, and changes the types of the elements to double. Values of a row's
 /// line that the header does not state are ignored, with a warning in the header.

@@ -25,6 +25,7 @@ struct PlyKind {
   const char* name;
   bool has_doubles = false, has_normals = false, is_turned = false, has_colors = false, has_flags = false;
   bool is_big = false;  ///< big-endian
+  bool is_text = false;
 };
 
 constexpr std::uint32_t large = 70;
@@ -41,8 +42,16 @@ void put_as(bool is_big, T value, Bytes& out) {
 
 /// Terrain, smooth with a rough part, whose faces are in a scattered order.
 Bytes terrain(const PlyKind& kind, std::uint8_t alpha = 255, std::uint32_t side = large) {
-  const auto put = [&](auto value, Bytes& to) { put_as(kind.is_big, value, to); };
-  std::string head = fmt::format("ply\nformat binary_{}_endian 1.0\n", kind.is_big ? "big" : "little");
+  const auto put = [&](auto value, Bytes& to) {
+    if (!kind.is_text) return put_as(kind.is_big, value, to);
+    const std::string word = fmt::format("{} ", value);
+    to.insert(to.end(), word.begin(), word.end());
+  };
+  const auto end_row = [&](Bytes& to) {
+    if (kind.is_text) to.push_back('\n');
+  };
+  std::string head = "ply\nformat ascii 1.0\n";
+  if (!kind.is_text) head = fmt::format("ply\nformat binary_{}_endian 1.0\n", kind.is_big ? "big" : "little");
   head += fmt::format("element vertex {}\n", vertices_of(side));
   for (const char* axis : {"x", "y", "z"})
     head += fmt::format("property {} {}\n", kind.has_doubles ? "double" : "float", axis);
@@ -66,6 +75,7 @@ Bytes terrain(const PlyKind& kind, std::uint8_t alpha = 255, std::uint32_t side 
     if (kind.has_colors)
       for (const std::uint32_t c : {x, z, x + z}) put(static_cast<std::uint8_t>(c), out);
     if (kind.has_colors) put(alpha, out);
+    end_row(out);
   }
   for (std::uint32_t k = 0; k < side * side; ++k) {
     const std::uint32_t square = k * 1009 % (side * side), a = square / side * (side + 1) + square % side;
@@ -73,6 +83,7 @@ Bytes terrain(const PlyKind& kind, std::uint8_t alpha = 255, std::uint32_t side 
       if (kind.has_flags) put(std::uint16_t{7}, out);
       put(std::uint8_t{3}, out);
       for (const std::uint32_t v : face) put(v, out);
+      end_row(out);
     }
   }
   return out;
@@ -111,7 +122,15 @@ TEST(PlyStream, HasTheMeshOfTheLoader) {
                               PlyKind{.name = "normals", .has_normals = true},
                               PlyKind{.name = "turned", .has_normals = true, .is_turned = true},
                               PlyKind{.name = "colors", .has_colors = true, .has_flags = true},
-                              PlyKind{.name = "big", .has_normals = true, .has_colors = true, .is_big = true}}) {
+                              PlyKind{.name = "big", .has_normals = true, .has_colors = true, .is_big = true},
+                              PlyKind{.name = "text", .is_text = true},
+                              PlyKind{.name = "text of all",
+                              .has_doubles = true,
+                              .has_normals = true,
+                              .is_turned = true,
+                              .has_colors = true,
+                              .has_flags = true,
+                              .is_text = true}}) {
     SCOPED_TRACE(kind.name);
     const MemoryFile file;
     const std::string path = file.write(terrain(kind));
@@ -179,13 +198,20 @@ TEST(PlyStream, FacesThatAreNoTrianglesHaveNoCorners) {
 
 TEST(PlyStream, IsMadeOfPlainTrianglesAlone) {
   const MemoryFile file;
-  for (const char* body : {"format ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
-                           "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n3 0 0 0\n",
-                           "format binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
-                           "property float z\nend_header\n0123456789ab"}) {
-    const std::string text = std::string("ply\n") + body;
-    EXPECT_EQ(open_ply_stream(file.write({text.begin(), text.end()}), {}), nullptr);
-  }
+  const auto opens = [&](const std::string& body) {
+    const std::string text = "ply\n" + body;
+    return open_ply_stream(file.write({text.begin(), text.end()}), {}) != nullptr;
+  };
+  EXPECT_FALSE(
+      opens("format binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
+            "property float z\nend_header\n0123456789ab"));
+  const std::string text =
+      "format ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 2\nproperty list uchar int vertex_indices\n";
+  EXPECT_TRUE(opens(text + "end_header\n0 0 0\n3 0 0 0\n3 0 0 0"));
+  EXPECT_FALSE(opens(text + "end_header\n0 0 0\n3 0 0 0\n4 0 0 0 0\n"));
+  EXPECT_FALSE(opens(text + "end_header\n0 0 0\n3 0 0 0\n"));
+  EXPECT_FALSE(opens(text + "element edge 1\nproperty int vertex1\nend_header\n0 0 0\n3 0 0 0\n3 0 0 0\n0\n"));
 }
 
 TEST(PlyStream, AgreesWithTheLoaderAboutDamagedFiles) {
@@ -196,10 +222,12 @@ TEST(PlyStream, AgreesWithTheLoaderAboutDamagedFiles) {
                        .has_normals = seed % 3 == 0,
                        .has_colors = seed % 4 == 0,
                        .has_flags = seed % 7 == 0,
-                       .is_big = seed % 6 == 0};
+                       .is_big = seed % 6 == 0,
+                       .is_text = seed % 2 == 1};
     Bytes bytes = terrain(kind, 255, 8);
     for (std::uint32_t k = 0; k <= seed % 3; ++k)
-      bytes[hash(seed, k) % bytes.size()] = static_cast<std::uint8_t>(hash(seed, k, 1));
+      bytes[hash(seed, k) % bytes.size()] =
+          static_cast<std::uint8_t>(kind.is_text ? '/' + hash(seed, k, 1) % 12 : hash(seed, k, 1));
     const MemoryFile file;
     const std::string path = file.write(bytes);
     Mesh part;

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <numeric>
 #include <string_view>
@@ -19,7 +18,6 @@
 #include "zoneplate/os/file.h"
 #include "zoneplate/scene/geometry/flat_normals.h"
 #include "zoneplate/scene/geometry/origin.h"
-#include "zoneplate/scene/geometry/triangulate.h"
 #include "zoneplate/scene/sanitize.h"
 
 namespace zoneplate {
@@ -44,31 +42,15 @@ void read_binary(Bytes bytes, const std::string& name, Scene& scene, ImportBudge
   center_far_scene(scene);
 }
 
-/// Converts the loops [begin, end) to triangles.
-Mesh make_mesh(const StlText& text, std::uint64_t begin, std::uint64_t end, const ImportBudget& budget,
-               std::uint64_t& too_short) {
-  constexpr std::size_t many_corners = 64;  // triangulating a loop of more corners may take long
-  constexpr std::uint64_t loops_per_check = 4096;
+/// The mesh of corners, three for each triangle.
+Mesh make_mesh(std::vector<float3> corners) {
   Mesh mesh;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-  for (std::uint64_t l = begin; l < end; ++l) {
-    const std::span<const float3> loop(&text.vertices[text.loops[l]], text.loops[l + 1] - text.loops[l]);
-    if ((loop.size() > many_corners || l % loops_per_check == 0) && !budget.has_time()) break;
-    triangles.clear();
-    if (loop.size() == 3 || !std::all_of(loop.begin(), loop.end(), is_finite))
-      triangles.push_back({0, 1, 2});  // non-finite triangles are dropped later
-    else
-      triangulate(loop, triangles);
-    if (loop.size() < 3) triangles.clear(), ++too_short;
-    for (const auto& [a, b, c] : triangles) {
-      const float3 normal = flat_normal(loop[a], loop[b], loop[c]);
-      for (const std::uint32_t i : {a, b, c}) {
-        mesh.index.push_back(static_cast<std::uint32_t>(mesh.position.size()));
-        mesh.position.push_back(loop[i]);
-        mesh.normal.push_back(normal);
-      }
-    }
-  }
+  mesh.normal.reserve(corners.size());
+  for (std::size_t c = 0; c < corners.size(); c += 3)
+    mesh.normal.insert(mesh.normal.end(), 3, flat_normal(corners[c], corners[c + 1], corners[c + 2]));
+  mesh.index.resize(corners.size());
+  std::iota(mesh.index.begin(), mesh.index.end(), 0u);
+  mesh.position = std::move(corners);
   return mesh;
 }
 
@@ -95,7 +77,9 @@ void read_text(Bytes bytes, const std::string& name, Scene& scene, ImportBudget&
   std::vector<std::uint64_t> too_short(meshes.size());
   parallel_for(meshes.size(), [&](std::size_t i) {
     const std::uint64_t end = i + 1 < meshes.size() ? text.solids[i + 1].before : text.loops.size() - 1;
-    meshes[i] = make_mesh(text, text.solids[i].before, end, budget, too_short[i]);
+    std::vector<float3> corners;
+    too_short[i] = add_stl_triangles(text, text.solids[i].before, end, budget, corners);
+    meshes[i] = make_mesh(std::move(corners));
   });
   budget.check_time();
   if (const std::uint64_t n = std::accumulate(too_short.begin(), too_short.end(), std::uint64_t{0}))

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "zoneplate/formats/stl/stream.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <numeric>
+#include <string_view>
 
 #include "zoneplate/formats/import/damage_for_test.h"
+#include "zoneplate/formats/import/stream_for_test.h"
 #include "zoneplate/formats/stl/stl.h"
 #include "zoneplate/math/random.h"
 
@@ -73,12 +78,77 @@ TEST(StlStream, HasTheMeshOfTheLoader) {
     }
 }
 
-TEST(StlStream, IsNotMadeOfText) {
+/// Solids of triangles and polygons, without a name and with one, of which two have no triangle.
+std::vector<std::uint8_t> random_text(std::uint32_t loops) {
+  std::string out = "; by hand\n";
+  for (std::uint32_t l = 0; l < loops; ++l) {
+    if (l % 1000 == 0) out += l == 1000 ? "endsolid\nsolid\n" : fmt::format("endsolid\nsolid part {}\n", l);
+    if (l == 2000)
+      out += "endsolid\nsolid empty\nendsolid\nsolid short\nfacet normal 0 0 1\nouter loop\nvertex 1 2 3\n";
+    if (l == 2000) out += "endloop\nendfacet\nendsolid\nsolid after\n";
+    out += "  facet normal 0 0 1\n    outer loop\n";
+    const std::uint32_t corners = l % 7 == 0 ? 5 : 3;
+    for (std::uint32_t k = 0; k < corners; ++k) {
+      const float angle = 6.283f * static_cast<float>(k) / static_cast<float>(corners);
+      const float x = unit_float(hash(l, 1)), y = unit_float(hash(l, 2)), z = unit_float(hash(l, 3));
+      out += fmt::format("      vertex {} {:e} {}\n", x + 0.1f * std::cos(angle), y + 0.1f * std::sin(angle), z);
+    }
+    out += "    endloop\n  endfacet\n";
+  }
+  out += "endsolid\n";
+  out.erase(out.find("endsolid\n"), 9);
+  return {out.begin(), out.end()};
+}
+
+// The text has some four parts.
+TEST(StlStream, HasTheMeshesOfText) {
   const MemoryFile file;
-  const std::string text =
-      "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
-      "endloop\nendfacet\nendsolid\n";
-  EXPECT_EQ(open_stl_stream(file.write({text.begin(), text.end()}), {}), nullptr);
+  const std::string path = file.write(random_text(20000));
+  const Scene whole = load_stl(path);
+  ASSERT_EQ(whole.meshes.size(), 20u);
+  const std::unique_ptr<FileStream> stream = open_stl_stream(path, {});
+  ASSERT_TRUE(stream);
+  expect_scene_of(*stream, path, whole, 0.1f);
+  EXPECT_EQ(stream->head().warnings, whole.warnings);
+}
+
+TEST(StlStream, AgreesWithTheLoaderAboutDamagedText) {
+  DamagedFiles files;
+  constexpr std::string_view damage = "0123456789 .-e\nx";
+  const std::vector<std::uint8_t> good = random_text(12);
+  for (std::uint32_t seed = 0; seed < 1500; ++seed) {
+    std::vector<std::uint8_t> bytes = good;
+    for (std::uint32_t k = 0; k <= seed % 3; ++k)
+      if (std::uint8_t& byte = bytes[hash(seed, k) % bytes.size()]; byte < 'a')
+        byte = static_cast<std::uint8_t>(damage[hash(seed, k, 1) % damage.size()]);
+    const MemoryFile file;
+    files.add(
+        file.write(bytes), [](const std::string& path) { return open_stl_stream(path, {}); },
+        [](const std::string& path) { return load_stl(path); }, 1);
+    if (testing::Test::HasFatalFailure()) FAIL() << seed;
+  }
+  EXPECT_GT(files.agreed, 300);
+  EXPECT_GT(files.refused, 300);
+}
+
+// A facet that another program adds after the text has been read is none of the stream's.
+TEST(StlStream, ReportsATextThatIsChanged) {
+  const MemoryFile file;
+  std::vector<std::uint8_t> bytes = random_text(12);
+  const std::string path = file.write(bytes);
+  const std::unique_ptr<FileStream> stream = open_stl_stream(path, {});
+  ASSERT_TRUE(stream);
+  const std::string_view vertex = "vertex";
+  const auto found = std::search(bytes.begin(), bytes.end(), vertex.begin(), vertex.end());
+  std::fill(found, std::find(found, bytes.end(), '\n'), std::uint8_t{' '});
+  file.write(bytes);
+  const std::uint32_t some[] = {0};
+  try {
+    stream->mesh(some);
+    ADD_FAILURE() << "no error";
+  } catch (const Error& error) {
+    EXPECT_NE(std::string(error.what()).find("was changed while it was read"), std::string::npos) << error.what();
+  }
 }
 
 }  // namespace

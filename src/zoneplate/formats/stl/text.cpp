@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <optional>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/formats/import/text_scan.h"
+#include "zoneplate/scene/geometry/triangulate.h"
 
 namespace zoneplate {
 namespace {
@@ -34,37 +36,11 @@ bool is_facet(std::string_view text, std::size_t at) {
   return is_word(text.substr(at, 5), "facet") && at + 5 < text.size() && is_space(text[at + 5]);
 }
 
-/// Cuts the text before lines that begin a facet. A part is slightly larger than `chunk_bytes`.
-std::vector<std::string_view> cut(std::string_view text) {
-  std::vector<std::string_view> parts;
-  while (!text.empty()) {
-    std::size_t end = std::min(chunk_bytes, text.size());
-    while (end < text.size()) {
-      end = std::min(text.find_first_of("\r\n", end), text.size());
-      std::size_t word = end;
-      while (word < text.size() && is_space(text[word])) ++word;
-      if (is_facet(text, word)) break;
-      end = word;
-    }
-    parts.push_back(text.substr(0, end));
-    text.remove_prefix(end);
-  }
-  return parts;
-}
-
 /// An error and its position in the text; it is thrown and caught within a part.
 struct TextError {
   const char* at;
   std::string cause;
 };
-
-/// Appends a solid, or replaces the last one if that has no loops.
-void add_solid(StlText& text, StlText::Solid solid) {
-  if (!text.solids.empty() && text.solids.back().before == solid.before)
-    text.solids.back() = std::move(solid);
-  else
-    text.solids.push_back(std::move(solid));
-}
 
 /// Parses one part of the text independently of the others.
 class PartReader {
@@ -150,7 +126,7 @@ class PartReader {
       triple();
     } else if (is_word(word, "solid")) {
       end_loop();
-      add_solid(out_, {out_.loops.size(), std::string(name_of_solid().substr(0, 200))});
+      add_solid(out_.solids, {out_.loops.size(), std::string(name_of_solid().substr(0, 200))});
     } else if (is_word(word, "endsolid")) {
       rest_of_line();
     } else if (is_word(word, "endloop") || is_word(word, "endfacet") || is_word(word, "facet")) {
@@ -171,6 +147,11 @@ class PartReader {
   StlText out_;
 };
 
+[[noreturn]] void throw_at_line(std::string_view text, const TextError& error, const std::string& file) {
+  const auto line = 1 + std::count(text.data(), error.at, '\n');
+  throw Error(ErrorKind::Input, fmt::format("{}: line {}: {}", file, line, error.cause));
+}
+
 StlText join(std::vector<StlText>& parts, ImportBudget& budget) {
   std::uint64_t vertices = 0, loops = 0;
   for (const StlText& part : parts) vertices += part.vertices.size(), loops += part.loops.size();
@@ -179,7 +160,7 @@ StlText join(std::vector<StlText>& parts, ImportBudget& budget) {
   out.vertices.reserve(vertices);
   out.loops.reserve(loops + 1);
   for (StlText& part : parts) {
-    for (StlText::Solid& s : part.solids) add_solid(out, {out.loops.size() + s.before, std::move(s.name)});
+    for (StlText::Solid& s : part.solids) add_solid(out.solids, {out.loops.size() + s.before, std::move(s.name)});
     for (const std::uint64_t l : part.loops) out.loops.push_back(out.vertices.size() + l);
     out.vertices.insert(out.vertices.end(), part.vertices.begin(), part.vertices.end());
     part = {};
@@ -200,10 +181,65 @@ std::size_t find_stl_solid(std::string_view text) {
   return is_word(text.substr(at, 5), "solid") ? at : std::string_view::npos;
 }
 
-StlText parse_stl_text(std::string_view text, ImportBudget& budget, double3 origin) {
-  const char* const begin = text.data();
+std::vector<std::string_view> cut_stl_text(std::string_view text, const std::function<void(std::string_view)>& done) {
   if (const std::size_t solid = find_stl_solid(text); solid != text.npos) text.remove_prefix(solid);
-  const std::vector<std::string_view> cuts = cut(text);
+  std::vector<std::string_view> parts;  // slightly larger than `chunk_bytes`
+  while (!text.empty()) {
+    std::size_t end = std::min(chunk_bytes, text.size());
+    while (end < text.size()) {
+      end = std::min(text.find_first_of("\r\n", end), text.size());
+      std::size_t word = end;
+      while (word < text.size() && is_space(text[word])) ++word;
+      if (is_facet(text, word)) break;
+      end = word;
+    }
+    parts.push_back(text.substr(0, end));
+    text.remove_prefix(end);
+    done(parts.back());
+  }
+  return parts;
+}
+
+StlText parse_stl_part(std::string_view text, std::string_view part, const std::string& file) {
+  try {
+    StlText out = PartReader(part, double3{}).read();
+    out.loops.push_back(out.vertices.size());
+    return out;
+  } catch (const TextError& error) {
+    throw_at_line(text, error, file);
+  }
+}
+
+void add_solid(std::vector<StlText::Solid>& solids, StlText::Solid solid) {
+  if (!solids.empty() && solids.back().before == solid.before)
+    solids.back() = std::move(solid);
+  else
+    solids.push_back(std::move(solid));
+}
+
+std::uint64_t add_stl_triangles(const StlText& text, std::uint64_t begin, std::uint64_t end, const ImportBudget& budget,
+                                std::vector<float3>& corners) {
+  constexpr std::size_t many_corners = 64;  // triangulating a loop of more corners may take long
+  constexpr std::uint64_t loops_per_check = 4096;
+  std::uint64_t too_short = 0;
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  for (std::uint64_t l = begin; l < end; ++l) {
+    const std::span<const float3> loop(&text.vertices[text.loops[l]], text.loops[l + 1] - text.loops[l]);
+    if ((loop.size() > many_corners || l % loops_per_check == 0) && !budget.has_time()) break;
+    triangles.clear();
+    if (loop.size() == 3 || !std::all_of(loop.begin(), loop.end(), is_finite))
+      triangles.push_back({0, 1, 2});  // non-finite triangles are dropped later
+    else
+      triangulate(loop, triangles);
+    if (loop.size() < 3) triangles.clear(), ++too_short;
+    for (const auto& triangle : triangles)
+      for (const std::uint32_t i : triangle) corners.push_back(loop[i]);
+  }
+  return too_short;
+}
+
+StlText parse_stl_text(std::string_view text, ImportBudget& budget, double3 origin) {
+  const std::vector<std::string_view> cuts = cut_stl_text(text);
   std::vector<StlText> parts(cuts.size());
   std::vector<std::optional<TextError>> errors(cuts.size());
   // A vertex takes at least nine characters, and 40 in most files.
@@ -224,11 +260,8 @@ StlText parse_stl_text(std::string_view text, ImportBudget& budget, double3 orig
   });
   budget.check_time();
   budget.take(solids * solid_bytes);
-  for (const std::optional<TextError>& error : errors) {
-    if (!error) continue;
-    const auto line = 1 + std::count(begin, error->at, '\n');
-    throw Error(ErrorKind::Input, fmt::format("{}: line {}: {}", budget.file(), line, error->cause));
-  }
+  for (const std::optional<TextError>& error : errors)
+    if (error) throw_at_line(text, *error, budget.file());
   return join(parts, budget);
 }
 

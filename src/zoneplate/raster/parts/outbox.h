@@ -20,9 +20,9 @@ struct TileMessage {
 /// Messages about tiles, which the threads of a loop write at the same time.
 class Outbox {
  public:
-  /// It must be constructed inside the `with_threads` in which it is used. `most`: the bytes that a thread may send to
-  /// a rank, for which address space is reserved once it has sent many, so that they are not copied again and again.
-  explicit Outbox(Ranks& ranks, std::size_t most = 0) : ranks_(ranks), most_(most) {}
+  /// It must be constructed inside the `with_threads` in which it is used. `capacity`: the bytes that a thread may send
+  /// to a rank, for which address space is reserved once it has sent many, so that they are not copied again and again.
+  explicit Outbox(Ranks& ranks, std::size_t capacity = 0) : ranks_(ranks), capacity_(capacity) {}
 
   /// Sends a message, whose bytes write(buffer) appends.
   template <class Write>
@@ -30,7 +30,7 @@ class Outbox {
     ByteBuffer& to = threads_.local(static_cast<std::size_t>(ranks_.count()))[static_cast<std::size_t>(rank)];
     constexpr std::size_t many = std::size_t{1} << 19;
     const std::size_t at = to.size();
-    if (at > many && at < most_) to.reserve(most_ - at);
+    if (at > many && at < capacity_) to.reserve(capacity_ - at);
     to.put(Head{tile, flags, 0});
     write(to);
     const Head head{tile, flags, to.size() - at - sizeof(Head)};
@@ -85,7 +85,7 @@ class Outbox {
   }
 
   Ranks& ranks_;
-  std::size_t most_;
+  std::size_t capacity_;
   PerThread<std::vector<ByteBuffer>> threads_;
   std::vector<ByteBuffer> sent_, received_;
 };
