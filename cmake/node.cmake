@@ -29,5 +29,6 @@ target_link_libraries(zoneplate_node PRIVATE zoneplate zoneplate_codecs zoneplat
 target_precompile_headers(zoneplate_node PRIVATE ${common_headers})
 # Not -Os, with which clang 14 reads a value after its increment (make_codes in codec/png/deflate.cpp).
 target_compile_options(zoneplate_node PRIVATE -O2)
-target_link_options(zoneplate_node PRIVATE -O2 --no-entry -sMODULARIZE -sEXPORT_ES6 -sENVIRONMENT=worker -sEXIT_RUNTIME=0
+# Functions that sources declare differently are a warning of the linker, and traps.
+target_link_options(zoneplate_node PRIVATE -O2 -Wl,--fatal-warnings --no-entry -sMODULARIZE -sEXPORT_ES6 -sENVIRONMENT=worker -sEXIT_RUNTIME=0
                     -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=FS)

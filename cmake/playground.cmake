@@ -3,10 +3,15 @@
 # models, and the lessons.
 find_path(nlohmann_headers nlohmann/json.hpp PATHS /usr/include REQUIRED NO_CMAKE_FIND_ROOT_PATH)
 file(CREATE_LINK ${nlohmann_headers}/nlohmann ${CMAKE_CURRENT_BINARY_DIR}/headers/nlohmann SYMBOLIC)
-# For the types of functions alone: the page has no library for Zstandard and Deflate.
-foreach(header zstd.h zlib.h zconf.h)
-  file(CREATE_LINK /usr/include/${header} ${CMAKE_CURRENT_BINARY_DIR}/headers/${header} SYMBOLIC)
+# For the types of functions alone: the page has no library for Zstandard and Deflate. The package for Node has a zlib,
+# whose own headers define another type of offsets.
+foreach(header headers/zstd.h playground_headers/zlib.h playground_headers/zconf.h)
+  get_filename_component(name ${header} NAME)
+  get_filename_component(folder ${CMAKE_CURRENT_BINARY_DIR}/${header} DIRECTORY)
+  file(MAKE_DIRECTORY ${folder})
+  file(CREATE_LINK /usr/include/${name} ${folder}/${name} SYMBOLIC)
 endforeach()
+file(REMOVE ${CMAKE_CURRENT_BINARY_DIR}/headers/zlib.h ${CMAKE_CURRENT_BINARY_DIR}/headers/zconf.h)
 
 # A module has no memory beside that of its files, so that reading these in parts saves none.
 set(streams formats/open_stream formats/gltf/stream/stream formats/obj/part_cache formats/obj/stream formats/ply/stream formats/stl/stream job/render_streamed)
@@ -43,12 +48,13 @@ target_link_libraries(zoneplate_playground PRIVATE zoneplate_lessons zoneplate_r
 foreach(target zoneplate_readers zoneplate_lessons zoneplate_playground)
   compile_folders_together(${target})
   target_compile_options(${target} PRIVATE -Oz)
+  target_include_directories(${target} SYSTEM PRIVATE ${CMAKE_CURRENT_BINARY_DIR}/playground_headers)
   target_link_libraries(${target} PRIVATE zoneplate zoneplate_playground_flags)
   target_precompile_headers(${target} PRIVATE ${common_headers})
 endforeach()
 # The page has one instruction set, whose vectors every kernel has (base/isa.h); a tenth of the module was scalar twins.
 target_compile_definitions(zoneplate PUBLIC ZONEPLATE_WITHOUT_SCALAR_TWINS)
-target_link_options(zoneplate_playground PRIVATE -Oz --no-entry -sMODULARIZE -sEXPORT_ES6 -sENVIRONMENT=worker -sEXIT_RUNTIME=0
+target_link_options(zoneplate_playground PRIVATE -Oz -Wl,--fatal-warnings --no-entry -sMODULARIZE -sEXPORT_ES6 -sENVIRONMENT=worker -sEXIT_RUNTIME=0
                     -sEXPORTED_FUNCTIONS=_malloc,_free -sEXPORTED_RUNTIME_METHODS=ccall,FS)
 # With threads (cmake/wasm_threads.cmake), the workers of all of them are there before the first call: a browser starts
 # none while a function runs. No more threads are started than there are workers.
