@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # The weights of networks and tables, which the library contains.
-foreach(name IN ITEMS learned learned_smaa learned_still learned_table learned_table_still)
+foreach(name IN ITEMS learned learned_filters learned_smaa learned_still learned_table learned_table_still)
   set(weights ${CMAKE_CURRENT_SOURCE_DIR}/src/zoneplate/network/weights/${name}.bin)
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${weights})
   file(READ ${weights} weights_${name} HEX)

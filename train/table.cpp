@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 // table DATA -o TABLE: finds the filters of `learned-table` by least squares, from sequences that
 //   zoneplate dataset --layout npy --ratio 2
-// has written. table --still SMALL TRUTH -o TABLE: those of `learned-table-still`, from PNG images of equal names in
-// two folders, the second of twice the size. The tables have the same bytes on every machine.
+// has written. table DATA --network WEIGHTS -o TABLE: those of `learned`, whose network has these weights. table
+// --still SMALL TRUTH -o TABLE: those of `learned-table-still`, from PNG images of equal names in two folders, the
+// second of twice the size. The tables have the same bytes on every machine.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "zoneplate/codec/png.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/upscale/learned/learned_mean.h"
 #include "zoneplate/upscale/table/learned_table.h"
 
 namespace zoneplate {
@@ -62,9 +66,12 @@ LinearImage color_of(const Array& array) {
   return out;
 }
 
-void add_sequence(const fs::path& data, const std::string& name, TableFit& fit) {
+/// `network`: that of `learned`; null: `taau`.
+void add_sequence(const fs::path& data, const std::string& name, const network::Network* network, TableFit& fit) {
   const nlohmann::json info = nlohmann::json::parse(bytes_of(data / (name + ".json")));
-  upscale::SampleMean mean(info["Width"], info["Height"]);
+  const int width = info["Width"], height = info["Height"];
+  const auto mean = network ? std::make_unique<upscale::LearnedMean>(width, height, *network)
+                            : std::make_unique<upscale::SampleMean>(width, height);
   int index = 0;
   for (const nlohmann::json& frame : info["Frames"]) {
     const std::string file = fmt::format("{}/{:04}.npy", name, index);
@@ -84,9 +91,9 @@ void add_sequence(const fs::path& data, const std::string& name, TableFit& fit) 
       input.nearness.values()[i] = d < far ? std::clamp(nearness, 0.0f, 1.0f) : 0;
       input.motion_x.values()[i] = motion.values[2 * i], input.motion_y.values()[i] = motion.values[2 * i + 1];
     }
-    const LinearImage image = mean.accumulate(input);
+    const LinearImage image = mean->accumulate(input);
     if (index % 3 == 0)
-      fit.add(image, upscale::CountGroups::of(mean.counts()), color_of(read_npy(data / "ground_truth" / file)));
+      fit.add(image, upscale::CountGroups::of(mean->counts()), color_of(read_npy(data / "ground_truth" / file)));
     ++index;
   }
 }
@@ -116,20 +123,26 @@ std::vector<std::string> names_in(const fs::path& folder, const char* extension)
   return out;
 }
 
+constexpr const char* usage =
+    "usage: table DATA -o TABLE\n       table DATA --network WEIGHTS -o TABLE\n       table --still SMALL TRUTH -o "
+    "TABLE\n";
+
 int run(const std::vector<std::string>& args) {
-  const bool is_still = !args.empty() && args[0] == "--still";
-  if (args.size() != (is_still ? 5u : 3u) || args[args.size() - 2] != "-o") {
-    fmt::print(stderr, "usage: table DATA -o TABLE\n       table --still SMALL TRUTH -o TABLE\n");
+  const bool is_still = !args.empty() && args[0] == "--still", has_network = args.size() > 1 && args[1] == "--network";
+  if (args.size() != (is_still || has_network ? 5u : 3u) || args[args.size() - 2] != "-o") {
+    fmt::print(stderr, "{}", usage);
     return 2;
   }
   const fs::path data = args[is_still ? 1 : 0];
+  std::optional<network::Network> network;
+  if (has_network) network.emplace(bytes_of(args[2]), upscale::LearnedNetwork::form, args[2]);
   const std::vector<std::string> names = names_in(data, is_still ? ".png" : ".json");
-  TableFit fit(is_still ? upscale::PhaseGroups::groups : upscale::CountGroups::groups);
+  TableFit fit(is_still ? upscale::PhaseGroups::form : upscale::CountGroups::form);
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (is_still)
       add_still(data / (names[i] + ".png"), fs::path(args[2]) / (names[i] + ".png"), fit);
     else
-      add_sequence(data, names[i], fit);
+      add_sequence(data, names[i], network ? &*network : nullptr, fit);
     if ((i + 1) % 20 == 0 || i + 1 == names.size()) fmt::print("{} of {}\n", i + 1, names.size());
   }
   const std::vector<std::uint8_t> table = fit.bytes();

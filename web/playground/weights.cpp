@@ -13,7 +13,8 @@
 namespace zoneplate::network {
 namespace {
 
-constexpr const char* names[] = {"learned", "learned_smaa", "learned_still", "learned_table", "learned_table_still"};
+constexpr const char* names[] = {"learned",       "learned_filters", "learned_smaa",
+                                 "learned_still", "learned_table",   "learned_table_still"};
 
 std::vector<std::uint8_t> bytes_of(const std::string& path) {
   std::ifstream file(path, std::ios::binary);

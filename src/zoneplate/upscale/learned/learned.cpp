@@ -2,8 +2,9 @@
 // Learned super-sampling: `taau` at scale 2, of which a network of 14,888 parameters corrects, for each output pixel,
 // the weights of nine samples and how much their mean counts, how many of the history's samples count and how many of
 // those that `taau` drops, how far history is clamped, and which of two motions it follows: that of the nearest
-// surface, or that of the pixel's own. It makes no colours: an image is a weighted mean of the frame's samples and the
-// history. Corrections of 0 are `taau`.
+// surface, or that of the pixel's own. Corrections of 0 are `taau`. A table of filters of 3 × 3 pixels (upscale/table)
+// then improves the image, whose history it leaves. Both make no colours: an image is a weighted mean of the frame's
+// samples and the history.
 //
 // The network reads what `taau` knows of each frame pixel (learned_rows_lanes.h): colours, extremes, motion, depth, and
 // the history of its output pixels beside the frame's samples. It needs no ids, and so serves the frames of other
@@ -31,10 +32,10 @@ constexpr int scales[] = {1, 2};
 constexpr Param params[] = {{.name = scale_param.name, .meaning = scale_param.meaning, .value = 2, .choices = scales},
                             bias_param(-1)};
 
-/// LearnedMean of images of the frames' size: its pixels are means of 2 × 2 of one that has twice the size.
+/// FilteredLearned of images of the frames' size: its pixels are means of 2 × 2 of one that has twice the size.
 class LearnedBox {
  public:
-  static constexpr int settling_periods = LearnedMean::settling_periods, grain = 2;
+  static constexpr int settling_periods = FilteredLearned::settling_periods, grain = 2;
 
   LearnedBox(int width, int height) : mean_(grain * width, grain * height) {}
 
@@ -52,7 +53,7 @@ class LearnedBox {
   }
 
  private:
-  LearnedMean mean_;
+  FilteredLearned mean_;
 };
 
 template <class Core>
@@ -86,7 +87,7 @@ Upscaler learned() {
           .make_temporal = [](const Settings& s) -> std::unique_ptr<Resolver> {
             const double bias = s.number("bias");
             if (s.integer("scale") == 1) return std::make_unique<LearnedMethod<LearnedBox>>(1, bias);
-            return std::make_unique<LearnedMethod<LearnedMean>>(2, bias);
+            return std::make_unique<LearnedMethod<FilteredLearned>>(2, bias);
           },
           .is_specification_only = true};
 }

@@ -175,4 +175,10 @@ LinearImage LearnedMean::resolved(const Known& known, Plane<float>& count) {
   return out;
 }
 
+const FilterTable& learned_filters() {
+  static const FilterTable table(network::trained_weights(network::Trained::LearnedFilters), CountGroups::form,
+                                 "the program's own");
+  return table;
+}
+
 }  // namespace zoneplate::upscale

@@ -5,6 +5,7 @@
 
 #include "zoneplate/upscale/learned/learned_network.h"
 #include "zoneplate/upscale/taau/sample_mean.h"
+#include "zoneplate/upscale/table/learned_table.h"
 
 namespace zoneplate::upscale {
 
@@ -25,5 +26,10 @@ class LearnedMean : public SampleMean {
   const network::Network& network_;
   std::unique_ptr<Work> work_;
 };
+
+/// The filters of `learned`, which the program contains.
+const FilterTable& learned_filters();
+/// The images of `learned`.
+using FilteredLearned = FilteredMean<LearnedMean, learned_filters>;
 
 }  // namespace zoneplate::upscale

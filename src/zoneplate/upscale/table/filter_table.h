@@ -11,50 +11,66 @@
 
 namespace zoneplate::upscale {
 
-/// Filters of 5 × 5 pixels by class of pixel, found by least squares: the class is the direction, strength and
+/// Filters of 3 × 3 or 5 × 5 pixels by class of pixel, found by least squares: the class is the direction, strength and
 /// coherence of the gradient around, and a group that the caller chooses.
 ///
 /// Colour    square roots of light, about as it is seen
 /// Source    Romano, Isidoro and Milanfar, RAISR: Rapid and Accurate Image Super Resolution, IEEE Trans. Computational
-///           Imaging 3(1), 2017: hashed gradients and filters by least squares. What differs: 5 × 5 pixels, 8
+///           Imaging 3(1), 2017: hashed gradients and filters by least squares. What differs: fewer pixels, 8
 ///           directions, all channels, and results within the extremes of 3 × 3 pixels in place of a blend by census.
 class FilterTable {
  public:
   static constexpr int directions = 8, strengths = 4, coherences = 3;
   static constexpr int classes = directions * strengths * coherences;
-  static constexpr int side = 5, taps = side * side - 1;  ///< without the middle
+  static constexpr int window = 5;  ///< the side of the pixels whose gradients make the class
 
-  /// Reads a table of `groups` groups; `name` is for messages.
+  /// The groups of a table, and the side of its filters: 3 or 5.
+  struct Form {
+    int groups, side;
+
+    constexpr int taps() const { return side * side - 1; }  ///< without the middle
+  };
+
+  /// Reads a table; `name` is for messages.
   ///
-  /// Errors    ErrorKind::Input if it is not one.
-  FilterTable(std::span<const std::uint8_t> bytes, int groups, std::string_view name);
+  /// Errors    ErrorKind::Input if it is not one of this form.
+  FilterTable(std::span<const std::uint8_t> bytes, Form form, std::string_view name);
 
+  int side() const { return form_.side; }
   /// By tap, what the difference of a pixel to the middle one counts, for group after group the classes.
-  const float* weights() const { return weights_.data(); }
+  std::span<const float> weights() const { return weights_; }
 
  private:
+  Form form_;
   std::vector<float> weights_;
 };
 
-/// An image as filters of a table read it: square roots of light, continued by two pixels beyond each side, and the
-/// class of each pixel.
+/// Rows of an image as filters of a table read them: square roots of light, continued by two pixels beyond each side of
+/// the image, and the class of each pixel.
 class TableInput {
  public:
-  static constexpr int border = FilterTable::side / 2;
+  static constexpr int border = FilterTable::window / 2;
 
-  explicit TableInput(const LinearImage& image);
+  /// Memory for at most `rows` rows of `width` pixels.
+  TableInput(int width, int rows);
+  /// Reads the rows [begin, end) of an image of that width.
+  void read(const LinearImage& image, int begin, int end);
 
-  int width() const { return classes_.width(); }
-  int height() const { return classes_.height(); }
   /// The class within a group of each pixel of a row.
-  const std::int32_t* classes(int y) const { return classes_.row(y).data(); }
-  /// A row of a channel, from two pixels before the first one on; rows from -2 on.
-  const float* roots(int channel, int y) const { return roots_[channel].row(y + border).data() + margin - border; }
+  const std::int32_t* classes(int y) const { return classes_.row(y - begin_).data(); }
+  /// A row of a channel, from two pixels before the first one on; rows from begin - 2 on.
+  const float* roots(int channel, int y) const {
+    return roots_[channel].row(y - begin_ + margin).data() + margin - border;
+  }
 
  private:
-  static constexpr int margin = border + 1;  ///< of what is stored, on the left and on the right
+  static constexpr int margin = border + 1;  ///< of what is stored, on each side
 
-  Plane<float> roots_[3];
+  void take_roots(const LinearImage& image, int y);
+
+  int begin_ = 0;
+  Plane<float> roots_[3], luma_;
+  std::vector<float> gradients_;  ///< of five rows
   Plane<std::int32_t> classes_;
 };
 
@@ -68,19 +84,20 @@ LinearImage filtered(const LinearImage& image, const FilterTable& table, const P
 /// Exact     the same bytes on every machine.
 class TableFit {
  public:
-  explicit TableFit(int groups);
+  explicit TableFit(FilterTable::Form form);
   /// Adds the pixels of an image that is to become `truth`.
   void add(const LinearImage& image, const Plane<std::uint8_t>& group, const LinearImage& truth);
-  /// The table as FilterTable reads it: per class a float32 scale and 24 int8 weights. A class that few pixels have had
+  /// The table as FilterTable reads it: per class a float32 scale and int8 weights. A class that few pixels have had
   /// changes little: the squares of its weights count too.
   std::vector<std::uint8_t> bytes() const;
 
  private:
-  static constexpr int taps = FilterTable::taps, products = taps * (taps + 1) / 2;
+  static constexpr int max_taps = FilterTable::Form{1, FilterTable::window}.taps();
   struct Sums {
-    std::array<double, products> squares{};  ///< the lower triangle, by row
-    std::array<double, taps> changes{};
+    std::array<double, max_taps*(max_taps + 1) / 2> squares{};  ///< the lower triangle, by row
+    std::array<double, max_taps> changes{};
   };
+  FilterTable::Form form_;
   std::vector<Sums> sums_;
 };
 

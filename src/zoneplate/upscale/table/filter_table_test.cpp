@@ -65,8 +65,8 @@ LinearImage blurred(const LinearImage& image, bool is_across) {
 }
 
 /// A table that blurs group 0 across and group 1 downwards, the more exactly, the more images it is made of.
-std::vector<std::uint8_t> blurring_table(std::uint32_t images = 6) {
-  TableFit fit(2);
+std::vector<std::uint8_t> blurring_table(int side = 5, std::uint32_t images = 6) {
+  TableFit fit({2, side});
   for (std::uint32_t seed = 0; seed < images; ++seed) {
     const LinearImage image = noise(90, 70, 100 * seed);
     fit.add(image, Plane<std::uint8_t>(90, 70, std::uint8_t{0}), blurred(image, true));
@@ -76,17 +76,19 @@ std::vector<std::uint8_t> blurring_table(std::uint32_t images = 6) {
 }
 
 TEST(FilterTable, LeastSquaresFindTheFilterOfEachGroup) {
-  const FilterTable table(blurring_table(150), 2, "test");
-  const LinearImage image = noise(80, 60, 7777), out = filtered(image, table, halves(80, 60));
-  const LinearImage across = blurred(image, true), down = blurred(image, false);
-  double error = 0, before = 0;
-  for (int y = 0; y < 60; ++y)
-    for (int x = 0; x < 80; ++x) {
-      const Linear& expected = (x < 40 ? across : down)(x, y);
-      error += std::pow(double{out(x, y).g} - double{expected.g}, 2);
-      before += std::pow(double{image(x, y).g} - double{expected.g}, 2);
-    }
-  EXPECT_LT(error, 0.003 * before);
+  const LinearImage image = noise(80, 60, 7777), across = blurred(image, true), down = blurred(image, false);
+  for (const int side : {3, 5}) {
+    const FilterTable table(blurring_table(side, 150), {2, side}, "test");
+    const LinearImage out = filtered(image, table, halves(80, 60));
+    double error = 0, before = 0;
+    for (int y = 0; y < 60; ++y)
+      for (int x = 0; x < 80; ++x) {
+        const Linear& expected = (x < 40 ? across : down)(x, y);
+        error += std::pow(double{out(x, y).g} - double{expected.g}, 2);
+        before += std::pow(double{image(x, y).g} - double{expected.g}, 2);
+      }
+    EXPECT_LT(error, 0.003 * before) << side;
+  }
 }
 
 TEST(FilterTable, ItsBytesAreTheSameOnEveryInstructionSet) {
@@ -99,22 +101,24 @@ TEST(FilterTable, ItsBytesAreTheSameOnEveryInstructionSet) {
 }
 
 TEST(FilterTable, SameBitsOnEveryInstructionSetAndThreadCount) {
-  const FilterTable table(blurring_table(), 2, "test");
-  for (const auto& size : {std::pair(67, 41), std::pair(1, 1), std::pair(2, 9)}) {
-    const int w = size.first, h = size.second;
-    const LinearImage image = noise(w, h, 3);
-    const LinearImage expected = with_isa(Isa::Scalar, [&] { return filtered(image, table, halves(w, h)); });
-    for (const Isa isa : supported_isas())
-      with_isa(isa, [&] {
-        with_threads(3, [&] { EXPECT_EQ(filtered(image, table, halves(w, h)), expected) << name_of(isa) << w; });
-      });
+  for (const int side : {3, 5}) {
+    const FilterTable table(blurring_table(side), {2, side}, "test");
+    for (const auto& size : {std::pair(67, 41), std::pair(1, 1), std::pair(2, 9)}) {
+      const int w = size.first, h = size.second;
+      const LinearImage image = noise(w, h, 3);
+      const LinearImage expected = with_isa(Isa::Scalar, [&] { return filtered(image, table, halves(w, h)); });
+      for (const Isa isa : supported_isas())
+        with_isa(isa, [&] {
+          with_threads(3, [&] { EXPECT_EQ(filtered(image, table, halves(w, h)), expected) << name_of(isa) << w; });
+        });
+    }
   }
 }
 
 TEST(FilterTable, ResultsAreWithinTheNeighboursAndOneColourStays) {
-  const FilterTable table(network::trained_weights(network::Trained::Table), CountGroups::groups, "the program's own");
+  const FilterTable table(network::trained_weights(network::Trained::Table), CountGroups::form, "the program's own");
   const LinearImage image = noise(50, 40, 5);
-  for (std::uint8_t group = 0; group < CountGroups::groups; ++group) {
+  for (std::uint8_t group = 0; group < CountGroups::form.groups; ++group) {
     const LinearImage out = filtered(image, table, Plane<std::uint8_t>(50, 40, group));
     for (int y = 0; y < 40; ++y)
       for (int x = 0; x < 50; ++x) {
@@ -133,7 +137,7 @@ TEST(FilterTable, ResultsAreWithinTheNeighboursAndOneColourStays) {
 
 std::string table_refusal(std::span<const std::uint8_t> bytes) {
   try {
-    FilterTable(bytes, 2, "t.bin");
+    FilterTable(bytes, {2, 5}, "t.bin");
   } catch (const Error& e) {
     EXPECT_EQ(e.kind(), ErrorKind::Input);
     return e.what();

@@ -2,12 +2,12 @@
 // Upscaling by tables of filters that least squares have found (RAISR): the simple siblings of `learned` and
 // `learned-still`.
 //
-// learned-table is `taau`, whose images are filtered by 5 × 5 pixels, by the number of samples that a pixel rests on
+// learned-table is `taau`, whose images are filtered by 3 × 3 pixels, by the number of samples that a pixel rests on
 // and the direction, strength and coherence of the gradient. learned-table-still filters an image that bilinear
-// interpolation in linear light has upscaled, by the phase of the pixel in place of the count. Results are within the
-// extremes of the nearest 3 × 3 pixels.
+// interpolation in linear light has upscaled by 5 × 5 pixels, by the phase of the pixel in place of the count. Results
+// are within the extremes of the nearest 3 × 3 pixels.
 //
-// Weaknesses: a filter of 5 × 5 pixels draws nothing that is not there, and classes that few pixels of the training had
+// Weaknesses: a filter of a few pixels draws nothing that is not there, and classes that few pixels of the training had
 // change little (train/README.md).
 //
 // Source: Romano, Isidoro and Milanfar, RAISR: Rapid and Accurate Image Super Resolution, IEEE Trans. Computational
@@ -17,8 +17,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <span>
 #include <utility>
 
+#include "zoneplate/base/parallel.h"
 #include "zoneplate/image/transfer.h"
 #include "zoneplate/network/trained.h"
 #include "zoneplate/signal/filter/resample.h"
@@ -30,19 +32,14 @@
 namespace zoneplate::upscale {
 namespace {
 
-const FilterTable& table_of_counts() {
-  static const FilterTable table(network::trained_weights(network::Trained::Table), CountGroups::groups,
-                                 "the program's own");
-  return table;
-}
 const FilterTable& table_of_phases() {
-  static const FilterTable table(network::trained_weights(network::Trained::TableStill), PhaseGroups::groups,
+  static const FilterTable table(network::trained_weights(network::Trained::TableStill), PhaseGroups::form,
                                  "the program's own");
   return table;
 }
 
 /// Output pixels beyond a part of an image that its filters and classes read.
-constexpr int halo = FilterTable::side / 2 + 1;
+constexpr int halo = FilterTable::window / 2 + 1;
 
 DisplayImage upscale_opaque(const DisplayImage& image, const UpscaleGrid& grid) {
   LinearImage light(image.width(), image.height());
@@ -82,15 +79,24 @@ constexpr Param still_params[] = {table_params[0]};
 
 Plane<std::uint8_t> CountGroups::of(const Plane<float>& counts) {
   Plane<std::uint8_t> out(counts.width(), counts.height());
-  std::ranges::transform(counts.values(), out.values().begin(), [](float count) {
-    return static_cast<std::uint8_t>(std::ranges::count_if(bounds, [&](float bound) { return count > bound; }));
+  parallel_ranges(static_cast<std::size_t>(counts.height()), 16, [&](std::size_t begin, std::size_t end) {
+    for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
+      const std::span<const float> count = counts.row(y);
+      const std::span<std::uint8_t> group = out.row(y);
+      for (std::size_t x = 0; x < count.size(); ++x) {
+        int above = 0;
+        for (const float bound : bounds) above += count[x] > bound ? 1 : 0;
+        group[x] = static_cast<std::uint8_t>(above);
+      }
+    }
   });
   return out;
 }
 
-LinearImage TableMean::accumulate(const TaauInput& frame) {
-  const LinearImage image = mean_.accumulate(frame);
-  return filtered(image, table_of_counts(), CountGroups::of(mean_.counts()));
+const FilterTable& table_of_counts() {
+  static const FilterTable table(network::trained_weights(network::Trained::Table), CountGroups::form,
+                                 "the program's own");
+  return table;
 }
 
 Interpolated interpolated(const LinearImage& image, const UpscaleGrid& grid) {

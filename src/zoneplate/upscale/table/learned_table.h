@@ -7,30 +7,40 @@
 
 namespace zoneplate::upscale {
 
-/// The groups of `learned-table`: by the number of samples that a pixel of SampleMean rests on.
+/// The groups of tables over frames: by the number of samples that a pixel of SampleMean rests on.
 struct CountGroups {
   /// All of them are reached often in films of 24 frames, of which the table is made.
   static constexpr float bounds[] = {0.6f, 1.2f, 2, 3.2f};
-  static constexpr int groups = 5;
+  static constexpr FilterTable::Form form{5, 3};
 
   static Plane<std::uint8_t> of(const Plane<float>& counts);
 };
 
-/// SampleMean, whose images a table filters; its history is not filtered.
-class TableMean {
+/// A SampleMean, whose images a table filters by CountGroups; its history is not filtered.
+///
+/// Exact     as `filtered`.
+template <class Mean, const FilterTable& (*table)()>
+class FilteredMean {
  public:
-  static constexpr int settling_periods = SampleMean::settling_periods, grain = SampleMean::grain;
+  static constexpr int settling_periods = Mean::settling_periods, grain = Mean::grain;
 
-  TableMean(int width, int height) : mean_(width, height) {}
-  LinearImage accumulate(const TaauInput& frame);
+  FilteredMean(int width, int height) : mean_(width, height) {}
+  LinearImage accumulate(const TaauInput& frame) {
+    const LinearImage image = mean_.accumulate(frame);
+    return filtered(image, table(), CountGroups::of(mean_.counts()));
+  }
 
  private:
-  SampleMean mean_;
+  Mean mean_;
 };
+
+/// That of `learned-table`.
+const FilterTable& table_of_counts();
+using TableMean = FilteredMean<SampleMean, table_of_counts>;
 
 /// The groups of `learned-table-still`: on which side of the nearest input pixel's centre an output pixel is.
 struct PhaseGroups {
-  static constexpr int groups = 4;
+  static constexpr FilterTable::Form form{4, 5};
 };
 
 /// An image in linear light, upscaled by bilinear interpolation, and the group of each output pixel.

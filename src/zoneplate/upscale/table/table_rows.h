@@ -30,8 +30,9 @@ struct TableKernels : PerIsa<TableKernels> {
   void (*take_gradients)(const float* const (&luma)[3], const GradientRow& out, std::size_t n);
   /// Classes within a group of n pixels from five rows of gradients, two pixels before the first one.
   void (*classify)(const GradientRow (&rows)[5], std::int32_t* classes, std::size_t n);
-  /// n pixels.
-  void (*filter)(const TableRow& row, std::size_t n);
+  /// n pixels, by filters of 3 × 3 and of 5 × 5.
+  void (*filter3)(const TableRow& row, std::size_t n);
+  void (*filter5)(const TableRow& row, std::size_t n);
 };
 
 }  // namespace zoneplate

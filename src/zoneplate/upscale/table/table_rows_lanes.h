@@ -54,7 +54,7 @@ template <class F>
 
 template <class F>
 [[gnu::always_inline]] inline void classify(const GradientRow (&rows)[5], std::int32_t* classes, std::ptrdiff_t i) {
-  constexpr int side = FilterTable::side;
+  constexpr int side = FilterTable::window;
   const auto mean = [&](float* GradientRow::*plane) {
     F sum(0.0f);
     for (int x = 0; x < side; ++x) {
@@ -76,17 +76,17 @@ template <class F>
   truncate(its_class + direction).store(classes + i);
 }
 
-template <class F>
+template <int side, class F>
 [[gnu::always_inline]] inline void filter(const TableRow& row, std::ptrdiff_t i) {
   using Int = typename F::Int;
-  constexpr int side = FilterTable::side, middle = side * side / 2;
-  const Int first = Int::load(row.classes + i) * Int(FilterTable::taps);
+  constexpr int middle = side * side / 2, margin = FilterTable::window / 2, before = margin - side / 2;
+  const Int first = Int::load(row.classes + i) * Int(FilterTable::Form{1, side}.taps());
   const F zero(0.0f);
   F is[3], sum[3] = {zero, zero, zero}, low[3] = {zero, zero, zero}, high[3] = {zero, zero, zero};
-  for (int c = 0; c < 3; ++c) is[c] = F::load(row.roots[c][side / 2] + i + side / 2);
+  for (int c = 0; c < 3; ++c) is[c] = F::load(row.roots[c][margin] + i + margin);
   for (int k = 0, tap = 0; k < side * side; ++k) {
     if (k == middle) continue;
-    const int x = k % side, y = k / side;
+    const int x = before + k % side, y = before + k / side;
     const F weight = F::gather(row.weights + tap++, first);
     const bool is_near = x >= 1 && x <= 3 && y >= 1 && y <= 3;
     for (int c = 0; c < 3; ++c) {
@@ -125,9 +125,9 @@ template <class Full, class One>
       n, [&]<class F>(std::size_t i) { table::classify<F>(rows, classes, static_cast<std::ptrdiff_t>(i)); });
 }
 
-template <class Full, class One>
+template <int side, class Full, class One>
 [[gnu::flatten]] void table_filter(const TableRow& row, std::size_t n) {
-  for_row<Full, One>(n, [&]<class F>(std::size_t i) { table::filter<F>(row, static_cast<std::ptrdiff_t>(i)); });
+  for_row<Full, One>(n, [&]<class F>(std::size_t i) { table::filter<side, F>(row, static_cast<std::ptrdiff_t>(i)); });
 }
 
 template <class Full, class One>
@@ -135,7 +135,8 @@ constexpr TableKernels table_rows() {
   return {.take_roots = &table_take_roots<Full, One>,
           .take_gradients = &table_take_gradients<Full, One>,
           .classify = &table_classify<Full, One>,
-          .filter = &table_filter<Full, One>};
+          .filter3 = &table_filter<3, Full, One>,
+          .filter5 = &table_filter<5, Full, One>};
 }
 
 }  // namespace zoneplate::stages
