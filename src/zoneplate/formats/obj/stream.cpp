@@ -311,7 +311,6 @@ class ObjStream : public FileStream {
     if (has_normals_ && (lacks || std::ranges::any_of(summaries_, &Summary::has_odd_normal)))
       note("has faces without normals beside normals");
     for (const Material& material : head_.materials) {
-      if (material.alpha_mode != AlphaMode::Opaque) note("has blended materials");
       if (material.height_texture.image >= 0) note("has materials with heights");
       if (needs_tangents(material)) note("has materials that need tangents");
     }

@@ -2,6 +2,7 @@
 #include "zoneplate/render/stream/streamed_backend.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/out_of_memory.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/raster/geometry/clip.h"
 #include "zoneplate/raster/tile/rasterize.h"
 #include "zoneplate/render/draw_list.h"
 #include "zoneplate/render/prepared_scene.h"
@@ -24,7 +26,7 @@ constexpr int rows_of_strip = 8;
 
 using Triangles = std::vector<std::uint32_t>;  ///< in ascending order
 
-/// Shades nothing: only visibility is stored.
+/// Shades nothing: only the visibility of opaque triangles is stored.
 class NoShader : public FragmentShader {
  public:
   void shade(const FragmentBatch&, OutputMask, FragmentOutputs&) const override {}
@@ -40,25 +42,28 @@ void sort_unique(Triangles& triangles) {
   triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
 }
 
-/// Step 1: the triangle of each sample of a part of the image.
-std::vector<Plane<std::uint32_t>> find_visible(const TriangleStream& stream, std::size_t part, const Camera& camera,
-                                               const Request& request, const RenderOptions& options, const Crop& crop) {
-  const Scene head = stream.head();
-  const float4x4 clip_from_world = camera.clip_from_camera(aspect_of(options)) * inverse(camera.world_from_camera);
-  std::vector<Plane<std::uint32_t>> ids(request.samples.size(),
-                                        Plane<std::uint32_t>(crop.width, crop.height, Target::no_id));
-  std::vector<Plane<float>> depths(request.samples.size(), Plane<float>(crop.width, crop.height, 0.0f));
+/// The opaque triangles that samples of a part of the image own.
+struct Owners {
+  std::vector<Plane<std::uint32_t>> ids;  ///< by sample
+  std::vector<Plane<float>> depths;       ///< likewise
+};
+
+/// Step 1.
+Owners find_owners(const TriangleStream& stream, std::size_t part, const SceneDraws& whole, const Request& request,
+                   const RenderOptions& options, const Crop& crop) {
+  Owners out;
+  out.ids.assign(request.samples.size(), Plane<std::uint32_t>(crop.width, crop.height, Target::no_id));
+  out.depths.assign(request.samples.size(), Plane<float>(crop.width, crop.height, 0.0f));
   Target target;
   target.viewport = {options.width, options.height};
   target.x = crop.x, target.y = crop.y, target.width = crop.width, target.height = crop.height;
   target.samples = request.samples;
-  target.sample_triangle = &ids, target.sample_depth = &depths;
+  target.sample_triangle = &out.ids, target.sample_depth = &out.depths;
   target.keeps_nearer = true;
   const RasterRules rules{
       .edge_rule = options.edge_rule, .visibility = options.visibility, .capacity = options.capacity};
 
   const std::vector<StreamInstance> instances = stream.instances();
-  const SceneDraws whole = make_draws(head, clip_from_world, options);
   std::vector<Draw> draws;
   part = std::min(part, stream.count());
   std::vector<float3> corners(3 * part);
@@ -78,6 +83,11 @@ std::vector<Plane<std::uint32_t>> find_visible(const TriangleStream& stream, std
     draws.front().elsewhere = static_cast<std::uint32_t>(first);
     for_each_instance(instances, first, first + count, [&](std::size_t i, std::size_t begin, std::size_t end) {
       Draw& draw = draws.emplace_back(whole.draws[i]);
+      if (draw.alpha_mode != AlphaMode::Opaque) {
+        draw = Draw{};
+        draw.elsewhere = static_cast<std::uint32_t>(end - begin);
+        return;
+      }
       draw.position = std::span(corners).subspan(3 * (begin - first), 3 * (end - begin));
       draw.index = std::span(index).first(3 * (end - begin));
     });
@@ -85,7 +95,115 @@ std::vector<Plane<std::uint32_t>> find_visible(const TriangleStream& stream, std
     if (options.progress)
       options.progress(share_of_search * static_cast<double>(first + count) / static_cast<double>(stream.count()));
   }
-  return ids;
+  return out;
+}
+
+/// Of blocks of pixels, the depth of the farthest opaque sample; 0 where a sample has none.
+class FarthestDepths {
+ public:
+  static constexpr int side = rows_of_strip;
+
+  FarthestDepths(const std::vector<Plane<float>>& depths, int width, int height)
+      : blocks_((width + side - 1) / side, (height + side - 1) / side) {
+    parallel_for(static_cast<std::size_t>(blocks_.height()), [&](std::size_t row) {
+      const int top = static_cast<int>(row) * side;
+      for (int b = 0; b < blocks_.width(); ++b) {
+        float farthest = depths.front()(b * side, top);
+        for (const Plane<float>& plane : depths)
+          for (int y = top; y < std::min(top + side, height); ++y)
+            for (int x = b * side; x < std::min((b + 1) * side, width); ++x) farthest = std::min(farthest, plane(x, y));
+        blocks_(b, static_cast<int>(row)) = farthest;
+      }
+    });
+  }
+  /// Whether a sample of a row of blocks, in the pixels [left, right], may be behind `depth`.
+  bool has_behind(int row, int left, int right, float depth) const {
+    const auto of_row = blocks_.row(row).subspan(static_cast<std::size_t>(left / side),
+                                                 static_cast<std::size_t>(right / side - left / side + 1));
+    return std::ranges::any_of(of_row, [&](float farthest) { return farthest <= depth; });
+  }
+
+ private:
+  Plane<float> blocks_;
+};
+
+/// The pixels and the nearest depth of a triangle on the screen.
+struct Reach {
+  std::int32_t low_x = std::numeric_limits<std::int32_t>::max(), high_x = std::numeric_limits<std::int32_t>::min();
+  std::int32_t low_y = low_x, high_y = high_x;
+  float depth = 0;
+
+  void add(const ScreenVertex& v) {
+    low_x = std::min(low_x, v.x), high_x = std::max(high_x, v.x);
+    low_y = std::min(low_y, v.y), high_y = std::max(high_y, v.y);
+    depth = std::max(depth, v.z);
+  }
+};
+
+Reach reach_of(const Draw& draw, const float3* corners, Viewport viewport) {
+  Reach out;
+  float4 clip[3];
+  ScreenVertex screen[3];
+  for (int k = 0; k < 3; ++k) {
+    clip[k] = draw.clip_from_object * float4{corners[k].x, corners[k].y, corners[k].z, 1};
+    screen[k] = project(clip[k], viewport);
+  }
+  if (std::ranges::any_of(screen, &ScreenVertex::needs_clipping)) {
+    const ClippedPolygon polygon = clip_triangle(clip[0], clip[1], clip[2], viewport);
+    for (int k = 0; k < polygon.count; ++k) out.add(polygon.vertex[static_cast<std::size_t>(k)]);
+  } else {
+    for (const ScreenVertex& v : screen) out.add(v);
+  }
+  // More than the rounding of depths that are interpolated.
+  out.depth = out.depth * 1.0001f + 1e-6f;
+  return out;
+}
+
+/// Step 2, by strip: the alpha-tested and blended triangles that may be before an opaque sample. Some are not.
+std::vector<Triangles> find_others(const TriangleStream& stream, const SceneDraws& whole, const Owners& owners,
+                                   const RenderOptions& options, const Crop& crop) {
+  const FarthestDepths depths(owners.depths, crop.width, crop.height);
+  const std::vector<StreamInstance> instances = stream.instances();
+  const Viewport viewport{options.width, options.height};
+  const auto strips = static_cast<std::size_t>((crop.height + rows_of_strip - 1) / rows_of_strip);
+  PerThread<std::vector<Triangles>> found;
+  PerThread<std::vector<float3>> corners;
+  constexpr std::size_t grain = 1 << 12, step = 64 * grain;  // after which the system may reclaim what was read
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < instances.size(); begin = instances[i++].end) {
+    const Draw& draw = whole.draws[i];
+    if (draw.alpha_mode == AlphaMode::Opaque) continue;
+    for (std::size_t first = begin; first < instances[i].end; first += step) {
+      parallel_ranges(std::min(step, instances[i].end - first), grain, [&](std::size_t from, std::size_t to) {
+        std::vector<float3>& own = corners.local();
+        own.resize(3 * (to - from));
+        stream.read(first + from, to - from, own.data());
+        std::vector<Triangles>& of_strips = found.local(strips);
+        for (std::size_t t = from; t < to; ++t) {
+          const Reach reach = reach_of(draw, &own[3 * (t - from)], viewport);
+          // Pixels of the crop, and one more for samples beside it.
+          const auto pixel = [](std::int32_t at, int size, int before) { return ((at + 128 * size) >> 8) - before; };
+          const int left = std::max(pixel(reach.low_x, viewport.width, crop.x) - 1, 0),
+                    right = std::min(pixel(reach.high_x, viewport.width, crop.x) + 1, crop.width - 1),
+                    top = std::max(pixel(reach.low_y, viewport.height, crop.y) - 1, 0),
+                    bottom = std::min(pixel(reach.high_y, viewport.height, crop.y) + 1, crop.height - 1);
+          if (reach.low_x > reach.high_x || left > right) continue;
+          for (int row = top / rows_of_strip; row <= bottom / rows_of_strip && top <= bottom; ++row)
+            if (depths.has_behind(row, left, right, reach.depth))
+              of_strips[static_cast<std::size_t>(row)].push_back(static_cast<std::uint32_t>(first + t));
+        }
+      });
+      stream.forget();
+    }
+  }
+  std::vector<Triangles> out(strips);
+  found.for_each([&](std::vector<Triangles>& of_strips) {
+    for (std::size_t i = 0; i < strips; ++i) {
+      out[i].insert(out[i].end(), of_strips[i].begin(), of_strips[i].end());
+      of_strips[i] = {};
+    }
+  });
+  return out;
 }
 
 /// The triangles of some rows.
@@ -104,13 +222,14 @@ struct Band {
   Triangles triangles;
 };
 
-/// Bands with at most `most` triangles each, or one strip.
-std::vector<Band> make_bands(const std::vector<Plane<std::uint32_t>>& ids, std::size_t most) {
+/// Bands with at most `most` triangles each, or one strip. `strips`: triangles of each strip besides the owners.
+std::vector<Band> make_bands(const std::vector<Plane<std::uint32_t>>& ids, std::vector<Triangles> strips,
+                             std::size_t most) {
   const int height = ids.front().height();
-  std::vector<Triangles> strips(static_cast<std::size_t>((height + rows_of_strip - 1) / rows_of_strip));
   parallel_for(strips.size(), [&](std::size_t i) {
     const int top = static_cast<int>(i) * rows_of_strip;
-    strips[i] = triangles_in(ids, top, std::min(top + rows_of_strip, height));
+    const Triangles owners = triangles_in(ids, top, std::min(top + rows_of_strip, height));
+    strips[i].insert(strips[i].end(), owners.begin(), owners.end());
   });
   std::vector<Band> bands;
   for (std::size_t i = 0; i < strips.size(); ++i) {
@@ -164,8 +283,11 @@ class StreamedBackend : public Backend {
     const Crop crop = options.crop.value_or(Crop{0, 0, options.width, options.height});
     RenderCounts sum;
     const Stopwatch search;
+    const float4x4 clip_from_world = camera.clip_from_camera(aspect_of(options)) * inverse(camera.world_from_camera);
+    const SceneDraws draws = make_draws(stream_->head(), clip_from_world, options);
     std::vector<Band> bands = growing("visible triangles", [&] {
-      return make_bands(find_visible(*stream_, capacity_.part, camera, request, options, crop), capacity_.visible);
+      const Owners owners = find_owners(*stream_, capacity_.part, draws, request, options, crop);
+      return make_bands(owners.ids, find_others(*stream_, draws, owners, options, crop), capacity_.visible);
     });
     sum.prepare_ms = search.ms();
     Frame frame;
@@ -186,7 +308,7 @@ class StreamedBackend : public Backend {
   }
 
  private:
-  /// Step 2.
+  /// Step 3.
   Frame render_band(const PreparedScene& head, const Band& band, const Camera& camera, const Request& request,
                     RenderOptions options, const Crop& crop, RenderCounts& counts) {
     // Each instance is an object with a mesh of its own, whose primitives are some of the instance's.

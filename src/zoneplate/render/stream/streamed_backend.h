@@ -21,8 +21,9 @@ struct StreamCapacity {
 void check_streamed(const Request& request, const RenderOptions& options);
 
 /// Renders scenes whose triangles do not fit into memory: for each frame the rasterizer on the CPU draws the triangles
-/// of the stream that own a sample, of which there are at most as many as samples. The scene that `render` takes is
-/// that of TriangleStream::head, with the same lights and materials; its camera has to be chosen by all triangles.
+/// of the stream that own a sample, of which there are at most as many as samples, and the alpha-tested and blended
+/// ones before them. The scene that `render` takes is that of TriangleStream::head, with the same lights and materials;
+/// its camera has to be chosen by all triangles.
 ///
 /// Exact     the bits of make_cpu_backend for a scene with all triangles.
 /// Errors    those of check_streamed; ErrorKind::Usage for surfaces that transmit light.

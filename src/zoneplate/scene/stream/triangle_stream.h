@@ -30,8 +30,8 @@ void for_each_instance(std::span<const StreamInstance> instances, std::size_t fi
   }
 }
 
-/// The triangles of a file that need not fit into memory: opaque, in the coordinates of their meshes, read in any order
-/// and any number of times.
+/// The triangles of a file that need not fit into memory, in the coordinates of their meshes, read in any order and any
+/// number of times.
 class TriangleStream {
  public:
   virtual ~TriangleStream() = default;

@@ -221,10 +221,8 @@ class GltfStream : public FileStream {
       if (owner.has("NORMAL")) part.normal = find_float3(gltf, owner, "NORMAL");
     });
     if (part.normal && part.normal->count != part.position.count) part.normal.reset();
-    if (const auto m = static_cast<std::size_t>(some.material); m < materials.size()) {
-      if (materials[m].alpha_mode != AlphaMode::Opaque) note("has alpha-tested or blended materials");
-      if (needs_tangents(materials[m])) note("has materials that need tangents");
-    }
+    const auto m = static_cast<std::size_t>(some.material);
+    if (m < materials.size() && needs_tangents(materials[m])) note("has materials that need tangents");
     head.material = some.material;
     parts_.push_back(std::move(part));
     return true;

@@ -15,9 +15,9 @@ bool gltf_may_exceed_memory(const std::string& path, const LoadLimits& limits, c
 
 /// Opens a scene of a glTF file to read its triangles in parts. Null if it has none, and for glTF 1.0.
 ///
-/// Alpha-tested and blended materials, those that need tangents, skins, morph targets, Draco, sparse accessors, other
-/// modes than 4 and a scene far from its origin cannot be read in parts (FileStream::check). The images of textures,
-/// and what meshopt compresses, are in memory.
+/// Materials that need tangents, skins, morph targets, Draco, sparse accessors, other modes than 4 and a scene far from
+/// its origin cannot be read in parts (FileStream::check). The images of textures, and what meshopt compresses, are in
+/// memory.
 /// Errors    those of load_gltf.
 std::unique_ptr<FileStream> open_gltf_stream(const std::string& path, const LoadLimits& limits,
                                              const SceneChoice& choice = {});

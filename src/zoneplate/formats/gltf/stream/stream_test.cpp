@@ -102,8 +102,6 @@ TEST(GltfStream, RefusesByNameWhatDependsOnTheWhole) {
   const Variant variants[] = {
       {.cause = "", .primitive = R"(,"material":0)", .materials = R"({"alphaMode":"OPAQUE"})"},
       {.cause = "strips, fans, lines or points", .primitive = R"(,"mode":5)"},
-      {.cause = "alpha-tested or blended", .primitive = R"(,"material":0)", .materials = R"({"alphaMode":"MASK"})"},
-      {.cause = "alpha-tested or blended", .primitive = R"(,"material":0)", .materials = R"({"alphaMode":"BLEND"})"},
       {.cause = "morph targets", .primitive = R"(,"targets":[{"POSITION":0}])", .mesh = R"(,"weights":[1])"},
       {.cause = "Draco", .primitive = R"(,"extensions":{"KHR_draco_mesh_compression":{}})"},
       {.cause = "skins", .nodes = R"({"mesh":0,"skin":0})", .rest = R"(,"skins":[{"joints":[0]}])"},
