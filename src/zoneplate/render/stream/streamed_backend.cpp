@@ -181,13 +181,14 @@ std::vector<Triangles> find_others(const TriangleStream& stream, const SceneDraw
         std::vector<Triangles>& of_strips = found.local(strips);
         for (std::size_t t = from; t < to; ++t) {
           const Reach reach = reach_of(draw, &own[3 * (t - from)], viewport);
+          if (reach.low_x > reach.high_x) continue;  // it is clipped away
           // Pixels of the crop, and one more for samples beside it.
           const auto pixel = [](std::int32_t at, int size, int before) { return ((at + 128 * size) >> 8) - before; };
           const int left = std::max(pixel(reach.low_x, viewport.width, crop.x) - 1, 0),
                     right = std::min(pixel(reach.high_x, viewport.width, crop.x) + 1, crop.width - 1),
                     top = std::max(pixel(reach.low_y, viewport.height, crop.y) - 1, 0),
                     bottom = std::min(pixel(reach.high_y, viewport.height, crop.y) + 1, crop.height - 1);
-          if (reach.low_x > reach.high_x || left > right) continue;
+          if (left > right) continue;
           for (int row = top / rows_of_strip; row <= bottom / rows_of_strip && top <= bottom; ++row)
             if (depths.has_behind(row, left, right, reach.depth))
               of_strips[static_cast<std::size_t>(row)].push_back(static_cast<std::uint32_t>(first + t));
