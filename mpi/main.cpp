@@ -71,6 +71,9 @@ void agree(Ranks& ranks, const std::function<void()>& body, const std::string& m
   }
 }
 
+/// Files that are written, and have no names yet.
+using Written = std::vector<std::unique_ptr<FileWriter>>;
+
 /// Keeps the files until every rank has done its part, and then writes them: no file remains of a run that ends early.
 class FilesAtEnd : public JobSink {
  public:
@@ -80,15 +83,16 @@ class FilesAtEnd : public JobSink {
   }
   void film_frame(const Rgba8Image&) override {}
 
-  void write(Ranks& ranks) const {
-    std::vector<std::unique_ptr<FileWriter>> writers;
+  /// Writes the files without their names, which `commit` gives them.
+  Written written(Ranks& ranks) const {
+    Written out;
     agree(ranks, [&] {
       for (const File& file : files_) {
-        writers.push_back(std::make_unique<FileWriter>(file.path));
-        writers.back()->write(file.bytes);
+        out.push_back(std::make_unique<FileWriter>(file.path));
+        out.back()->write(file.bytes);
       }
     });
-    for (const std::unique_ptr<FileWriter>& writer : writers) writer->commit();
+    return out;
   }
 
  private:
@@ -159,7 +163,7 @@ void report(const MpiArgs& args, const MpiRanks& ranks, const Summary& summary, 
                   processor, ranks.sent_bytes()));
 }
 
-void run(MpiRanks& ranks, std::vector<std::string> arguments) {
+Written run(MpiRanks& ranks, std::vector<std::string> arguments) {
   MpiArgs args;
   std::optional<PartsJob> parts;
   agree(ranks, [&] {
@@ -170,7 +174,7 @@ void run(MpiRanks& ranks, std::vector<std::string> arguments) {
     parts = parse_parts(args, std::move(arguments));
     if (parts && ranks.rank() == 0) check_own_files(args), check_outputs(args);
   });
-  if (all_values(ranks, parts ? 1 : 0).front() == 0) return;
+  if (all_values(ranks, parts ? 1 : 0).front() == 0) return {};
   int threads = args.threads;
   if (threads == 0) threads = std::max(1, usable_processors() / ranks.count_on_machine());
   FilesAtEnd files(args);
@@ -192,7 +196,7 @@ void run(MpiRanks& ranks, std::vector<std::string> arguments) {
   } catch (const std::bad_alloc&) {
     throw Error(ErrorKind::Failed, memory);
   }
-  files.write(ranks);
+  return files.written(ranks);
 }
 
 extern "C" void leave(int signal) {
@@ -223,8 +227,9 @@ int main(int argc, char** argv) {
   survive_truncated_mappings();
   MpiRanks ranks;
   int code = 0;
+  cli::Written files;
   try {
-    cli::run(ranks, std::vector<std::string>(argv + 1, argv + argc));
+    files = cli::run(ranks, std::vector<std::string>(argv + 1, argv + argc));
   } catch (const cli::SharedError& error) {
     if (ranks.rank() == 0) cli::say_error(error.what());
     code = cli::exit_code(error.kind());
@@ -236,5 +241,12 @@ int main(int argc, char** argv) {
     cli::end_all(ranks.rank(), error.what(), 1);
   }
   MPI_Finalize();
+  // No rank has anything left to do: one that is killed before has left no file.
+  try {
+    for (const std::unique_ptr<FileWriter>& file : files) file->commit();
+  } catch (const Error& error) {
+    cli::say_error(error.what());
+    code = cli::exit_code(error.kind());
+  }
   return code;
 }
