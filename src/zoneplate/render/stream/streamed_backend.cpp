@@ -182,7 +182,7 @@ std::vector<Triangles> find_others(const TriangleStream& stream, const SceneDraw
         for (std::size_t t = from; t < to; ++t) {
           const Reach reach = reach_of(draw, &own[3 * (t - from)], viewport);
           if (reach.low_x > reach.high_x) continue;  // it is clipped away
-          // Pixels of the crop, and one more for samples beside it.
+          // In pixels of the crop, and a pixel wider on each side, since samples may lie on the border of a pixel.
           const auto pixel = [](std::int32_t at, int size, int before) { return ((at + 128 * size) >> 8) - before; };
           const int left = std::max(pixel(reach.low_x, viewport.width, crop.x) - 1, 0),
                     right = std::min(pixel(reach.high_x, viewport.width, crop.x) + 1, crop.width - 1),

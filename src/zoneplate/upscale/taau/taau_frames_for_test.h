@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cmath>
 #include <functional>
 
 #include "zoneplate/signal/samples.h"
@@ -45,6 +46,25 @@ LinearImage after(int frames, const LightAt& light, float2 motion = {0, 0}) {
   LinearImage image;
   for (int i = 0; i < frames; ++i) image = core.accumulate(frame_of(light, i, motion));
   return image;
+}
+
+/// The squared error of square roots of `after`(frames, light, motion) against the light's mean over each output pixel,
+/// without a border of 8 pixels.
+template <class Core>
+double error_after(int frames, const LightAt& light, float2 motion = {0, 0}) {
+  const LinearImage image = after<Core>(frames, light, motion);
+  const int last = frames - 1;
+  double sum = 0;
+  for (int y = 8; y < scale * height - 8; ++y)
+    for (int x = 8; x < scale * width - 8; ++x) {
+      double expected = 0;
+      for (int k = 0; k < 64; ++k)
+        expected += light((x + (k % 8 + 0.5) / 8) / scale - last * double{motion.x},
+                          (y + (k / 8 + 0.5) / 8) / scale - last * double{motion.y}, last) /
+                    64;
+      sum += std::pow(std::sqrt(double{image(x, y).r}) - std::sqrt(expected), 2);
+    }
+  return sum;
 }
 
 }  // namespace taau_frames
