@@ -11,7 +11,6 @@ foreach(header headers/zstd.h playground_headers/zlib.h playground_headers/zconf
   file(MAKE_DIRECTORY ${folder})
   file(CREATE_LINK /usr/include/${name} ${folder}/${name} SYMBOLIC)
 endforeach()
-file(REMOVE ${CMAKE_CURRENT_BINARY_DIR}/headers/zlib.h ${CMAKE_CURRENT_BINARY_DIR}/headers/zconf.h)
 
 # A module has no memory beside that of its files, so that reading these in parts saves none.
 set(streams formats/open_stream formats/gltf/stream/stream formats/obj/part_cache formats/obj/stream formats/ply/stream formats/stl/stream job/render_streamed)

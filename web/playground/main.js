@@ -57,9 +57,11 @@ async function render(side) {
   side.isBusy = false;
   if (state.demo) return;
   fail(sides.map((s) => s.error).find(Boolean) ?? '');
-  app.dataset.done = String(sides.every((s) => !s.isBusy));
+  // A side that needs another image may not be busy with it yet.
+  const isDone = sides.every((s) => !s.isBusy && JSON.stringify(jobOf(s)) === s.done);
+  app.dataset.done = String(isDone);
   showControls();
-  if (sides.every((s) => !s.isBusy)) inspect();
+  if (isDone) inspect();
 }
 
 function display(side, name, { width, height }) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The weights of networks and tables, in files that the page fetches when a method needs them: the module is smaller
 // without them.
+#include <emscripten.h>
+
 #include <array>
 #include <fstream>
 #include <iterator>
@@ -13,6 +15,7 @@
 namespace zoneplate::network {
 namespace {
 
+/// In the order of Trained.
 constexpr const char* names[] = {"learned",       "learned_filters", "learned_smaa",
                                  "learned_still", "learned_table",   "learned_table_still"};
 
@@ -34,3 +37,14 @@ std::span<const std::uint8_t> trained_weights(Trained file) {
 }
 
 }  // namespace zoneplate::network
+
+/// The names of the files, as a list of JSON.
+extern "C" EMSCRIPTEN_KEEPALIVE const char* list_weights() {
+  static const std::string list = [] {
+    std::string out;
+    for (const char* const name : zoneplate::network::names)
+      out += (out.empty() ? "[\"" : ",\"") + std::string(name) + '"';
+    return out + ']';
+  }();
+  return list.c_str();
+}

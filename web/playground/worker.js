@@ -33,7 +33,7 @@ async function setFont() {
 /// The weights of networks and tables, where weights.cpp reads them.
 let weights;
 async function setWeights() {
-  const names = ['learned', 'learned_filters', 'learned_smaa', 'learned_still', 'learned_table', 'learned_table_still'];
+  const names = await call('list_weights');
   const files = await Promise.all(names.map(async (name) => {
     const answer = await fetch(new URL(`./weights/${name}.bin`, import.meta.url));
     if (!answer.ok) throw new Error(`weights/${name}.bin is missing`);

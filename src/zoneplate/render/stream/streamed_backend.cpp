@@ -162,10 +162,12 @@ Reach reach_of(const Draw& draw, const float3* corners, Viewport viewport) {
 /// Step 2, by strip: the alpha-tested and blended triangles that may be before an opaque sample. Some are not.
 std::vector<Triangles> find_others(const TriangleStream& stream, const SceneDraws& whole, const Owners& owners,
                                    const RenderOptions& options, const Crop& crop) {
+  const auto strips = static_cast<std::size_t>((crop.height + rows_of_strip - 1) / rows_of_strip);
+  if (std::ranges::all_of(whole.draws, [](const Draw& draw) { return draw.alpha_mode == AlphaMode::Opaque; }))
+    return std::vector<Triangles>(strips);
   const FarthestDepths depths(owners.depths, crop.width, crop.height);
   const std::vector<StreamInstance> instances = stream.instances();
   const Viewport viewport{options.width, options.height};
-  const auto strips = static_cast<std::size_t>((crop.height + rows_of_strip - 1) / rows_of_strip);
   PerThread<std::vector<Triangles>> found;
   PerThread<std::vector<float3>> corners;
   constexpr std::size_t grain = 1 << 12, step = 64 * grain;  // after which the system may reclaim what was read

@@ -3,9 +3,9 @@
 // `learned-still`.
 //
 // learned-table is `taau`, whose images are filtered by 3 × 3 pixels, by the number of samples that a pixel rests on
-// and the direction, strength and coherence of the gradient. learned-table-still filters, by 5 × 5 pixels, an image that
-// bilinear interpolation in linear light has upscaled; the phase of the pixel takes the place of the count. Results are
-// within the extremes of the nearest 3 × 3 pixels.
+// and the direction, strength and coherence of the gradient. learned-table-still filters, by 5 × 5 pixels, an image
+// that bilinear interpolation in linear light has upscaled; the phase of the pixel takes the place of the count.
+// Results are within the extremes of the nearest 3 × 3 pixels.
 //
 // Weaknesses: a filter of a few pixels draws nothing that is not there, and classes that few pixels of the training had
 // change little (train/README.md).
