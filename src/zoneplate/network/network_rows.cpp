@@ -7,6 +7,7 @@
 namespace zoneplate {
 namespace {
 
+template <class>
 class Products {
  public:
   struct Weights {
@@ -32,6 +33,7 @@ class Products {
 }  // namespace
 
 template <>
-const NetworkKernels PerIsa<NetworkKernels>::scalar = stages::network_rows<scalar::Float, Products>();
+const NetworkKernels PerIsa<NetworkKernels>::scalar =
+    stages::network_rows<scalar::WideFloat, scalar::Float, Products>();
 
 }  // namespace zoneplate

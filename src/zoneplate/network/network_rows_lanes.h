@@ -11,21 +11,21 @@ namespace zoneplate::stages {
 
 /// The sums of `pixels` neighbouring pixels for `vectors` groups of outputs, so that each weight is read once for all
 /// pixels, and each input once for all outputs.
-template <class F, class Products, int vectors, int pixels>
+template <class F, class Sums, int vectors, int pixels>
 [[gnu::always_inline]] inline void convolve_some(const ConvolutionRow& row, std::ptrdiff_t first,
                                                  std::ptrdiff_t output) {
   const std::ptrdiff_t step = std::ptrdiff_t{row.stride} * row.inputs, in_row = std::ptrdiff_t{row.side} * row.inputs;
-  Products sums[vectors][pixels];
+  Sums sums[vectors][pixels];
   const std::int16_t* weight = row.weights + 2 * output;
   for (int y = 0; y < row.side; ++y) {
     const std::int16_t* const input = row.input[y] + first * step;
     for (std::ptrdiff_t k = 0; k < in_row; k += 2, weight += std::ptrdiff_t{2} * row.all_outputs) {
-      typename Products::Weights weights[vectors];
-      for (int v = 0; v < vectors; ++v) weights[v] = Products::load(weight + 2 * v * F::lanes);
+      typename Sums::Weights weights[vectors];
+      for (int v = 0; v < vectors; ++v) weights[v] = Sums::load(weight + 2 * v * F::lanes);
       for (int p = 0; p < pixels; ++p) {
         std::int32_t pair;
         std::memcpy(&pair, input + p * step + k, sizeof pair);
-        const typename Products::Inputs inputs = Products::both(pair);
+        const typename Sums::Inputs inputs = Sums::both(pair);
         for (int v = 0; v < vectors; ++v) sums[v][p].add(weights[v], inputs);
       }
     }
@@ -45,25 +45,28 @@ template <class F, class Products, int vectors, int pixels>
   }
 }
 
-template <class F, class Products, int pixels>
+template <class Wide, class F, template <class> class Products, int pixels>
 [[gnu::always_inline]] inline void convolve_pixels(const ConvolutionRow& row, std::ptrdiff_t first) {
   std::ptrdiff_t o = 0;
-  for (; o + 2 * F::lanes <= row.outputs; o += 2 * F::lanes) convolve_some<F, Products, 2, pixels>(row, first, o);
-  for (; o < row.outputs; o += F::lanes) convolve_some<F, Products, 1, pixels>(row, first, o);
+  // Two vectors of outputs share each input; one alone is enough where it has as many lanes.
+  constexpr int vectors = Wide::lanes > F::lanes ? 1 : 2;
+  constexpr std::ptrdiff_t step = std::ptrdiff_t{vectors} * Wide::lanes;
+  for (; o + step <= row.outputs; o += step) convolve_some<Wide, Products<Wide>, vectors, pixels>(row, first, o);
+  for (; o < row.outputs; o += F::lanes) convolve_some<F, Products<F>, 1, pixels>(row, first, o);
 }
 
-template <class F, class Products>
+template <class Wide, class F, template <class> class Products>
 [[gnu::flatten]] void convolve_row(const ConvolutionRow& row, std::size_t n) {
-  constexpr int together = 4;
+  constexpr int together = Wide::lanes > F::lanes ? 8 : 4;
   std::ptrdiff_t i = 0;
   const auto end = static_cast<std::ptrdiff_t>(n);
-  for (; i + together <= end; i += together) convolve_pixels<F, Products, together>(row, i);
-  for (; i < end; ++i) convolve_pixels<F, Products, 1>(row, i);
+  for (; i + together <= end; i += together) convolve_pixels<Wide, F, Products, together>(row, i);
+  for (; i < end; ++i) convolve_pixels<Wide, F, Products, 1>(row, i);
 }
 
-template <class F, class Products>
+template <class Wide, class F, template <class> class Products>
 constexpr NetworkKernels network_rows() {
-  return {.convolve = &convolve_row<F, Products>};
+  return {.convolve = &convolve_row<Wide, F, Products>};
 }
 
 }  // namespace zoneplate::stages

@@ -7,8 +7,9 @@ namespace zoneplate {
 namespace HWY_NAMESPACE {
 namespace {
 
+template <class F>
 class Products {
-  using Sum = Float::Int::IntTag;
+  using Sum = typename F::Int::IntTag;
   using Narrow = hn::Repartition<std::int16_t, Sum>;
 
  public:
@@ -21,7 +22,7 @@ class Products {
   HWY_INLINE void add(Weights weights, Inputs inputs) {
     sum_ = hn::ReorderWidenMulAccumulate(Sum(), weights, inputs, sum_, rest_);
   }
-  HWY_INLINE Float::Int total() const { return Float::Int(hn::RearrangeToOddPlusEven(sum_, rest_)); }
+  HWY_INLINE typename F::Int total() const { return typename F::Int(hn::RearrangeToOddPlusEven(sum_, rest_)); }
 
  private:
   // Some instruction sets add the products of a pair in the end, and keep them in two vectors until then.
@@ -33,6 +34,6 @@ class Products {
 
 template <>
 const NetworkKernels PerIsa<NetworkKernels>::HWY_NAMESPACE =
-    stages::network_rows<HWY_NAMESPACE::Float, HWY_NAMESPACE::Products>();
+    stages::network_rows<HWY_NAMESPACE::WideFloat, HWY_NAMESPACE::Float, HWY_NAMESPACE::Products>();
 }  // namespace zoneplate
 HWY_AFTER_NAMESPACE();

@@ -134,7 +134,7 @@ LearnedMean::LearnedMean(int width, int height, const network::Network& network)
     : SampleMean(width, height), network_(network) {}
 LearnedMean::~LearnedMean() = default;
 
-LinearImage LearnedMean::resolved(const Known& known, Plane<float>& count) {
+void LearnedMean::resolve(const Known& known, Output& out) {
   const TaauInput& input = known.input;
   const int frame_width = known.color.width(), frame_height = known.color.height();
   if (input.is_first || !work_) work_ = std::make_unique<Work>(width(), height(), frame_width, frame_height);
@@ -153,10 +153,9 @@ LinearImage LearnedMean::resolved(const Known& known, Plane<float>& count) {
 
   // A part of a row at a time, so that its corrections stay in the cache.
   constexpr std::size_t part = 128;
-  LinearImage out(width(), height());
   for_output_rows(known, [&](const SampleMeanFrame& frame, SampleMeanRow& row) {
     const auto y = static_cast<std::size_t>(row.y);
-    row.resolved = &out.row(row.y).data()->r, row.count = count.row(row.y).data();
+    row.resolved = &out.image.row(row.y).data()->r, row.count = out.count.row(row.y).data();
     const int half = down.half[y];
     float corrections[(part / 2 + 4) * LearnedNetwork::per_pixel];
     std::int32_t middle[part];
@@ -172,7 +171,6 @@ LinearImage LearnedMean::resolved(const Known& known, Plane<float>& count) {
                                  {.begin = begin, .corrections = corrections, .middle = middle}, end - begin);
     }
   });
-  return out;
 }
 
 const FilterTable& learned_filters() {

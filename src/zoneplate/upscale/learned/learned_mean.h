@@ -19,7 +19,7 @@ class LearnedMean : public SampleMean {
   ~LearnedMean() override;
 
  private:
-  LinearImage resolved(const Known& known, Plane<float>& count) override;
+  void resolve(const Known& known, Output& out) override;
 
   struct Work;
 

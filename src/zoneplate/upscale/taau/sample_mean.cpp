@@ -87,31 +87,65 @@ Plane<float> restarts_of(const Plane<float>& change) {
 struct SampleMean::Motions {
   Plane<float> side[4], nearest;
 
-  explicit Motions(const TaauInput& frame) {
-    const int width = frame.motion_x.width(), height = frame.motion_x.height();
-    constexpr float infinity = std::numeric_limits<float>::infinity();
-    for (int k = 0; k < 4; ++k) side[k] = Plane<float>(width, height, k % 2 == 0 ? infinity : -infinity);
-    nearest = Plane<float>(width, height, -infinity);
-    for (int y = 0; y < height; ++y)
-      for (int x = 0; x < width; ++x) {
-        const float motion[2] = {frame.motion_x(x, y), frame.motion_y(x, y)};
-        const float from_x = std::floor(static_cast<float>(x) - motion[0] + 0.5f);
-        const float from_y = std::floor(static_cast<float>(y) - motion[1] + 0.5f);
-        if (!(from_x >= 0 && from_y >= 0 && from_x < static_cast<float>(width) && from_y < static_cast<float>(height)))
-          continue;
-        const int u = static_cast<int>(from_x), v = static_cast<int>(from_y);
-        nearest(u, v) = std::max(nearest(u, v), frame.nearness(x, y));
-        for (int k = 0; k < 4; ++k) {
-          float& limit = side[k](u, v);
-          limit = k % 2 == 0 ? std::min(limit, motion[k / 2]) : std::max(limit, motion[k / 2]);
-        }
+  Motions(int width, int height) : nearest(width, height) {
+    for (Plane<float>& limits : side) limits = Plane<float>(width, height);
+  }
+  void find(const TaauInput& frame);
+};
+
+void SampleMean::Motions::find(const TaauInput& frame) {
+  const int width = frame.motion_x.width(), height = frame.motion_x.height();
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  for (int k = 0; k < 4; ++k) std::ranges::fill(side[k].values(), k % 2 == 0 ? infinity : -infinity);
+  std::ranges::fill(nearest.values(), -infinity);
+  for (int y = 0; y < height; ++y)
+    for (int x = 0; x < width; ++x) {
+      const float motion[2] = {frame.motion_x(x, y), frame.motion_y(x, y)};
+      const float from_x = std::floor(static_cast<float>(x) - motion[0] + 0.5f);
+      const float from_y = std::floor(static_cast<float>(y) - motion[1] + 0.5f);
+      if (!(from_x >= 0 && from_y >= 0 && from_x < static_cast<float>(width) && from_y < static_cast<float>(height)))
+        continue;
+      const int u = static_cast<int>(from_x), v = static_cast<int>(from_y);
+      nearest(u, v) = std::max(nearest(u, v), frame.nearness(x, y));
+      for (int k = 0; k < 4; ++k) {
+        float& limit = side[k](u, v);
+        limit = k % 2 == 0 ? std::min(limit, motion[k / 2]) : std::max(limit, motion[k / 2]);
       }
+    }
+}
+
+/// What is known of a frame, kept for the next one of its size, since memory for each frame anew takes a fifth of the
+/// time.
+struct SampleMean::Work {
+  LinearImage color;
+  Followed followed;
+  Boxes now, past;
+  Motions moved;
+
+  Work(int width, int height)
+      : color(width, height), now(boxes(width, height)), past(boxes(width, height)), moved(width, height) {
+    for (Plane<float>* const plane : {&followed.nearest, &followed.x, &followed.y, &followed.kept, &followed.borrowed,
+                                      &followed.uncovered, &followed.steady, &followed.change})
+      *plane = Plane<float>(width, height);
+  }
+
+ private:
+  static Boxes boxes(int width, int height) {
+    return {LinearImage(width, height), LinearImage(width, height), Plane<float>(width, height),
+            Plane<float>(width, height)};
   }
 };
 
+SampleMean::SampleMean(int width, int height) : width_(width), height_(height) {}
+SampleMean::~SampleMean() = default;
+
 /// Widens the boxes of this frame by those of the last one where they hold too, and finds how much history counts.
-void SampleMean::compute_kept(const TaauInput& frame, const LinearImage& color, const Motions& moved, Boxes& now,
-                              Followed& followed) const {
+void SampleMean::compute_kept(const TaauInput& frame, Work& work) const {
+  const LinearImage& color = work.color;
+  const Boxes& past = work.past;
+  const Motions& moved = work.moved;
+  Boxes& now = work.now;
+  Followed& followed = work.followed;
   const int width = color.width(), height = color.height();
   const auto pixels = static_cast<std::size_t>(width);
   const std::vector<float> column = whole_numbers(width);
@@ -124,13 +158,13 @@ void SampleMean::compute_kept(const TaauInput& frame, const LinearImage& color, 
                    .column = column.data(),
                    .y = y,
                    .moved_nearest = moved.nearest.values().data(),
-                   .past_alike = past_.alike.values().data(),
-                   .past_low = floats_of(past_.low),
-                   .past_high = floats_of(past_.high),
-                   .past_trend = past_.trend.values().data(),
+                   .past_alike = past.alike.values().data(),
+                   .past_low = floats_of(past.low),
+                   .past_high = floats_of(past.high),
+                   .past_trend = past.trend.values().data(),
                    .width = width,
                    .height = height,
-                   .history = floats_of(history_),
+                   .history = floats_of(past_.image),
                    .history_width = width_,
                    .history_height = height_,
                    .scale = {static_cast<float>(width_) / static_cast<float>(width),
@@ -153,8 +187,8 @@ void SampleMean::compute_kept(const TaauInput& frame, const LinearImage& color, 
                        .column = column.data(),
                        .y = y,
                        .trend = now.trend.values().data(),
-                       .past_low = floats_of(past_.low),
-                       .past_high = floats_of(past_.high),
+                       .past_low = floats_of(past.low),
+                       .past_high = floats_of(past.high),
                        .width = width,
                        .height = height,
                        .low = floats_of(now.low, y),
@@ -172,7 +206,7 @@ void SampleMean::for_output_rows(
   const LinearImage& color = known.color;
   const float2 jitter = known.input.jitter;
   const TaauAxis columns(width_, color.width(), jitter.x), rows(height_, color.height(), jitter.y);
-  const bool is_first = history_.empty();
+  const bool is_first = !has_history_;
   const float scale_x = static_cast<float>(width_) / static_cast<float>(color.width());
   const float scale_y = static_cast<float>(height_) / static_cast<float>(color.height());
   const float frame_weight = weight_of_frame / (scale_x * scale_y);
@@ -183,8 +217,8 @@ void SampleMean::for_output_rows(
                                .most = max_samples,
                                .max_filtered = std::max(max_filtered_samples, max_filtered_frames * frame_weight),
                                .max_borrowed = std::max(max_borrowed_samples, max_borrowed_frames * frame_weight),
-                               .history = is_first ? nullptr : floats_of(history_),
-                               .count = count_.values().data()};
+                               .history = is_first ? nullptr : floats_of(past_.image),
+                               .count = past_.count.values().data()};
   // exp(-2.29 d²), with d in output pixels: a Gaussian near to the Blackman-Harris window of Karis 2014, by axis. Where
   // all samples are farther than 4 pixels, at scales above 8, it is raised for all of them, so that it does not vanish.
   const auto weight = [](float offset, int k, float scale) {
@@ -220,29 +254,30 @@ void SampleMean::for_output_rows(
   });
 }
 
-LinearImage SampleMean::resolved(const Known& known, Plane<float>& count) {
-  LinearImage out(width_, height_);
+void SampleMean::resolve(const Known& known, Output& out) {
   for_output_rows(known, [&](const SampleMeanFrame& frame, SampleMeanRow& row) {
-    row.resolved = floats_of(out, row.y), row.count = count.row(row.y).data();
+    row.resolved = floats_of(out.image, row.y), row.count = out.count.row(row.y).data();
     SampleMeanKernels::of().resolve(frame, row, static_cast<std::size_t>(width_));
   });
-  return out;
 }
 
-LinearImage SampleMean::accumulate(const TaauInput& frame) {
+const LinearImage& SampleMean::accumulate(const TaauInput& frame) {
   const int width = frame.color.width(), height = frame.color.height();
   const auto pixels = static_cast<std::size_t>(width);
-  if (frame.is_first) history_ = {};
-  LinearImage color(width, height);
+  if (frame.is_first || !work_) {
+    has_history_ = false;
+    work_ = std::make_unique<Work>(width, height);
+  }
+  for (Output* const output : {&past_, &next_})
+    if (output->image.empty()) *output = {LinearImage::unset(width_, height_), Plane<float>::unset(width_, height_)};
+  Work& work = *work_;
+  std::swap(work.now, work.past);
   for_rows_of(height, [&](int y) {
-    antialias::TemporalKernels::of().limit(floats_of(frame.color, y), floats_of(color, y), pixels);
+    antialias::TemporalKernels::of().limit(floats_of(frame.color, y), floats_of(work.color, y), pixels);
   });
-  const auto plane = [&] { return Plane<float>(width, height); };
-  Followed followed{plane(), plane(), plane(), plane(), plane(), plane(), plane(), plane()};
-  Boxes now{LinearImage(width, height), LinearImage(width, height), plane(), plane()};
   const std::vector<float> column = whole_numbers(width);
   for_rows_of(height, [&](int y) {
-    const SurveyRow row{.color = floats_of(color),
+    const SurveyRow row{.color = floats_of(work.color),
                         .nearness = frame.nearness.values().data(),
                         .motion_x = frame.motion_x.values().data(),
                         .motion_y = frame.motion_y.values().data(),
@@ -250,22 +285,23 @@ LinearImage SampleMean::accumulate(const TaauInput& frame) {
                         .height = height,
                         .column = column.data(),
                         .y = y,
-                        .low = floats_of(now.low, y),
-                        .high = floats_of(now.high, y),
-                        .nearest = followed.nearest.row(y).data(),
-                        .follow_x = followed.x.row(y).data(),
-                        .follow_y = followed.y.row(y).data(),
-                        .is_alike = now.alike.row(y).data(),
-                        .is_borrowed = followed.borrowed.row(y).data()};
+                        .low = floats_of(work.now.low, y),
+                        .high = floats_of(work.now.high, y),
+                        .nearest = work.followed.nearest.row(y).data(),
+                        .follow_x = work.followed.x.row(y).data(),
+                        .follow_y = work.followed.y.row(y).data(),
+                        .is_alike = work.now.alike.row(y).data(),
+                        .is_borrowed = work.followed.borrowed.row(y).data()};
     SampleMeanKernels::of().survey(row, pixels);
   });
-  if (!history_.empty()) compute_kept(frame, color, Motions(frame), now, followed);
-  Plane<float> count(width_, height_);
-  LinearImage out = resolved({frame, color, now, followed}, count);
-  history_ = out;
-  count_ = std::move(count);
-  past_ = std::move(now);
-  return out;
+  if (has_history_) {
+    work.moved.find(frame);
+    compute_kept(frame, work);
+  }
+  resolve({frame, work.color, work.now, work.followed}, next_);
+  std::swap(past_, next_);
+  has_history_ = true;
+  return past_.image;
 }
 
 }  // namespace zoneplate::upscale

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 
 #include "zoneplate/image/rgb.h"
 #include "zoneplate/upscale/taau/sample_mean_rows.h"
@@ -23,16 +24,16 @@ class SampleMean {
   static constexpr int settling_periods = 1;
   static constexpr int grain = 1;
 
-  SampleMean(int width, int height) : width_(width), height_(height) {}
-  virtual ~SampleMean() = default;
+  SampleMean(int width, int height);
+  virtual ~SampleMean();
 
-  /// The output after one more frame: scene-linear, of the size given to the constructor.
+  /// The output after one more frame, until the next one: scene-linear, of the size given to the constructor.
   ///
   /// Requires  frames of one size, at most the output's, until the next one that is first.
-  LinearImage accumulate(const TaauInput& frame);
+  const LinearImage& accumulate(const TaauInput& frame);
 
   /// The number of samples that each pixel of the last output rests on: the sum of their weights.
-  const Plane<float>& counts() const { return count_; }
+  const Plane<float>& counts() const { return past_.count; }
 
  protected:
   /// What is known of each pixel of a frame.
@@ -56,8 +57,14 @@ class SampleMean {
     const Followed& followed;
   };
 
-  /// The image of a frame, and the counts of its samples into `count`.
-  virtual LinearImage resolved(const Known& known, Plane<float>& count);
+  /// An image, and the sum of the weights of each pixel's samples.
+  struct Output {
+    LinearImage image;
+    Plane<float> count;
+  };
+
+  /// Makes the image of a frame, and its counts: all of their pixels.
+  virtual void resolve(const Known& known, Output& out);
   /// Calls body(frame, row) for each output row, which has its input but no output.
   void for_output_rows(const Known& known,
                        const std::function<void(const SampleMeanFrame& frame, SampleMeanRow& row)>& body) const;
@@ -67,14 +74,14 @@ class SampleMean {
 
  private:
   struct Motions;
+  struct Work;
 
-  void compute_kept(const TaauInput& frame, const LinearImage& color, const Motions& moved, Boxes& now,
-                    Followed& followed) const;
+  void compute_kept(const TaauInput& frame, Work& work) const;
 
   int width_, height_;
-  LinearImage history_;
-  Plane<float> count_;  ///< the sum of the weights of a pixel's samples
-  Boxes past_;
+  bool has_history_ = false;
+  Output past_, next_;
+  std::unique_ptr<Work> work_;
 };
 
 }  // namespace zoneplate::upscale

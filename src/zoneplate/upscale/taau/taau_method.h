@@ -42,8 +42,8 @@ class TaauMethod : public Resolver {
     const int width = frame.color.width(), height = frame.color.height();
     TaauInput input{.color = over_background(std::move(frame.color), frame.display, name_),
                     .nearness = std::move(frame.reversed_depth),
-                    .motion_x = Plane<float>(width, height),
-                    .motion_y = Plane<float>(width, height),
+                    .motion_x = Plane<float>::unset(width, height),
+                    .motion_y = Plane<float>::unset(width, height),
                     .jitter = {(128 - sample_.x) / 256.0f, (128 - sample_.y) / 256.0f},
                     .is_first = context_.is_first};
     std::ranges::transform(frame.motion.values(), input.motion_x.values().begin(), &float2::x);

@@ -85,7 +85,7 @@ void TableInput::read(const LinearImage& image, int begin, int end) {
 
 LinearImage filtered(const LinearImage& image, const FilterTable& table, const Plane<std::uint8_t>& group) {
   const auto filter = table.side() == 3 ? TableKernels::of().filter3 : TableKernels::of().filter5;
-  LinearImage out(image.width(), image.height());
+  auto out = LinearImage::unset(image.width(), image.height());
   struct Memory {
     TableInput input;
     std::vector<std::int32_t> classes;

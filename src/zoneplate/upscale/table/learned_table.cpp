@@ -78,7 +78,7 @@ constexpr Param still_params[] = {table_params[0]};
 }  // namespace
 
 Plane<std::uint8_t> CountGroups::of(const Plane<float>& counts) {
-  Plane<std::uint8_t> out(counts.width(), counts.height());
+  auto out = Plane<std::uint8_t>::unset(counts.width(), counts.height());
   parallel_ranges(static_cast<std::size_t>(counts.height()), 16, [&](std::size_t begin, std::size_t end) {
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
       const std::span<const float> count = counts.row(y);

@@ -26,7 +26,7 @@ class FilteredMean {
 
   FilteredMean(int width, int height) : mean_(width, height) {}
   LinearImage accumulate(const TaauInput& frame) {
-    const LinearImage image = mean_.accumulate(frame);
+    const LinearImage& image = mean_.accumulate(frame);
     return filtered(image, table(), CountGroups::of(mean_.counts()));
   }
 
