@@ -19,12 +19,15 @@
 namespace zoneplate {
 namespace {
 
-constexpr int width = 1280, height = 720;
-constexpr double pixels = double{width} * height;
+/// An image of this size by some threads.
+struct Conditions {
+  int width, height, threads;
+};
+constexpr Conditions usual{1280, 720, 1};
 
 /// The least time of several copies of an 8-bit image that exceeds the caches, in ns per pixel.
 double copy_ns() {
-  Rgba8Image from(8 * width, 8 * height), to = from;
+  Rgba8Image from(8 * usual.width, 8 * usual.height), to = from;
   double least = 1e9;
   for (int i = 0; i < 20; ++i) {
     const Stopwatch watch;
@@ -33,16 +36,18 @@ double copy_ns() {
     benchmark::ClobberMemory();
     least = std::min(least, watch.ms());
   }
-  return least * 1e6 / (64 * pixels);
+  return least * 1e6 / static_cast<double>(from.values().size());
 }
 
-void measure(benchmark::State& state, const std::string& scene_name, const std::string& method) {
+void measure(benchmark::State& state, const std::string& scene_name, const std::string& method,
+             const Conditions& conditions) {
+  const int width = conditions.width, height = conditions.height;
   Scene scene = *make_builtin_scene(scene_name);
-  const Camera camera = choose_camera(scene, {.index = 0}, static_cast<float>(width) / height);
+  const Camera camera = choose_camera(scene, {.index = 0}, static_cast<float>(width) / static_cast<float>(height));
   Lighting lighting = make_lighting(scene, {});
   scene.lights = std::move(lighting.lights);
   scene.environment = lighting.environment;
-  with_threads(1, [&] {
+  with_threads(conditions.threads, [&] {
     Renderer renderer(PreparedScene(std::move(scene)), upscale::make_method(method));
     const RenderSettings settings{.options = {.width = width, .height = height}};
     double least = 1e9;
@@ -57,9 +62,11 @@ void measure(benchmark::State& state, const std::string& scene_name, const std::
       if (frame > 1) least = std::min(least, counts.resolve_ms + counts.filter_ms);
     }
     const double copy = copy_ns();
-    state.counters["ns_per_pixel"] = least * 1e6 / pixels;
+    const double ns = least * 1e6 / (static_cast<double>(width) * height);
+    state.counters["ms"] = least;
+    state.counters["ns_per_pixel"] = ns;
     state.counters["copy_ns"] = copy;
-    state.counters["over_copy"] = least * 1e6 / pixels / copy;
+    state.counters["over_copy"] = ns / copy;
   });
 }
 
@@ -67,6 +74,13 @@ void measure(benchmark::State& state, const std::string& scene_name, const std::
 }  // namespace zoneplate
 
 int main(int argc, char** argv) {
+  const auto add = [](const std::string& name, const std::string& scene, const std::string& method,
+                      const zoneplate::Conditions& conditions) {
+    benchmark::RegisterBenchmark(name.c_str(),
+                                 [=](benchmark::State& s) { zoneplate::measure(s, scene, method, conditions); })
+        ->Iterations(6)
+        ->Unit(benchmark::kMillisecond);
+  };
   for (const std::string method : {"taa",
                                    "taa:preset=karis",
                                    "taa:preset=inside",
@@ -93,10 +107,10 @@ int main(int argc, char** argv) {
                                    "learned-table-still:scale=2",
                                    "taau:scale=2,preset=karis"})
     for (const std::string scene : {"city", "panning-wires"})
-      benchmark::RegisterBenchmark((scene + "/" + method).c_str(),
-                                   [scene, method](benchmark::State& s) { zoneplate::measure(s, scene, method); })
-          ->Iterations(6)
-          ->Unit(benchmark::kMillisecond);
+      add(scene + "/" + method, scene, method, zoneplate::usual);
+  for (const std::string method : {"taau:scale=2", "learned-table:scale=2", "learned:scale=2"})
+    for (const int threads : {1, 2})
+      add("1080p/" + method + "/threads:" + std::to_string(threads), "city", method, {1920, 1080, threads});
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
 }

@@ -136,7 +136,10 @@ struct SampleMean::Work {
   }
 };
 
-SampleMean::SampleMean(int width, int height) : width_(width), height_(height) {}
+SampleMean::SampleMean(int width, int height) : width_(width), height_(height) {
+  for (Output* const output : {&past_, &next_})
+    *output = {LinearImage::unset(width, height), Plane<float>::unset(width, height)};
+}
 SampleMean::~SampleMean() = default;
 
 /// Widens the boxes of this frame by those of the last one where they hold too, and finds how much history counts.
@@ -268,8 +271,6 @@ const LinearImage& SampleMean::accumulate(const TaauInput& frame) {
     has_history_ = false;
     work_ = std::make_unique<Work>(width, height);
   }
-  for (Output* const output : {&past_, &next_})
-    if (output->image.empty()) *output = {LinearImage::unset(width_, height_), Plane<float>::unset(width_, height_)};
   Work& work = *work_;
   std::swap(work.now, work.past);
   for_rows_of(height, [&](int y) {

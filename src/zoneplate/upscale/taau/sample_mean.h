@@ -80,7 +80,7 @@ class SampleMean {
 
   int width_, height_;
   bool has_history_ = false;
-  Output past_, next_;
+  Output past_, next_;  ///< the last output, and memory for the next one
   std::unique_ptr<Work> work_;
 };
 
