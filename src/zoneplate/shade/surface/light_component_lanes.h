@@ -33,6 +33,20 @@ template <class F>
   return sum;
 }
 
+/// The light of an environment map, or of one colour, chosen for each direction: half the code of one function for
+/// each.
+template <class F>
+struct AnyRadiance {
+  const ShadingUniforms& s;
+  Vector<F> specular(Vector<F> direction, F roughness) const {
+    return s.map != nullptr ? MappedRadiance<F>::of_roughness(*s.map, direction, roughness)
+                            : Vector<F>::all(s.environment);
+  }
+  Vector<F> diffuse(Vector<F> normal) const {
+    return s.map != nullptr ? diffuse_light(*s.map, normal) : Vector<F>::all(s.environment);
+  }
+};
+
 template <class F>
 [[gnu::always_inline]] inline LightComponents<F> phong_components(const ShadingUniforms& s, const AnyUniforms& kind,
                                                                   const ShadingState& p, int i) {
@@ -54,22 +68,20 @@ template <class F>
   const F below = (one - specular_albedo(weights, F(0.04f))) * (one - metallic);
   Vector<F> sum = base * (irradiance(s, p, n, inverse_pi, i) * below);
   if (s.has_environment) {
-    const Vector<F> around = s.map != nullptr ? diffuse_light(*s.map, n) : Vector<F>::all(s.environment);
     const Vector<F> bounded{min(base.x, one), min(base.y, one), min(base.z, one)};
-    sum = sum + unoccluded(kind, p, around, i) * bounded * below;
+    sum = sum + unoccluded(kind, p, AnyRadiance<F>{s}.diffuse(n), i) * bounded * below;
   }
   return {sum, zeros<F>(), emission<F>(s, p, i)};
 }
 
 /// Light that passes through the surface without being scattered is transmitted; that of diffuse transmission is
 /// diffuse.
-template <class F, class Radiance>
-[[gnu::always_inline]] inline LightComponents<F> layered_components(const ShadingUniforms& s, const LayeredUniforms& u,
-                                                                    const LobeRows<F>& rows, const AnyUniforms& kind,
-                                                                    const FragmentBatch& batch, const ShadingState& p,
-                                                                    const LayerState& q, Vector<F> v, int i) {
+template <class F>
+LightComponents<F> layered_components(const ShadingUniforms& s, const LayeredUniforms& u, const LobeRows<F>& rows,
+                                      const AnyUniforms& kind, const FragmentBatch& batch, const ShadingState& p,
+                                      const LayerState& q, Vector<F> v, int i) {
   const F one(1.0f), zero(0.0f);
-  const Radiance around(s, p);
+  const AnyRadiance<F> around{s};
   const LayeredSurface<F> surface = make_surface<F>(u, rows, p, q, v, i);
   const Vector<F> dark = zeros<F>();
   Vector<F> front = irradiance(s, p, surface.n, inverse_pi, i), back = dark, through = dark;
@@ -122,10 +134,8 @@ void keep_component(LightComponent component, const ShadingUniforms& s, const La
   for (int i = 0; i < p.count; i += F::lanes) {
     const auto v = s.needs_viewer || layers != nullptr ? viewer.direction(batch, p, i) : zeros<F>();
     LightComponents<F> all;
-    if (layers != nullptr && s.map != nullptr)
-      all = layered_components<F, MappedRadiance<F>>(s, *layers, rows, kind, batch, p, q, v, i);
-    else if (layers != nullptr)
-      all = layered_components<F, ConstantRadiance<F>>(s, *layers, rows, kind, batch, p, q, v, i);
+    if (layers != nullptr)
+      all = layered_components(s, *layers, rows, kind, batch, p, q, v, i);
     else if (s.is_metallic)
       all = metallic_components(s, kind, p, v, i);
     else
