@@ -122,15 +122,13 @@ set(common_headers <algorithm> <array> <cmath> <cstdint> <functional> <map> <mem
                    <fmt/format.h>)
 
 # Where CMAKE_UNITY_BUILD is on, up to sixteen sources of a folder are compiled as one, and so many tests of a room, which
-# halves the time of a build from nothing. The entries of a catalogue and most codecs are compiled alone: each of them
-# defines the same names.
+# halves the time of a build from nothing. Most codecs are compiled alone: each of them defines the same names.
 function(compile_folders_together target)
   get_target_property(sources ${target} SOURCES)
   list(SORT sources)
   foreach(source IN LISTS sources)
     get_filename_component(folder ${source} DIRECTORY)
-    if(source MATCHES "/codec/[^/]+$|/codec/(animated|bitmap|ktx2)/|/scene/builtin/" OR
-       (source MATCHES "/antialias/|/metrics/|/lessons/" AND NOT source MATCHES "_test\\.cpp$"))
+    if(source MATCHES "/codec/[^/]+$|/codec/(animated|bitmap|ktx2)/")
       set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
     else()
       if(source MATCHES "_test\\.cpp$")

@@ -14,6 +14,7 @@
 #include "zoneplate/signal/functions.h"
 
 namespace zoneplate::lessons {
+namespace aliases_lesson {
 namespace {
 
 constexpr int shown_samples = 10;
@@ -155,10 +156,11 @@ Lesson make(const DemoSize& size, const Settings& settings) {
 }
 
 }  // namespace
+}  // namespace aliases_lesson
 
 Demo demo_aliases() {
-  return {"aliases", "waves with the same samples, and the suppression of aliases by each kernel", make,
-          alias_params()};
+  return {"aliases", "waves with the same samples, and the suppression of aliases by each kernel", aliases_lesson::make,
+          aliases_lesson::alias_params()};
 }
 
 }  // namespace zoneplate::lessons

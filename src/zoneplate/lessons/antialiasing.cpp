@@ -14,6 +14,7 @@
 #include "zoneplate/render/renderer.h"
 
 namespace zoneplate::lessons {
+namespace antialiasing_lesson {
 namespace {
 
 constexpr const char *scene_name = "wheel:spokes=16", *reference = "ssaa:n=16";
@@ -119,7 +120,10 @@ Lesson make(const DemoSize& size, const Settings&) {
 }
 
 }  // namespace
+}  // namespace antialiasing_lesson
 
-Demo demo_antialiasing() { return {"antialiasing", "the same region by 24 methods, with error and cost", make}; }
+Demo demo_antialiasing() {
+  return {"antialiasing", "the same region by 24 methods, with error and cost", antialiasing_lesson::make};
+}
 
 }  // namespace zoneplate::lessons

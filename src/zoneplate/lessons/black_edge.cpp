@@ -14,6 +14,7 @@
 #include "zoneplate/render/render.h"
 
 namespace zoneplate::lessons {
+namespace black_edge_lesson {
 namespace {
 
 constexpr int factor = 8;
@@ -130,9 +131,11 @@ Lesson make(const DemoSize& size, const Settings& settings) {
 }
 
 }  // namespace
+}  // namespace black_edge_lesson
 
 Demo demo_black_edge() {
-  return {"black-edge", "a dark line between bright surfaces: the bug, and its correction", make, params};
+  return {"black-edge", "a dark line between bright surfaces: the bug, and its correction", black_edge_lesson::make,
+          black_edge_lesson::params};
 }
 
 }  // namespace zoneplate::lessons

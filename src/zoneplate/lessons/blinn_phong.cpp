@@ -12,6 +12,7 @@
 #include "zoneplate/lessons/picture.h"
 
 namespace zoneplate::lessons {
+namespace blinn_phong_lesson {
 namespace {
 
 constexpr int columns = 192, rows = 128;
@@ -74,9 +75,11 @@ Lesson make(const DemoSize& size, const Settings& settings) {
 }
 
 }  // namespace
+}  // namespace blinn_phong_lesson
 
 Demo demo_blinn_phong() {
-  return {"blinn-phong", "the specular term by coefficient and exponent, and Phong's", make, params};
+  return {"blinn-phong", "the specular term by coefficient and exponent, and Phong's", blinn_phong_lesson::make,
+          blinn_phong_lesson::params};
 }
 
 }  // namespace zoneplate::lessons

@@ -13,6 +13,7 @@
 #include "zoneplate/signal/functions.h"
 
 namespace zoneplate::lessons {
+namespace bump_displacement_lesson {
 namespace {
 
 constexpr const char* method = "msaa:n=8";
@@ -118,9 +119,11 @@ Lesson make(const DemoSize& size, const Settings& settings) {
 }
 
 }  // namespace
+}  // namespace bump_displacement_lesson
 
 Demo demo_bump_displacement() {
-  return {"bump-displacement", "a height map as bumps, as parallax and as geometry", make, params};
+  return {"bump-displacement", "a height map as bumps, as parallax and as geometry", bump_displacement_lesson::make,
+          bump_displacement_lesson::params};
 }
 
 }  // namespace zoneplate::lessons

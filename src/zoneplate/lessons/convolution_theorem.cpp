@@ -10,6 +10,7 @@
 #include "zoneplate/signal/filter/convolve.h"
 
 namespace zoneplate::lessons {
+namespace convolution_theorem_lesson {
 namespace {
 
 constexpr Param params[] = {
@@ -123,9 +124,11 @@ Lesson make(const DemoSize& size, const Settings& settings) {
 }
 
 }  // namespace
+}  // namespace convolution_theorem_lesson
 
 Demo demo_convolution_theorem() {
-  return {"convolution-theorem", "a blur by convolution in space and by multiplication of spectra", make, params};
+  return {"convolution-theorem", "a blur by convolution in space and by multiplication of spectra",
+          convolution_theorem_lesson::make, convolution_theorem_lesson::params};
 }
 
 }  // namespace zoneplate::lessons

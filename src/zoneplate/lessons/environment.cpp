@@ -22,6 +22,7 @@
 #include "zoneplate/shade/reflection/brdf.h"
 
 namespace zoneplate::lessons {
+namespace environment_lesson {
 namespace {
 
 using F = scalar::Float;
@@ -297,9 +298,11 @@ Lesson make(const DemoSize& size, const Settings& settings) {
 }
 
 }  // namespace
+}  // namespace environment_lesson
 
 Demo demo_environment() {
-  return {"environment", "reflection by roughness, irradiance, and the split sum", make, params};
+  return {"environment", "reflection by roughness, irradiance, and the split sum", environment_lesson::make,
+          environment_lesson::params};
 }
 
 }  // namespace zoneplate::lessons

@@ -9,6 +9,7 @@
 #include "zoneplate/lessons/picture.h"
 
 namespace zoneplate::lessons {
+namespace exact_coverage_lesson {
 namespace {
 
 constexpr int factor = 8;
@@ -79,7 +80,10 @@ Lesson make(const DemoSize& size, const Settings&) {
 }
 
 }  // namespace
+}  // namespace exact_coverage_lesson
 
-Demo demo_exact_coverage() { return {"exact-coverage", "sample grids at edges against exact areas", make}; }
+Demo demo_exact_coverage() {
+  return {"exact-coverage", "sample grids at edges against exact areas", exact_coverage_lesson::make};
+}
 
 }  // namespace zoneplate::lessons

@@ -12,6 +12,7 @@
 #include "zoneplate/signal/functions.h"
 
 namespace zoneplate::lessons {
+namespace gamma_lesson {
 namespace {
 
 using sdf::Point;
@@ -118,7 +119,8 @@ Lesson make(const DemoSize& size, const Settings&) {
 }
 
 }  // namespace
+}  // namespace gamma_lesson
 
-Demo demo_gamma() { return {"gamma", "blending of sRGB values and in linear light", make}; }
+Demo demo_gamma() { return {"gamma", "blending of sRGB values and in linear light", gamma_lesson::make}; }
 
 }  // namespace zoneplate::lessons

@@ -11,6 +11,7 @@
 #include "zoneplate/lessons/picture.h"
 
 namespace zoneplate::lessons {
+namespace interpolation_lesson {
 namespace {
 
 using sdf::Point;
@@ -157,10 +158,11 @@ Lesson make(const DemoSize& size, const Settings& settings) {
 }
 
 }  // namespace
+}  // namespace interpolation_lesson
 
 Demo demo_interpolation() {
-  return {"interpolation", "affine and perspective-correct texture coordinates, against ray-plane intersections", make,
-          params};
+  return {"interpolation", "affine and perspective-correct texture coordinates, against ray-plane intersections",
+          interpolation_lesson::make, interpolation_lesson::params};
 }
 
 }  // namespace zoneplate::lessons

@@ -11,6 +11,7 @@
 #include "zoneplate/metrics/mse.h"
 
 namespace zoneplate::lessons {
+namespace jaggies_lesson {
 namespace {
 
 constexpr const char* reference = "ssaa:n=16";
@@ -59,7 +60,10 @@ Lesson make(const DemoSize& size, const Settings&) {
 }
 
 }  // namespace
+}  // namespace jaggies_lesson
 
-Demo demo_jaggies() { return {"jaggies", "staircases at edges, and 8, 16 and 256 samples per pixel", make}; }
+Demo demo_jaggies() {
+  return {"jaggies", "staircases at edges, and 8, 16 and 256 samples per pixel", jaggies_lesson::make};
+}
 
 }  // namespace zoneplate::lessons

@@ -10,6 +10,7 @@
 #include "zoneplate/signal/filter/resample.h"
 
 namespace zoneplate::lessons {
+namespace moire_lesson {
 namespace {
 
 constexpr int factor = 8;
@@ -87,7 +88,10 @@ Lesson make(const DemoSize& size, const Settings&) {
 }
 
 }  // namespace
+}  // namespace moire_lesson
 
-Demo demo_moire() { return {"moire", "rings and checks finer than the pixels, sampled and filtered", make}; }
+Demo demo_moire() {
+  return {"moire", "rings and checks finer than the pixels, sampled and filtered", moire_lesson::make};
+}
 
 }  // namespace zoneplate::lessons

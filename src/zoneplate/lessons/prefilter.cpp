@@ -13,6 +13,7 @@
 #include "zoneplate/signal/functions.h"
 
 namespace zoneplate::lessons {
+namespace prefilter_lesson {
 namespace {
 
 constexpr int step = 4;    // every fourth pixel is kept
@@ -98,7 +99,11 @@ Lesson make(const DemoSize& size, const Settings& settings) {
 }
 
 }  // namespace
+}  // namespace prefilter_lesson
 
-Demo demo_prefilter() { return {"prefilter", "filtering before sampling against filtering after it", make, params}; }
+Demo demo_prefilter() {
+  return {"prefilter", "filtering before sampling against filtering after it", prefilter_lesson::make,
+          prefilter_lesson::params};
+}
 
 }  // namespace zoneplate::lessons

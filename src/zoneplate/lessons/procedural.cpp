@@ -13,6 +13,7 @@
 #include "zoneplate/signal/pattern/pattern.h"
 
 namespace zoneplate::lessons {
+namespace procedural_lesson {
 namespace {
 
 constexpr const char *method = "msaa:n=8", *reference = "ssaa:n=16";
@@ -113,7 +114,11 @@ Lesson make(const DemoSize& size, const Settings& settings) {
 }
 
 }  // namespace
+}  // namespace procedural_lesson
 
-Demo demo_procedural() { return {"procedural", "noise, marble, wood and rock, and their filtering", make, params}; }
+Demo demo_procedural() {
+  return {"procedural", "noise, marble, wood and rock, and their filtering", procedural_lesson::make,
+          procedural_lesson::params};
+}
 
 }  // namespace zoneplate::lessons

@@ -15,6 +15,7 @@
 #include "zoneplate/scene/builtin/make.h"
 
 namespace zoneplate::lessons {
+namespace rasterization_lesson {
 namespace {
 
 using sdf::Point;
@@ -208,9 +209,11 @@ Lesson make(const DemoSize& size, const Settings& settings) {
 }
 
 }  // namespace
+}  // namespace rasterization_lesson
 
 Demo demo_rasterization() {
-  return {"rasterization", "samples inside a triangle, edge functions, and the top-left rule", make, params};
+  return {"rasterization", "samples inside a triangle, edge functions, and the top-left rule",
+          rasterization_lesson::make, rasterization_lesson::params};
 }
 
 }  // namespace zoneplate::lessons

@@ -11,6 +11,7 @@
 #include "zoneplate/signal/functions.h"
 
 namespace zoneplate::lessons {
+namespace sampling_lesson {
 namespace {
 
 constexpr double bandwidth = 1;                       // Hz
@@ -175,7 +176,11 @@ Lesson make(const DemoSize& size, const Settings& settings) {
 }
 
 }  // namespace
+}  // namespace sampling_lesson
 
-Demo demo_sampling() { return {"sampling", "the spectrum of a signal's samples at different rates", make, params}; }
+Demo demo_sampling() {
+  return {"sampling", "the spectrum of a signal's samples at different rates", sampling_lesson::make,
+          sampling_lesson::params};
+}
 
 }  // namespace zoneplate::lessons

@@ -13,6 +13,7 @@
 #include "zoneplate/lessons/picture.h"
 
 namespace zoneplate::lessons {
+namespace sdf_lesson {
 namespace {
 
 using sdf::Point;
@@ -133,7 +134,11 @@ Lesson make(const DemoSize& size, const Settings& settings) {
 }
 
 }  // namespace
+}  // namespace sdf_lesson
 
-Demo demo_sdf() { return {"sdf", "shapes and text from signed distances of one and three channels", make, params}; }
+Demo demo_sdf() {
+  return {"sdf", "shapes and text from signed distances of one and three channels", sdf_lesson::make,
+          sdf_lesson::params};
+}
 
 }  // namespace zoneplate::lessons

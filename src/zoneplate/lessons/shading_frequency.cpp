@@ -10,6 +10,7 @@
 #include "zoneplate/lessons/picture.h"
 
 namespace zoneplate::lessons {
+namespace shading_frequency_lesson {
 namespace {
 
 struct Resolution {
@@ -62,7 +63,10 @@ Lesson make(const DemoSize& size, const Settings&) {
 }
 
 }  // namespace
+}  // namespace shading_frequency_lesson
 
-Demo demo_shading_frequency() { return {"shading-frequency", "flat, Gouraud and Phong shading on three meshes", make}; }
+Demo demo_shading_frequency() {
+  return {"shading-frequency", "flat, Gouraud and Phong shading on three meshes", shading_frequency_lesson::make};
+}
 
 }  // namespace zoneplate::lessons

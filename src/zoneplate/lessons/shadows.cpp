@@ -9,6 +9,7 @@
 #include "zoneplate/scene/builtin/shapes.h"
 
 namespace zoneplate::lessons {
+namespace shadows_lesson {
 namespace {
 
 constexpr int map_size = 256, factor = 4;
@@ -106,7 +107,10 @@ Lesson make(const DemoSize& size, const Settings&) {
 }
 
 }  // namespace
+}  // namespace shadows_lesson
 
-Demo demo_shadows() { return {"shadows", "shadow maps and their filters against exact visibility", make}; }
+Demo demo_shadows() {
+  return {"shadows", "shadow maps and their filters against exact visibility", shadows_lesson::make};
+}
 
 }  // namespace zoneplate::lessons

@@ -14,6 +14,7 @@
 #include "zoneplate/scene/builtin/make.h"
 
 namespace zoneplate::lessons {
+namespace transforms_lesson {
 namespace {
 
 using sdf::Point;
@@ -248,9 +249,11 @@ Lesson make(const DemoSize& size, const Settings& settings) {
 }
 
 }  // namespace
+}  // namespace transforms_lesson
 
 Demo demo_transforms() {
-  return {"transforms", "model, view, projection and viewport: one point through all of them", make, params};
+  return {"transforms", "model, view, projection and viewport: one point through all of them", transforms_lesson::make,
+          transforms_lesson::params};
 }
 
 }  // namespace zoneplate::lessons

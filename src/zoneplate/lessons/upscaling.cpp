@@ -14,6 +14,7 @@
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::lessons {
+namespace upscaling_lesson {
 namespace {
 
 constexpr int factor = 8;
@@ -89,7 +90,10 @@ Lesson make(const DemoSize& size, const Settings&) {
 }
 
 }  // namespace
+}  // namespace upscaling_lesson
 
-Demo demo_upscaling() { return {"upscaling", "nine upscalers of images with a quarter of the pixels", make}; }
+Demo demo_upscaling() {
+  return {"upscaling", "nine upscalers of images with a quarter of the pixels", upscaling_lesson::make};
+}
 
 }  // namespace zoneplate::lessons

@@ -15,6 +15,7 @@
 #include "zoneplate/signal/fourier/series.h"
 
 namespace zoneplate::lessons {
+namespace wagon_wheel_lesson {
 namespace {
 
 // Steps per spoke: their mean is within 0.1 % of the integral over an open shutter.
@@ -110,11 +111,12 @@ Lesson make(const DemoSize& size, const Settings&) {
 }
 
 }  // namespace
+}  // namespace wagon_wheel_lesson
 
 Demo demo_wagon_wheel() {
   return {"wagon-wheel",
           "an animation: a wheel that appears to roll backwards, with closed and open shutter",
-          make,
+          wagon_wheel_lesson::make,
           {},
           true};
 }

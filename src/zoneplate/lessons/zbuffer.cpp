@@ -11,6 +11,7 @@
 #include "zoneplate/render/renderer.h"
 
 namespace zoneplate::lessons {
+namespace zbuffer_lesson {
 namespace {
 
 LinearImage shot(const Scene& scene, Visibility visibility, int width, int height) {
@@ -90,7 +91,10 @@ Lesson make(const DemoSize& size, const Settings&) {
 }
 
 }  // namespace
+}  // namespace zbuffer_lesson
 
-Demo demo_zbuffer() { return {"zbuffer", "the z-buffer against the painter's algorithm, where no order exists", make}; }
+Demo demo_zbuffer() {
+  return {"zbuffer", "the z-buffer against the painter's algorithm, where no order exists", zbuffer_lesson::make};
+}
 
 }  // namespace zoneplate::lessons

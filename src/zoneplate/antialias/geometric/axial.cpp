@@ -18,6 +18,7 @@
 #include "zoneplate/render/method.h"
 
 namespace zoneplate::antialias {
+namespace axial_method {
 namespace {
 
 constexpr int places = 32;  // sample positions along each axis, those along the row first
@@ -176,16 +177,17 @@ constexpr Param params[] = {{.name = "edges",
 constexpr std::string_view variants[] = {"edges=triangles"};
 
 }  // namespace
+}  // namespace axial_method
 
 Method axial() {
   return {.name = "axial",
           .summary = "one shaded sample per pixel; coverage from 64 visibility samples along its row and column",
           .source = "after Persson 2011",
-          .params = params,
+          .params = axial_method::params,
           .make = [](const Settings& s) -> std::unique_ptr<Resolver> {
-            return std::make_unique<Axial>(s.chosen("edges") == "surfaces");
+            return std::make_unique<axial_method::Axial>(s.chosen("edges") == "surfaces");
           },
-          .variants = variants,
+          .variants = axial_method::variants,
           .is_specification_only = true};
 }
 

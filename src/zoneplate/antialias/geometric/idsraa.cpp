@@ -15,6 +15,7 @@
 #include "zoneplate/antialias/post/encoded.h"
 
 namespace zoneplate::antialias {
+namespace idsraa_method {
 namespace {
 
 /// Offsets of the neighbouring pixels, nearest first; of equal differences of depth the first is used.
@@ -108,16 +109,18 @@ constexpr Param params[] = {
 constexpr std::string_view variants[] = {"n=4"};
 
 }  // namespace
+}  // namespace idsraa_method
 
 Method idsraa() {
-  return {
-      .name = "idsraa",
-      .summary = "one shaded sample per pixel, distributed to the samples with its triangle id",
-      .source = "after Chajdas 2011",
-      .params = params,
-      .make = [](const Settings& s) -> std::unique_ptr<Resolver> { return std::make_unique<IdSraa>(s.integer("n")); },
-      .variants = variants,
-      .is_specification_only = true};
+  return {.name = "idsraa",
+          .summary = "one shaded sample per pixel, distributed to the samples with its triangle id",
+          .source = "after Chajdas 2011",
+          .params = idsraa_method::params,
+          .make = [](const Settings& s) -> std::unique_ptr<Resolver> {
+            return std::make_unique<idsraa_method::IdSraa>(s.integer("n"));
+          },
+          .variants = idsraa_method::variants,
+          .is_specification_only = true};
 }
 
 }  // namespace zoneplate::antialias

@@ -23,6 +23,7 @@
 
 namespace zoneplate {
 namespace antialias {
+namespace sraa_method {
 namespace {
 
 struct Bilateral {
@@ -146,18 +147,19 @@ constexpr Param params[] = {
 constexpr std::string_view variants[] = {"n=8"};
 
 }  // namespace
+}  // namespace sraa_method
 
 Method sraa() {
   return {.name = "sraa",
           .summary = "one shaded sample per pixel, distributed to geometry samples of similar normal and depth",
           .source = "Chajdas 2011",
-          .params = params,
+          .params = sraa_method::params,
           .make = [](const Settings& s) -> std::unique_ptr<Resolver> {
-            const Bilateral bilateral{{static_cast<float>(s.integer("scale")), static_cast<float>(s.integer("depth"))},
-                                      s.number("radius")};
-            return std::make_unique<Sraa>(s.integer("n"), bilateral);
+            const sraa_method::Bilateral bilateral{
+                {static_cast<float>(s.integer("scale")), static_cast<float>(s.integer("depth"))}, s.number("radius")};
+            return std::make_unique<sraa_method::Sraa>(s.integer("n"), bilateral);
           },
-          .variants = variants,
+          .variants = sraa_method::variants,
           .is_specification_only = true};
 }
 

@@ -13,6 +13,7 @@
 #include "zoneplate/render/method.h"
 
 namespace zoneplate::antialias {
+namespace adaptive_method {
 namespace {
 
 struct Limits {
@@ -91,16 +92,18 @@ constexpr Param params[] = {
 constexpr std::string_view variants[] = {"n=8", "n=4,contrast=100"};
 
 }  // namespace
+}  // namespace adaptive_method
 
 Method adaptive() {
   return {.name = "adaptive",
           .summary = "four samples per pixel, and a grid of samples where they differ",
           .source = "Mitchell 1987",
-          .params = params,
+          .params = adaptive_method::params,
           .make = [](const Settings& s) -> std::unique_ptr<Resolver> {
-            return std::make_unique<Adaptive>(s.integer("n"), static_cast<float>(s.integer("contrast")) / 100);
+            return std::make_unique<adaptive_method::Adaptive>(s.integer("n"),
+                                                               static_cast<float>(s.integer("contrast")) / 100);
           },
-          .variants = variants};
+          .variants = adaptive_method::variants};
 }
 
 }  // namespace zoneplate::antialias

@@ -14,6 +14,7 @@
 #include "zoneplate/render/method.h"
 
 namespace zoneplate::antialias {
+namespace csaa_method {
 namespace {
 
 class Csaa : public Resolver {
@@ -45,14 +46,15 @@ std::unique_ptr<Resolver> make(const Settings& s) {
 constexpr std::string_view variants[] = {"n=8,slots=2", "n=16,slots=4"};
 
 }  // namespace
+}  // namespace csaa_method
 
 Method csaa() {
   return {.name = "csaa",
           .summary = "coverage at many samples, colours of few surfaces per pixel (CSAA, EQAA)",
           .source = "after NVIDIA 2006",
-          .params = params,
-          .make = make,
-          .variants = variants,
+          .params = csaa_method::params,
+          .make = csaa_method::make,
+          .variants = csaa_method::variants,
           .is_specification_only = true};
 }
 

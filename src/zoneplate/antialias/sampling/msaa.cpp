@@ -14,6 +14,7 @@
 #include "zoneplate/base/error.h"
 
 namespace zoneplate::antialias {
+namespace msaa_method {
 namespace {
 
 class Msaa : public Resolver {
@@ -93,14 +94,15 @@ constexpr std::string_view variants[] = {"n=2",
                                          "n=8,alpha=sharp"};
 
 }  // namespace
+}  // namespace msaa_method
 
 Method msaa() {
   return {.name = "msaa",
           .summary = "coverage per sample, shading once per surface and pixel",
           .source = "Akeley 1993",
-          .params = params,
-          .make = make,
-          .variants = variants};
+          .params = msaa_method::params,
+          .make = msaa_method::make,
+          .variants = msaa_method::variants};
 }
 
 }  // namespace zoneplate::antialias

@@ -14,6 +14,7 @@
 #include "zoneplate/base/error.h"
 
 namespace zoneplate::antialias {
+namespace ssaa_method {
 namespace {
 
 constexpr std::size_t samples_a_round = 16;  // limits the number of stored samples
@@ -103,14 +104,15 @@ constexpr std::string_view variants[] = {"n=4",
                                          "n=4,filter=mitchell"};
 
 }  // namespace
+}  // namespace ssaa_method
 
 Method ssaa() {
   return {.name = "ssaa",
           .summary = "every sample of a pattern is shaded, and the samples averaged",
           .source = "Crow 1977",
-          .params = params,
-          .make = make,
-          .variants = variants};
+          .params = ssaa_method::params,
+          .make = ssaa_method::make,
+          .variants = ssaa_method::variants};
 }
 
 }  // namespace zoneplate::antialias

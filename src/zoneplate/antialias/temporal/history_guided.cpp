@@ -19,14 +19,15 @@
 #include <utility>
 #include <vector>
 
+#include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/antialias/temporal/camera_motion.h"
 #include "zoneplate/antialias/temporal/guided_samples.h"
 #include "zoneplate/antialias/temporal/jitter.h"
 #include "zoneplate/antialias/temporal/resolve.h"
-#include "zoneplate/base/parallel.h"
 #include "zoneplate/render/method.h"
 
 namespace zoneplate::antialias {
+namespace history_guided_method {
 namespace {
 
 constexpr int border = TemporalRow::border;
@@ -101,9 +102,6 @@ class HistoryGuided : public Resolver {
   }
 
  private:
-  static void for_rows(int height, const std::function<void(int)>& body) {
-    parallel_for(static_cast<std::size_t>(height), [&](std::size_t row) { body(static_cast<int>(row)); });
-  }
   static ColorPlanes<const float> colors_of(const Plane<float>& rows, int y, int margin) {
     return {rows.row(4 * y).data() + margin, std::ptrdiff_t{rows.width()}};
   }
@@ -151,14 +149,15 @@ class HistoryGuided : public Resolver {
 };
 
 }  // namespace
+}  // namespace history_guided_method
 
 Method history_guided() {
   return {.name = "history-guided",
           .summary = "of 17 bilinear samples of this frame, the one nearest to the last result",
           .source = "Godot, pull request 121368",
-          .params = params,
+          .params = history_guided_method::params,
           .make = [](const Settings& s) -> std::unique_ptr<Resolver> {
-            return std::make_unique<HistoryGuided>(s.integer("length"), s.integer("frames"));
+            return std::make_unique<history_guided_method::HistoryGuided>(s.integer("length"), s.integer("frames"));
           },
           .is_specification_only = true};
 }

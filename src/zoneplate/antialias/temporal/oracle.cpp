@@ -8,6 +8,7 @@
 #include "zoneplate/antialias/temporal/surface_history.h"
 
 namespace zoneplate::antialias {
+namespace oracle_method {
 namespace {
 
 constexpr Param params[] = {
@@ -21,13 +22,14 @@ constexpr Param params[] = {
 };
 
 }  // namespace
+}  // namespace oracle_method
 
 Method oracle_taa() {
   return {.name = "oracle-taa",
           .summary =
               "one shaded sample per frame, with history by object and exact visibility, by further samples and rays",
           .source = "Zoneplate",
-          .params = params,
+          .params = oracle_method::params,
           .make = [](const Settings& s) -> std::unique_ptr<Resolver> {
             return std::make_unique<SurfaceHistory>(SurfaceHistory::Options{
                 .most = s.integer("most"), .length = s.integer("length"), .coverage = s.integer("coverage")});

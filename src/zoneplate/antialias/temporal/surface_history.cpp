@@ -6,16 +6,12 @@
 #include <functional>
 #include <limits>
 
+#include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/antialias/temporal/camera_motion.h"
 #include "zoneplate/antialias/temporal/jitter.h"
-#include "zoneplate/base/parallel.h"
 
 namespace zoneplate::antialias {
 namespace {
-
-void for_rows(int height, const std::function<void(int)>& body) {
-  parallel_for(static_cast<std::size_t>(height), [&](std::size_t row) { body(static_cast<int>(row)); });
-}
 
 float luma_of(const Linear& c) { return (c.r + c.b) * 0.25f + c.g * 0.5f; }
 

@@ -18,6 +18,7 @@
 #include "zoneplate/metrics/mse.h"
 
 namespace zoneplate::lessons {
+namespace checkerboard_lesson {
 namespace {
 
 constexpr int factor = 4;
@@ -164,9 +165,11 @@ Lesson make(const DemoSize& size, const Settings& settings) {
 }
 
 }  // namespace
+}  // namespace checkerboard_lesson
 
 Demo demo_checkerboard() {
-  return {"checkerboard", "half of the pixels in each frame, and where the other half comes from", make, params};
+  return {"checkerboard", "half of the pixels in each frame, and where the other half comes from",
+          checkerboard_lesson::make, checkerboard_lesson::params};
 }
 
 }  // namespace zoneplate::lessons

@@ -10,6 +10,7 @@
 #include "zoneplate/lessons/temporal/moving_film.h"
 
 namespace zoneplate::lessons {
+namespace ghosting_lesson {
 namespace {
 
 constexpr int factor = 4, jump = 8;  // the scene jumps before frame 8
@@ -68,9 +69,11 @@ Lesson make(const DemoSize& size, const Settings&) {
 }
 
 }  // namespace
+}  // namespace ghosting_lesson
 
 Demo demo_ghosting() {
-  return {"ghosting", "the image of an object that has jumped away, and the tests that remove it", make};
+  return {"ghosting", "the image of an object that has jumped away, and the tests that remove it",
+          ghosting_lesson::make};
 }
 
 }  // namespace zoneplate::lessons

@@ -19,6 +19,7 @@
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::lessons {
+namespace learned_lesson {
 namespace {
 
 constexpr int factor = 4;
@@ -90,9 +91,11 @@ Lesson make(const DemoSize& size, const Settings&) {
 }
 
 }  // namespace
+}  // namespace learned_lesson
 
 Demo demo_learned() {
-  return {"learned", "where a network keeps history that rules drop, and where it keeps too much", make};
+  return {"learned", "where a network keeps history that rules drop, and where it keeps too much",
+          learned_lesson::make};
 }
 
 }  // namespace zoneplate::lessons

@@ -13,6 +13,7 @@
 #include "zoneplate/metrics/mse.h"
 
 namespace zoneplate::lessons {
+namespace temporal_lesson {
 namespace {
 
 constexpr int factor = 8;
@@ -95,7 +96,10 @@ Lesson make(const DemoSize& size, const Settings&) {
 }
 
 }  // namespace
+}  // namespace temporal_lesson
 
-Demo demo_temporal() { return {"temporal", "one sample a frame, accumulated at rest and in motion", make}; }
+Demo demo_temporal() {
+  return {"temporal", "one sample a frame, accumulated at rest and in motion", temporal_lesson::make};
+}
 
 }  // namespace zoneplate::lessons

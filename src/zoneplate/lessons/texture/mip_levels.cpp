@@ -20,6 +20,7 @@
 #include "zoneplate/signal/pattern/pattern.h"
 
 namespace zoneplate::lessons {
+namespace mip_levels_lesson {
 namespace {
 
 constexpr int texels = 256;
@@ -192,9 +193,11 @@ Lesson make(const DemoSize& size, const Settings& settings) {
 }
 
 }  // namespace
+}  // namespace mip_levels_lesson
 
 Demo demo_mip_levels() {
-  return {"mip-levels", "mip levels: where each is read, their filters and their alpha", make, params};
+  return {"mip-levels", "mip levels: where each is read, their filters and their alpha", mip_levels_lesson::make,
+          mip_levels_lesson::params};
 }
 
 }  // namespace zoneplate::lessons

@@ -14,6 +14,7 @@
 #include "zoneplate/signal/functions.h"
 
 namespace zoneplate::lessons {
+namespace normal_map_aliasing_lesson {
 namespace {
 
 constexpr int texels = 256, factor = 4;
@@ -172,10 +173,11 @@ Lesson make(const DemoSize& size, const Settings&) {
 }
 
 }  // namespace
+}  // namespace normal_map_aliasing_lesson
 
 Demo demo_normal_map_aliasing() {
   return {"normal-map-aliasing", "highlights of normal maps and curved metal, and roughness that accounts for them",
-          make};
+          normal_map_aliasing_lesson::make};
 }
 
 }  // namespace zoneplate::lessons

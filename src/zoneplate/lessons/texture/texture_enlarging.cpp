@@ -11,6 +11,7 @@
 #include "zoneplate/signal/filter/resample.h"
 
 namespace zoneplate::lessons {
+namespace texture_enlarging_lesson {
 namespace {
 
 constexpr int reduction = 9;
@@ -63,9 +64,11 @@ Lesson make(const DemoSize& size, const Settings&) {
 }
 
 }  // namespace
+}  // namespace texture_enlarging_lesson
 
 Demo demo_texture_enlarging() {
-  return {"texture-enlarging", "texture filters where each texel covers many pixels, with their errors", make};
+  return {"texture-enlarging", "texture filters where each texel covers many pixels, with their errors",
+          texture_enlarging_lesson::make};
 }
 
 }  // namespace zoneplate::lessons

@@ -12,6 +12,7 @@
 #include "zoneplate/signal/pattern/pattern.h"
 
 namespace zoneplate::lessons {
+namespace texture_filters_lesson {
 namespace {
 
 constexpr int factor = 4;                   // enlargement of the crops
@@ -103,9 +104,11 @@ Lesson make(const DemoSize& size, const Settings& settings) {
 }
 
 }  // namespace
+}  // namespace texture_filters_lesson
 
 Demo demo_texture_filters() {
-  return {"texture-filters", "every texture filter on a board to the horizon, with its error", make, params};
+  return {"texture-filters", "every texture filter on a board to the horizon, with its error",
+          texture_filters_lesson::make, texture_filters_lesson::params};
 }
 
 }  // namespace zoneplate::lessons

@@ -325,7 +325,7 @@ Place place_of(double log, double first, double last) {
 }
 
 // log10 of the first and last luminance and frequency of the table.
-constexpr double min_luminance = -2.301029995663981, max_luminance = 4;
+constexpr double min_log_luminance = -2.301029995663981, max_log_luminance = 4;
 constexpr double min_frequency = -1, max_frequency = 1.806179973983887;
 
 }  // namespace
@@ -339,7 +339,7 @@ Sensitivity::Sensitivity(int channel, double cycles_per_degree) {
 }
 
 double Sensitivity::at_log(double log_luminance) const {
-  const Place place = place_of(log_luminance, min_luminance, max_luminance);
+  const Place place = place_of(log_luminance, min_log_luminance, max_log_luminance);
   const double* entry = logs_.data() + place.index;
   return natural_exp(entry[0] + place.share * (entry[1] - entry[0]));
 }

@@ -147,11 +147,6 @@ std::optional<FramePattern> frame_pattern(const std::string& name) {
   return FramePattern{name.substr(0, percent), name.substr(d + 1), std::max<std::size_t>(1, digits)};
 }
 
-bool is_directory(const std::string& path) {
-  std::error_code ignored;
-  return fs::is_directory(path, ignored);
-}
-
 /// Requires at least one image in a directory.
 std::vector<std::string> if_any(std::vector<std::string> paths, const std::string& directory) {
   if (paths.empty())
@@ -205,6 +200,11 @@ Picture picture_of_frame(const ImageFile& file) {
 }
 
 }  // namespace
+
+bool is_directory(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored);
+}
 
 std::string image_endings() {
   std::string text;

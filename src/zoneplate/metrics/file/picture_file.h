@@ -43,6 +43,9 @@ Picture load_picture(const std::string& path, std::uint64_t max_pixels = std::ui
 /// A display-referred picture of codes, which has their values exactly.
 Picture picture_of(const TexelImage& codes);
 
+/// True if a path names a directory that can be seen.
+bool is_directory(const std::string& path);
+
 /// The image files of one operand, in order.
 struct PictureFiles {
   std::vector<std::string> paths;

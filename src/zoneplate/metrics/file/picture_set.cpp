@@ -26,11 +26,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_directory(const std::string& path) {
-  std::error_code ignored;
-  return fs::is_directory(path, ignored);
-}
-
 /// Splits a stream of PNG files at their ends.
 std::vector<std::span<const std::uint8_t>> split_png_stream(std::span<const std::uint8_t> bytes) {
   constexpr std::size_t signature = 8, chunk_frame = 12;

@@ -5,6 +5,7 @@
 #include "zoneplate/scene/builtin/make.h"
 
 namespace zoneplate {
+namespace checkerboard_scene {
 namespace {
 
 constexpr int texels = 512, squares = 8;  // of one repetition of the texture, per side
@@ -57,9 +58,10 @@ Scene make(std::span<const std::int64_t>) {
 }
 
 }  // namespace
+}  // namespace checkerboard_scene
 
 BuiltinMaker builtin_checkerboard() {
-  return {"checkerboard", "a checkerboard of one metre squares to the horizon", {}, make};
+  return {"checkerboard", "a checkerboard of one metre squares to the horizon", {}, checkerboard_scene::make};
 }
 
 }  // namespace zoneplate

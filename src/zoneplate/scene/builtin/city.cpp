@@ -10,6 +10,7 @@
 #include "zoneplate/scene/builtin/bench.h"
 
 namespace zoneplate {
+namespace city_scene {
 namespace {
 
 /// A sequence of random words for the layout of the city.
@@ -73,7 +74,7 @@ void add_house(BenchMesh& out, const House& house) {
   }
 }
 
-Scene city_scene(const char* name, int anisotropy) {
+Scene make(const char* name, int anisotropy) {
   BenchMesh out;
   const std::vector<House> list = houses();
   for (std::size_t i = 0; i < list.size(); ++i) {
@@ -91,15 +92,16 @@ Scene city_scene(const char* name, int anisotropy) {
 }
 
 }  // namespace
+}  // namespace city_scene
 
 BuiltinMaker builtin_city() {
   return {"city", "4,000 textured boxes and the ground, from a street; 8x anisotropic filter", {}, [](auto) {
-            return city_scene("city", 8);
+            return city_scene::make("city", 8);
           }};
 }
 BuiltinMaker builtin_city_trilinear() {
   return {"city-trilinear", "benchmark: the city without anisotropic filtering", {}, [](auto) {
-            return city_scene("city-trilinear", 1);
+            return city_scene::make("city-trilinear", 1);
           }};
 }
 

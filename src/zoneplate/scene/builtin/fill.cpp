@@ -4,6 +4,7 @@
 #include "zoneplate/scene/builtin/bench.h"
 
 namespace zoneplate {
+namespace fill_scene {
 namespace {
 
 constexpr float quarter_pi = 0.78539816f;
@@ -32,7 +33,7 @@ Mesh quads() {
   return std::move(out.mesh);
 }
 
-Scene fill_scene(const char* name, AlphaMode alpha) {
+Scene make(const char* name, AlphaMode alpha) {
   Scene scene;
   scene.images.push_back(brick_texture());
   Material material;
@@ -48,15 +49,16 @@ Scene fill_scene(const char* name, AlphaMode alpha) {
 }
 
 }  // namespace
+}  // namespace fill_scene
 
 BuiltinMaker builtin_fill() {
   return {"fill", "benchmark: 32 opaque layers over the whole image", {}, [](auto) {
-            return fill_scene("fill", AlphaMode::Opaque);
+            return fill_scene::make("fill", AlphaMode::Opaque);
           }};
 }
 BuiltinMaker builtin_fillblend() {
   return {"fillblend", "benchmark: 32 transparent layers over the whole image", {}, [](auto) {
-            return fill_scene("fillblend", AlphaMode::Blend);
+            return fill_scene::make("fillblend", AlphaMode::Blend);
           }};
 }
 

@@ -7,6 +7,7 @@
 #include "zoneplate/scene/builtin/shapes.h"
 
 namespace zoneplate {
+namespace foliage_scene {
 namespace {
 
 constexpr int texels = 256;
@@ -103,12 +104,13 @@ Scene make(std::span<const std::int64_t>) {
 }
 
 }  // namespace
+}  // namespace foliage_scene
 
 BuiltinMaker builtin_foliage() {
   return {"foliage",
           "trees near and far, their leaves cut out of a texture",
           {},
-          make,
+          foliage_scene::make,
           "alpha-tested foliage",
           "Leaves flicker, harden and vanish with distance: three.js issues 20522 and 14091."};
 }

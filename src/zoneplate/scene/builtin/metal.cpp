@@ -7,6 +7,7 @@
 #include "zoneplate/scene/builtin/shapes.h"
 
 namespace zoneplate {
+namespace metal_scene {
 namespace {
 
 constexpr double two_pi = 6.283185307179586;
@@ -100,12 +101,13 @@ Scene make(std::span<const std::int64_t>) {
 }
 
 }  // namespace
+}  // namespace metal_scene
 
 BuiltinMaker builtin_metal() {
   return {"metal",
           "a fluted vase, a spring and a hammered bowl of polished metal",
           {},
-          make,
+          metal_scene::make,
           "specular shimmer",
           "Highlights sparkle and crawl on curved metal: three.js issue 30639, Bevy issue 24288, Filament issue 1218."};
 }

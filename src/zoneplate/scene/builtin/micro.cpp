@@ -8,6 +8,7 @@
 #include "zoneplate/scene/builtin/bench.h"
 
 namespace zoneplate {
+namespace micro_scene {
 namespace {
 
 constexpr float quarter_pi = 0.78539816f;
@@ -43,7 +44,10 @@ Scene make(std::span<const std::int64_t>) {
 }
 
 }  // namespace
+}  // namespace micro_scene
 
-BuiltinMaker builtin_micro() { return {"micro", "benchmark: a wavy sheet of 4,000,000 triangles", {}, make}; }
+BuiltinMaker builtin_micro() {
+  return {"micro", "benchmark: a wavy sheet of 4,000,000 triangles", {}, micro_scene::make};
+}
 
 }  // namespace zoneplate

@@ -10,6 +10,7 @@
 #include "zoneplate/signal/pattern/gradient_noise.h"
 
 namespace zoneplate {
+namespace mountain_scene {
 namespace {
 
 /// The height over the ground at (x, z) in [-1, 1]²: ridges of 1 - |noise|, each octave weighted by the one before, so
@@ -74,7 +75,10 @@ Scene make(std::span<const std::int64_t> values) {
 }
 
 }  // namespace
+}  // namespace mountain_scene
 
-BuiltinMaker builtin_mountain() { return {"mountain", "a height field of ridged fractal noise", params, make}; }
+BuiltinMaker builtin_mountain() {
+  return {"mountain", "a height field of ridged fractal noise", mountain_scene::params, mountain_scene::make};
+}
 
 }  // namespace zoneplate

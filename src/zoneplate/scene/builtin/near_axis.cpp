@@ -3,6 +3,7 @@
 #include "zoneplate/scene/builtin/shapes.h"
 
 namespace zoneplate {
+namespace near_axis_scene {
 namespace {
 
 Scene make(std::span<const std::int64_t>) {
@@ -34,12 +35,13 @@ Scene make(std::span<const std::int64_t>) {
 }
 
 }  // namespace
+}  // namespace near_axis_scene
 
 BuiltinMaker builtin_near_axis() {
   return {"near-axis",
           "slats a fifth of a degree to three and a half off level and upright",
           {},
-          make,
+          near_axis_scene::make,
           "near-axis edges",
           "Stairs that stay on nearly level edges: PCSX2 issue 997, KlayGE issue 80 (FXAA given up for SMAA)."};
 }

@@ -4,6 +4,7 @@
 #include "zoneplate/scene/builtin/shapes.h"
 
 namespace zoneplate {
+namespace pergola_scene {
 namespace {
 
 Material painted(const char* name, float3 color, float roughness) {
@@ -60,12 +61,13 @@ Scene make(std::span<const std::int64_t>) {
 }
 
 }  // namespace
+}  // namespace pergola_scene
 
 BuiltinMaker builtin_pergola() {
   return {"pergola",
           "the shadow of thin slats on a terrace; for --shadows map, hard and soft",
           {},
-          make,
+          pergola_scene::make,
           "shadow edges",
           "Edges of shadows stay jagged under multisampling and crawl with the camera: Bevy issue 8532, Filament issue "
           "3158."};

@@ -7,6 +7,7 @@
 #include "zoneplate/scene/builtin/shapes.h"
 
 namespace zoneplate {
+namespace rivets_scene {
 namespace {
 
 /// A plate of 256 × 256 texels: two rows of domes along two of its sides, a groove, and fine brushing along u.
@@ -74,12 +75,13 @@ Scene make(std::span<const std::int64_t>) {
 }
 
 }  // namespace
+}  // namespace rivets_scene
 
 BuiltinMaker builtin_rivets() {
   return {"rivets",
           "a riveted steel hull with a normal map; for --specular-aa",
           {},
-          make,
+          rivets_scene::make,
           "normal-map aliasing",
           "Highlights of detailed normal maps sparkle far away: Bevy issue 24288, Godot issue 45427."};
 }

@@ -8,6 +8,7 @@
 #include "zoneplate/scene/builtin/bench.h"
 
 namespace zoneplate {
+namespace sphere_scene {
 namespace {
 
 /// A side of the cube: its two axes and its normal, their cross product.
@@ -73,7 +74,7 @@ Mesh sphere_mesh(int n) {
   return std::move(out.mesh);
 }
 
-Scene sphere_scene(const char* name, int n) {
+Scene make_of(const char* name, int n) {
   Scene scene = lit_scene(name, sphere_mesh(n), {});
   // At this distance a unit sphere is 0.6 of the image's height at 45°.
   const float3 eye = unit({0.35f, 0.30f, 1}) * 4.1456f;
@@ -86,19 +87,25 @@ constexpr Param params[] = {{"triangles", "rounded up to 12 n²", 10000, 12, 100
 Scene make_sphere(std::span<const std::int64_t> values) {
   int n = 1;
   while (12 * std::int64_t{n} * n < values[0]) ++n;
-  return sphere_scene("sphere", n);
+  return make_of("sphere", n);
 }
 
 }  // namespace
+}  // namespace sphere_scene
 
 BuiltinMaker builtin_sphere() {
-  return {"sphere", "a sphere displaced by noise, of any number of triangles", params, make_sphere};
+  return {"sphere", "a sphere displaced by noise, of any number of triangles", sphere_scene::params,
+          sphere_scene::make_sphere};
 }
 BuiltinMaker builtin_tri10k() {
-  return {"tri10k", "benchmark: the sphere of 10,092 triangles", {}, [](auto) { return sphere_scene("tri10k", 29); }};
+  return {"tri10k", "benchmark: the sphere of 10,092 triangles", {}, [](auto) {
+            return sphere_scene::make_of("tri10k", 29);
+          }};
 }
 BuiltinMaker builtin_tri1m() {
-  return {"tri1m", "benchmark: the sphere of 1,002,252 triangles", {}, [](auto) { return sphere_scene("tri1m", 289); }};
+  return {"tri1m", "benchmark: the sphere of 1,002,252 triangles", {}, [](auto) {
+            return sphere_scene::make_of("tri1m", 289);
+          }};
 }
 
 }  // namespace zoneplate

@@ -4,6 +4,7 @@
 #include "zoneplate/scene/builtin/shapes.h"
 
 namespace zoneplate {
+namespace stars_scene {
 namespace {
 
 constexpr float pixel = 2.0f / 480;  // in an image 480 pixels high, for which the stars are sized
@@ -54,10 +55,11 @@ Scene make(std::span<const std::int64_t>) {
 }
 
 }  // namespace
+}  // namespace stars_scene
 
 BuiltinMaker builtin_stars() {
   return {"stars", "stars of a third of a pixel to one and a half, and a ridge",
-          {},      make,
+          {},      stars_scene::make,
           "stars", "Stars are taken for noise and smeared away, or blink as they move: DaemonEngine issue 1909."};
 }
 

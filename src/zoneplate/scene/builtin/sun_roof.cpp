@@ -4,6 +4,7 @@
 #include "zoneplate/scene/builtin/shapes.h"
 
 namespace zoneplate {
+namespace sun_roof_scene {
 namespace {
 
 /// The silhouette of the house against the sky: gable, chimney, a lower roof, an aerial.
@@ -52,13 +53,14 @@ Scene make(std::span<const std::int64_t>) {
 }
 
 }  // namespace
+}  // namespace sun_roof_scene
 
 BuiltinMaker builtin_sun_roof() {
   return {
       "sun-roof",
       "the sun, 120 times white, behind a dark roof",
       {},
-      make,
+      sun_roof_scene::make,
       "HDR edges",
       "Edges before very bright light stay jagged under multisampling: godot issue 59965, Unity Graphics issue 1839."};
 }

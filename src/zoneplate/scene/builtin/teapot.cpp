@@ -14,6 +14,7 @@
 #include "zoneplate/scene/builtin/make.h"
 
 namespace zoneplate {
+namespace teapot_scene {
 namespace {
 
 struct Point {
@@ -168,7 +169,10 @@ Scene make(std::span<const std::int64_t> values) {
 }
 
 }  // namespace
+}  // namespace teapot_scene
 
-BuiltinMaker builtin_teapot() { return {"teapot", "Newell's teapot, 32 Bezier patches", params, make}; }
+BuiltinMaker builtin_teapot() {
+  return {"teapot", "Newell's teapot, 32 Bezier patches", teapot_scene::params, teapot_scene::make};
+}
 
 }  // namespace zoneplate

@@ -10,6 +10,7 @@
 #include "zoneplate/scene/builtin/shapes.h"
 
 namespace zoneplate {
+namespace text_ui_scene {
 namespace {
 
 /// Letters of 5 × 7 pixels: rows from the top, the highest of five bits on the left.
@@ -164,10 +165,15 @@ Scene make(std::span<const std::int64_t> values) {
 }
 
 }  // namespace
+}  // namespace text_ui_scene
 
 BuiltinMaker builtin_text_ui() {
-  return {"text-ui",  "a window of text and controls, one texel a pixel in an image of its size", params, make,
-          "blur tax", "Text and controls are blurred: Unity PostProcessing issues 288 and 841."};
+  return {"text-ui",
+          "a window of text and controls, one texel a pixel in an image of its size",
+          text_ui_scene::params,
+          text_ui_scene::make,
+          "blur tax",
+          "Text and controls are blurred: Unity PostProcessing issues 288 and 841."};
 }
 
 }  // namespace zoneplate

@@ -3,6 +3,7 @@
 #include "zoneplate/scene/builtin/shapes.h"
 
 namespace zoneplate {
+namespace thin_diagonal_scene {
 namespace {
 
 Mesh make_cables() {
@@ -63,12 +64,13 @@ Scene make(std::span<const std::int64_t>) {
 }
 
 }  // namespace
+}  // namespace thin_diagonal_scene
 
 BuiltinMaker builtin_thin_diagonal() {
   return {"thin-diagonal",
           "a bridge's cables: oblique lines of about a pixel",
           {},
-          make,
+          thin_diagonal_scene::make,
           "thin diagonals",
           "Fine oblique geometry is broken up, or not found at all: pmndrs/postprocessing issue 290."};
 }

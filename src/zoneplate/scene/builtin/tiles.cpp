@@ -4,6 +4,7 @@
 #include "zoneplate/scene/builtin/shapes.h"
 
 namespace zoneplate {
+namespace tiles_scene {
 namespace {
 
 /// One tile of 128 × 128 texels: a dark joint on two sides, a narrow inlay inside.
@@ -58,12 +59,13 @@ Scene make(std::span<const std::int64_t>) {
 }
 
 }  // namespace
+}  // namespace tiles_scene
 
 BuiltinMaker builtin_tiles() {
   return {"tiles",
           "a floor of tiles and a brick wall, textures without smaller levels",
           {},
-          make,
+          tiles_scene::make,
           "texture aliasing",
           "Moiré in fine textures, and grid lines doubled by filters of edges: SMAAPlugin issue 9."};
 }

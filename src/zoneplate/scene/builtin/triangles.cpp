@@ -7,6 +7,7 @@
 #include "zoneplate/scene/builtin/make.h"
 
 namespace zoneplate {
+namespace triangles_scene {
 namespace {
 
 constexpr float quarter_pi = 0.78539816f;
@@ -82,17 +83,18 @@ Scene make_crossing(std::span<const std::int64_t>) {
 }
 
 }  // namespace
+}  // namespace triangles_scene
 
 BuiltinMaker builtin_triangles() {
-  return {"triangles", "two triangles, one before the other, in two pale colours", {}, make_triangles};
+  return {"triangles", "two triangles, one before the other, in two pale colours", {}, triangles_scene::make_triangles};
 }
 
 BuiltinMaker builtin_cyclic() {
-  return {"cyclic", "three long triangles, each before the next in a circle", {}, make_cyclic};
+  return {"cyclic", "three long triangles, each before the next in a circle", {}, triangles_scene::make_cyclic};
 }
 
 BuiltinMaker builtin_crossing() {
-  return {"crossing", "three squares that pass through each other", {}, make_crossing};
+  return {"crossing", "three squares that pass through each other", {}, triangles_scene::make_crossing};
 }
 
 }  // namespace zoneplate

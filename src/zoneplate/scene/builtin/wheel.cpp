@@ -10,6 +10,7 @@
 #include "zoneplate/scene/builtin/make.h"
 
 namespace zoneplate {
+namespace wheel_scene {
 namespace {
 
 constexpr double two_pi = 6.283185307179586;
@@ -212,7 +213,10 @@ constexpr Param params[] = {{"spokes", "how many", 12, 1, 360},
                              .decimals = 6}};
 
 }  // namespace
+}  // namespace wheel_scene
 
-BuiltinMaker builtin_wheel() { return {"wheel", "a wagon's wheel of any number of equal spokes", params, make}; }
+BuiltinMaker builtin_wheel() {
+  return {"wheel", "a wagon's wheel of any number of equal spokes", wheel_scene::params, wheel_scene::make};
+}
 
 }  // namespace zoneplate

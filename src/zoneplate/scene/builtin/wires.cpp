@@ -3,6 +3,7 @@
 #include "zoneplate/scene/builtin/shapes.h"
 
 namespace zoneplate {
+namespace wires_scene {
 namespace {
 
 constexpr int masts = 6;
@@ -63,12 +64,13 @@ Scene make(std::span<const std::int64_t>) {
 }
 
 }  // namespace
+}  // namespace wires_scene
 
 BuiltinMaker builtin_wires() {
   return {"wires",
           "power lines and a fence, thinner than a pixel far away",
           {},
-          make,
+          wires_scene::make,
           "sub-pixel wires and grates",
           "Thin lines and grates fall to pieces or are smeared away: DaemonEngine issue 1909."};
 }

@@ -15,7 +15,7 @@
 namespace zoneplate::antialias {
 namespace {
 
-constexpr std::string_view variants[] = {"mode=s2x", "mode=t2x", "mode=4x"};
+constexpr std::string_view exact_variants[] = {"mode=s2x", "mode=t2x", "mode=4x"};
 
 }  // namespace
 
@@ -27,7 +27,7 @@ Method smaa_exact() {
           .source = "Jimenez 2012; the areas are our own",
           .params = smaa().params,
           .make = [](const Settings& s) { return make_smaa(s, SmaaAreas::Exact, "smaa-exact"); },
-          .variants = variants};
+          .variants = exact_variants};
 }
 
 }  // namespace zoneplate::antialias

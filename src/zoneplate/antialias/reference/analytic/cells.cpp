@@ -7,8 +7,6 @@
 namespace zoneplate::antialias {
 namespace {
 
-constexpr int many_corners = 12;  // corners of a cell; three edges, or a grid, may add four before the next check
-
 /// The line whose inner side is where a is nearer than b.
 Line nearer(const PixelTriangle& a, const PixelTriangle& b) { return {a.zx - b.zx, a.zy - b.zy, a.z - b.z}; }
 

@@ -4,11 +4,6 @@
 #include <algorithm>
 
 namespace zoneplate::antialias {
-namespace {
-
-constexpr int many_corners = 12;
-
-}  // namespace
 
 void MaskedPolygons::clear() {
   edges_.clear();

@@ -39,6 +39,9 @@ struct ConvexPolygon {
   const Place& operator[](int i) const { return corner[static_cast<std::size_t>(i)]; }
 };
 
+/// A polygon with more corners is not cut further as it is; three edges, or a grid, may add four before the next check.
+inline constexpr int many_corners = 12;
+
 /// The pixel itself: the unit square.
 ConvexPolygon unit_square();
 

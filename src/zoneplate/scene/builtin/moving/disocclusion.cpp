@@ -4,6 +4,7 @@
 #include "zoneplate/scene/builtin/moving/moving.h"
 
 namespace zoneplate {
+namespace disocclusion_scene {
 namespace {
 
 Scene make(std::span<const std::int64_t> values) {
@@ -19,10 +20,11 @@ Scene make(std::span<const std::int64_t> values) {
 }
 
 }  // namespace
+}  // namespace disocclusion_scene
 
 BuiltinMaker builtin_disocclusion() {
   return {"disocclusion", "a slab that slides over a wall of small squares and uncovers it (godot issue 85399)",
-          moment_params, make};
+          moment_params, disocclusion_scene::make};
 }
 
 }  // namespace zoneplate

@@ -5,6 +5,7 @@
 #include "zoneplate/scene/builtin/moving/moving.h"
 
 namespace zoneplate {
+namespace falling_snow_scene {
 namespace {
 
 Mesh make_flakes(float time) {
@@ -36,10 +37,11 @@ Scene make(std::span<const std::int64_t> values) {
 }
 
 }  // namespace
+}  // namespace falling_snow_scene
 
 BuiltinMaker builtin_falling_snow() {
   return {"falling-snow", "particles of half a pixel to two before a dark wall (godot pull request 111631)",
-          moment_params, make};
+          moment_params, falling_snow_scene::make};
 }
 
 }  // namespace zoneplate

@@ -5,6 +5,7 @@
 #include "zoneplate/scene/builtin/moving/moving.h"
 
 namespace zoneplate {
+namespace light_switch_scene {
 namespace {
 
 Scene make(std::span<const std::int64_t> values) {
@@ -31,10 +32,11 @@ Scene make(std::span<const std::int64_t> values) {
 }
 
 }  // namespace
+}  // namespace light_switch_scene
 
 BuiltinMaker builtin_light_switch() {
   return {"light-switch", "a ball under a light that is switched twice a second, and a lamp that a board covers",
-          moment_params, make};
+          moment_params, light_switch_scene::make};
 }
 
 }  // namespace zoneplate

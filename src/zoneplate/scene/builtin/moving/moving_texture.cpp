@@ -4,6 +4,7 @@
 #include "zoneplate/scene/builtin/moving/moving.h"
 
 namespace zoneplate {
+namespace moving_texture_scene {
 namespace {
 
 /// Bars and squares of 4 × 4 texels in strong colours, and rows of dashes two texels high between them.
@@ -40,9 +41,11 @@ Scene make(std::span<const std::int64_t> values) {
 }
 
 }  // namespace
+}  // namespace moving_texture_scene
 
 BuiltinMaker builtin_moving_texture() {
-  return {"moving-texture", "a texture that scrolls over a belt at rest (godot issue 69493)", moment_params, make};
+  return {"moving-texture", "a texture that scrolls over a belt at rest (godot issue 69493)", moment_params,
+          moving_texture_scene::make};
 }
 
 }  // namespace zoneplate

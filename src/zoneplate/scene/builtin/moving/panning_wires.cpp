@@ -5,6 +5,7 @@
 #include "zoneplate/scene/builtin/moving/moving.h"
 
 namespace zoneplate {
+namespace panning_wires_scene {
 namespace {
 
 Scene make(std::span<const std::int64_t> values) {
@@ -17,10 +18,11 @@ Scene make(std::span<const std::int64_t> values) {
 }
 
 }  // namespace
+}  // namespace panning_wires_scene
 
 BuiltinMaker builtin_panning_wires() {
   return {"panning-wires", "a slow pan over power lines and a fence, thinner than a pixel far away", moment_params,
-          make};
+          panning_wires_scene::make};
 }
 
 }  // namespace zoneplate

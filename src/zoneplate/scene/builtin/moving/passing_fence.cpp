@@ -4,6 +4,7 @@
 #include "zoneplate/scene/builtin/moving/moving.h"
 
 namespace zoneplate {
+namespace passing_fence_scene {
 namespace {
 
 Scene make(std::span<const std::int64_t> values) {
@@ -22,10 +23,11 @@ Scene make(std::span<const std::int64_t> values) {
 }
 
 }  // namespace
+}  // namespace passing_fence_scene
 
 BuiltinMaker builtin_passing_fence() {
   return {"passing-fence", "a fence at rest before a wall that passes by (FidelityFX-FSR2 issue 53)", moment_params,
-          make};
+          passing_fence_scene::make};
 }
 
 }  // namespace zoneplate

@@ -9,6 +9,7 @@
 #include "zoneplate/scene/builtin/moving/moving.h"
 
 namespace zoneplate {
+namespace slow_light_scene {
 namespace {
 
 Scene make_light_ramp(std::span<const std::int64_t> values) {
@@ -92,20 +93,21 @@ Scene make_soft_disc(std::span<const std::int64_t> values) {
 }
 
 }  // namespace
+}  // namespace slow_light_scene
 
 BuiltinMaker builtin_light_ramp() {
   return {"light-ramp", "a scene at rest under a light that grows bright and dark within seconds", moment_params,
-          make_light_ramp};
+          slow_light_scene::make_light_ramp};
 }
 
 BuiltinMaker builtin_soft_shadow() {
   return {"soft-shadow", "the soft border of a spot light, which moves over a wall at rest", moment_params,
-          make_soft_shadow};
+          slow_light_scene::make_soft_shadow};
 }
 
 BuiltinMaker builtin_soft_disc() {
   return {"soft-disc", "transparent discs with soft borders that move over a wall at rest", moment_params,
-          make_soft_disc};
+          slow_light_scene::make_soft_disc};
 }
 
 }  // namespace zoneplate

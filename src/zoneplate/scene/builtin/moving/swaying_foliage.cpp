@@ -6,6 +6,7 @@
 #include "zoneplate/scene/builtin/moving/moving.h"
 
 namespace zoneplate {
+namespace swaying_foliage_scene {
 namespace {
 
 /// Moves every quad of a mesh of leaves as a whole: with its tree, and by itself.
@@ -33,9 +34,11 @@ Scene make(std::span<const std::int64_t> values) {
 }
 
 }  // namespace
+}  // namespace swaying_foliage_scene
 
 BuiltinMaker builtin_swaying_foliage() {
-  return {"swaying-foliage", "the trees of foliage in wind (FidelityFX-FSR2 issue 38)", moment_params, make};
+  return {"swaying-foliage", "the trees of foliage in wind (FidelityFX-FSR2 issue 38)", moment_params,
+          swaying_foliage_scene::make};
 }
 
 }  // namespace zoneplate

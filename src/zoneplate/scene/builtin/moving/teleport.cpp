@@ -4,6 +4,7 @@
 #include "zoneplate/scene/builtin/moving/moving.h"
 
 namespace zoneplate {
+namespace teleport_scene {
 namespace {
 
 Mesh make_spokes() {
@@ -32,9 +33,11 @@ Scene make(std::span<const std::int64_t> values) {
 }
 
 }  // namespace
+}  // namespace teleport_scene
 
 BuiltinMaker builtin_teleport() {
-  return {"teleport", "a disc that jumps three times a second, and spokes that turn", moment_params, make};
+  return {"teleport", "a disc that jumps three times a second, and spokes that turn", moment_params,
+          teleport_scene::make};
 }
 
 }  // namespace zoneplate
