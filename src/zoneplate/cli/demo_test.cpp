@@ -24,8 +24,8 @@ using namespace lessons;
 
 constexpr DemoSize small{64};
 
-Rgba8Image drawn(const Demo& demo) {
-  return compose(demo.make(small, Settings(demo.params)).frames.at(0), small.style());
+Rgba8Image drawn(const Demo& demo, const Settings& settings) {
+  return compose(demo.make(small, settings).frames.at(0), small.style());
 }
 
 std::string message_of(const std::vector<std::string>& arguments) {
@@ -49,11 +49,29 @@ class DemoFolder : public testing::Test {
   std::filesystem::path place;
 };
 
-TEST_F(DemoFolder, AllLessonsAreWrittenAndSaid) {
-  const std::string folder = (place / "lessons").string();
-  testing::internal::CaptureStdout();
-  run_demo(std::vector<std::string>{"all", "-o", folder, "--panel", "64"});
-  const std::string said = testing::internal::GetCapturedStdout();
+/// Every lesson, drawn once by one thread into a folder.
+class AllLessons : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    std::string name = (std::filesystem::temp_directory_path() / "zoneplate_lessons_XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    place = name;
+    testing::internal::CaptureStdout();
+    with_threads(1, [] { run_demo(std::vector<std::string>{"all", "-o", place / "lessons", "--panel", "64"}); });
+    said = testing::internal::GetCapturedStdout();
+  }
+  static void TearDownTestSuite() { std::filesystem::remove_all(place); }
+  static Rgba8Image written(const Demo& demo) {
+    const std::string path = place / "lessons" / (std::string(demo.name) + ".png");
+    return decode_png(FileBytes(path).bytes(), path).pixels;
+  }
+
+  static inline std::filesystem::path place;
+  static inline std::string said;
+};
+
+TEST_F(AllLessons, AreWrittenAndSaid) {
+  const std::string folder = place / "lessons";
   std::set<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename());
   EXPECT_EQ(names, (std::set<std::string>{"antialiasing.png",
@@ -160,16 +178,6 @@ const Demo& demo_of(std::string_view name) {
   return *found;
 }
 
-TEST(Demo, DrawsTheSameForAnyNumberOfThreads) {
-  for (const char* name : {"jaggies", "antialiasing", "black-edge", "moire", "prefilter", "convolution-theorem"}) {
-    const Demo& demo = demo_of(name);
-    Rgba8Image one, three;
-    with_threads(1, [&] { one = drawn(demo); });
-    with_threads(3, [&] { three = drawn(demo); });
-    EXPECT_EQ(one, three) << demo.name;
-  }
-}
-
 TEST(Demo, SaysWhatIsMissingOrUnknown) {
   EXPECT_EQ(message_of({}), "demo: give one lesson; `zoneplate demo -h` lists them");
   EXPECT_EQ(message_of({"jaggies", "moire"}), "demo: give one lesson; `zoneplate demo -h` lists them");
@@ -208,7 +216,14 @@ TEST_F(DemoFolder, FailsAtOnceWhereNothingCanBeWritten) {
   EXPECT_EQ(refusal("jaggies", longest + ".png"), longest + ".png: cannot be written: File name too long");
 }
 
-TEST(Demo, AParameterChangesTheLesson) {
+TEST_F(AllLessons, AreTheSameForAnyNumberOfThreads) {
+  for (const char* name : {"jaggies", "antialiasing", "black-edge", "moire", "prefilter", "convolution-theorem"}) {
+    const Demo& demo = demo_of(name);
+    with_threads(3, [&] { EXPECT_EQ(drawn(demo, Settings(demo.params)), written(demo)) << demo.name; });
+  }
+}
+
+TEST_F(AllLessons, ChangeWithAParameter) {
   for (const Demo& demo : demos()) {
     if (demo.params.empty()) continue;
     const Param& first = demo.params[0];
@@ -216,7 +231,7 @@ TEST(Demo, AParameterChangesTheLesson) {
                               : !first.choices.empty() ? std::to_string(first.choices.back())
                                                        : fmt::format("{}", first.high);
     const Settings settings("lesson", demo.params, fmt::format("{}:{}={}", demo.name, first.name, other));
-    EXPECT_NE(compose(demo.make(small, settings).frames.at(0), small.style()), drawn(demo)) << demo.name;
+    EXPECT_NE(drawn(demo, settings), written(demo)) << demo.name;
   }
 }
 
