@@ -31,6 +31,12 @@ class Plane {
     return plane;
   }
 
+  /// Makes the plane width × height, with elements that must be assigned before they are read, in the memory that it
+  /// has if its size stays.
+  void fit(int width, int height) {
+    if (width != width_ || height != height_) *this = unset(width, height);
+  }
+
   /// Elements in a row.
   int width() const { return width_; }
   /// The number of rows.

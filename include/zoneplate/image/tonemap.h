@@ -45,6 +45,9 @@ struct DisplayOptions {
 ///           background, where the image is opaque it does not depend on the background.
 DisplayImage make_display(const LinearImage& image, const DisplayOptions& options);
 
+/// quantize8(make_display(image, options)), without the image between them.
+Rgba8Image make_display8(const LinearImage& image, const DisplayOptions& options);
+
 /// Linear light × exposure over the background, premultiplied, without tone mapping. A transparent image has no
 /// background.
 LinearImage over_background(LinearImage image, const DisplayOptions& options);

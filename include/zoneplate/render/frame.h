@@ -57,6 +57,7 @@ struct Frame {
   int x = 0, y = 0;       ///< position of its first pixel in the whole image; not 0 for a crop
   LinearImage color{};    ///< resolved inside the tiles with the method's weights
   Rgba8Image display8{};  ///< display-referred, in place of `color`, if Request::writes_display8
+  LinearImage memory{};   ///< an image that the method resolved before, or none: `resolve` may reuse its memory
   Plane<SamplePosition>
       data_position;     ///< in the pixel: where the data are evaluated; made for position, motion and the like
   Plane<float> depth{};  ///< distance along the view axis, world units; +infinity in empty pixels

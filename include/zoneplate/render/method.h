@@ -68,6 +68,7 @@ struct Request {
   /// 0: 1 / √(number of samples) at rate *sample*, 1 at rate *surface*.
   float footprint = 0;
   bool resolves_per_pixel = false;   ///< the mean is the result: `resolve` and `post_process` change nothing
+  bool ends_in_light = false;        ///< what `resolve` returns is the image: `post_process` changes nothing
   bool is_display_referred = false;  ///< the method works after tone mapping: linear output does not contain it
   int halo = 0;  ///< pixels around a crop that `post_process` reads: a crop then has the bits of the whole image
 

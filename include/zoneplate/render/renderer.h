@@ -110,8 +110,8 @@ class Renderer {
                        RenderCounts& counts);
   /// What lines along edges cover of the image that the method makes of the request; empty without lines.
   Plane<float> edge_coverage(const Camera& camera, const RenderSettings& settings, const Request& request);
-  void finish(LinearImage picture, const Frame& frame, const RenderSettings& settings, const Plane<float>& edges,
-              RenderedImage& out);
+  void finish(LinearImage picture, const Frame& frame, const Request& request, const RenderSettings& settings,
+              const Plane<float>& edges, RenderedImage& out);
   void draw_behind(const Camera& camera, const RenderOptions& options, LinearImage& color) const;
   Frame render_data(const Camera& camera, const Request& request, const RenderSettings& settings, RenderCounts& counts);
   void render_light(const Camera& camera, const RenderSettings& settings, RenderCounts& counts, Frame& data);
@@ -133,6 +133,7 @@ class Renderer {
   Camera camera_;
   int settling_frames_ = 1;
   std::optional<Frame> previous_;
+  LinearImage memory_;  ///< the resolved image of a method with history, for the next frame's
 };
 
 /// The rectangle that is rendered for a crop: `halo` pixels larger on each side, within the image.

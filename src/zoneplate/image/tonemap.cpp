@@ -8,6 +8,7 @@
 #include "zoneplate/image/display_step_lanes.h"
 #include "zoneplate/image/display_transform.h"
 #include "zoneplate/image/transfer.h"
+#include "zoneplate/image/transfer_rows.h"
 #include "zoneplate/math/lanes.h"
 
 namespace zoneplate {
@@ -78,12 +79,27 @@ DisplayImage make_display(const LinearImage& image, const DisplayOptions& option
   static_assert(sizeof(Linear) == 4 * sizeof(float) && sizeof(Display) == 4 * sizeof(float));
   const TonemapKernels& kernels = TonemapKernels::of();
   const DisplayStep step = make_step(options);
-  DisplayImage display(image.width(), image.height());
+  DisplayImage display = DisplayImage::unset(image.width(), image.height());
   // Blocks of pixels and not rows, so that a narrow image is parallelized too.
   parallel_ranges(image.values().size(), 8192, [&](std::size_t begin, std::size_t end) {
     kernels.display_row(step, &image.values()[begin].r, &display.values()[begin].r, end - begin);
   });
   return display;
+}
+
+Rgba8Image make_display8(const LinearImage& image, const DisplayOptions& options) {
+  const DisplayStep step = make_step(options);
+  Rgba8Image codes = Rgba8Image::unset(image.width(), image.height());
+  parallel_ranges(image.values().size(), 8192, [&](std::size_t begin, std::size_t end) {
+    constexpr std::size_t most = 512;
+    float shown[4 * most];
+    for (std::size_t at = begin; at < end; at += most) {
+      const std::size_t count = std::min(most, end - at);
+      TonemapKernels::of().display_row(step, &image.values()[at].r, shown, count);
+      TransferKernels::of().quantize8(shown, &codes.values()[at].r, 4 * count);
+    }
+  });
+  return codes;
 }
 
 void show_light(std::span<const Linear> pixels, const DisplayOptions& options, float* light) {

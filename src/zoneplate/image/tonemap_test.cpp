@@ -184,6 +184,23 @@ TEST(MakeDisplay, OpaqueColorIsExposedMappedAndEncoded) {
             (Display{0.05f, 0.1f, 0.85f, 1}));
 }
 
+TEST(MakeDisplay, CodesAreThoseOfTheImageBetween) {
+  LinearImage image(131, 77);  // neither rows nor the image are whole blocks
+  for (std::size_t i = 0; i < image.values().size(); ++i) {
+    const auto value = [&](std::uint32_t channel) {
+      return 3 * unit_float(hash(static_cast<std::uint32_t>(i), channel)) - 0.5f;
+    };
+    image.values()[i] = {value(0), value(1), value(2), value(3)};
+  }
+  image(0, 0) = {nan, infinity, -infinity, 1}, image(130, 76) = {1, 1, 1, nan};
+  for (const ToneMapping mapping : every_curve)
+    for (const bool is_transparent : {false, true}) {
+      const DisplayOptions options{
+          .mapping = mapping, .exposure = 1.3f, .is_transparent = is_transparent, .background = default_background};
+      EXPECT_EQ(make_display8(image, options), quantize8(make_display(image, options))) << static_cast<int>(mapping);
+    }
+}
+
 TEST(MakeDisplay, BackgroundIsShownAsItIs) {
   const float4 background = {0.2f, 0.4f, 0.6f, 1};
   EXPECT_EQ(shown({0, 0, 0, 0}, {.mapping = ToneMapping::Aces, .exposure = 3, .background = background}),

@@ -89,7 +89,7 @@ namespace {
 template <class Pixel, class Code>
 Plane<Pixel> quantize(const DisplayImage& image, void (*row)(const float*, Code*, std::size_t)) {
   static_assert(sizeof(Display) == 4 * sizeof(float) && sizeof(Pixel) == 4 * sizeof(Code));
-  Plane<Pixel> out(image.width(), image.height());
+  Plane<Pixel> out = Plane<Pixel>::unset(image.width(), image.height());
   parallel_ranges(image.values().size(), 16384, [&](std::size_t begin, std::size_t end) {
     row(&image.values()[begin].r, &out.values()[begin].r, 4 * (end - begin));
   });

@@ -227,7 +227,7 @@ Plane<float> Renderer::edge_coverage(const Camera& camera, const RenderSettings&
 }
 
 /// Converts the method's linear image to the requested format, with the lines over it.
-void Renderer::finish(LinearImage picture, const Frame& frame, const RenderSettings& settings,
+void Renderer::finish(LinearImage picture, const Frame& frame, const Request& request, const RenderSettings& settings,
                       const Plane<float>& edges, RenderedImage& out) {
   const ImageForm form = settings.form;
   if (form == ImageForm::Linear) {
@@ -236,7 +236,14 @@ void Renderer::finish(LinearImage picture, const Frame& frame, const RenderSetti
     return;
   }
   Stopwatch watch;
+  if (form == ImageForm::Display8 && request.ends_in_light && edges.empty()) {
+    out.display = make_display8(picture, frame.display);
+    out.counts.display_ms += watch.ms();
+    if (method_->has_history()) memory_ = std::move(picture);
+    return;
+  }
   DisplayImage display = make_display(picture, frame.display);
+  if (method_->has_history()) memory_ = std::move(picture);
   out.counts.display_ms += watch.lap_ms();
   display = method_->post_process(std::move(display), frame);
   if (!edges.empty()) draw_edges(edges, settings.options.edges, settings.options.display, display);
@@ -332,7 +339,9 @@ RenderedImage Renderer::render(const Camera& scene_camera, const RenderSettings&
     out.display = std::move(frame.display8);
   } else {
     const Stopwatch watch;
+    frame.memory = std::move(memory_);
     LinearImage linear = method_->resolve(frame);
+    frame.memory = {};
     // An upscaler in scene-linear light resolves to the image's size, with the environment already behind the frame.
     const bool is_upscaled = request.frame && !request.is_display_referred;
     if (!draws_surfaces(settings.options)) {
@@ -342,7 +351,7 @@ RenderedImage Renderer::render(const Camera& scene_camera, const RenderSettings&
       draw_behind(camera, options, linear);
     }
     out.counts.resolve_ms = watch.ms();
-    finish(std::move(linear), frame, settings, edge_coverage(camera, settings, request), out);
+    finish(std::move(linear), frame, request, settings, edge_coverage(camera, settings, request), out);
   }
   const bool are_planes_requested = settings.planes.any();
   Frame data = rounds.take_data();
@@ -428,7 +437,7 @@ RenderedImage Renderer::render_mean(int count, const std::function<SceneView(int
   const float weight = 1 / static_cast<float>(count);
   for (Linear& c : sum.values()) c = c * weight;
   for (float& part : edges.values()) part *= weight;
-  finish(std::move(sum), rounds.frame, settings, edges, out);
+  finish(std::move(sum), rounds.frame, request, settings, edges, out);
   Frame data = rounds.take_data();
   end_frame(camera, reads_last_moment(request.planes), request, false, data);
   if (request.halo > 0 && options.crop && !request.frame) cut_out(out, *options.crop, *settings.options.crop);

@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
+#include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/antialias/temporal/camera_motion.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/image/transfer.h"
@@ -55,26 +57,34 @@ LinearImage over_background(LinearImage image, const DisplayOptions& display, st
   const float4 b = display.background;
   const float3 color = scene_light({light(b.x), light(b.y), light(b.z)}, display);
   const Linear background{color.x * b.w, color.y * b.w, color.z * b.w, b.w};
-  for (Linear& c : image.values()) c = c + background * (1 - c.a);
+  antialias::for_rows(image.height(), [&](int y) {
+    for (Linear& c : image.row(y)) c = c + background * (1 - c.a);
+  });
   return image;
 }
 
 void complete_background(Frame& frame, const FrameContext& context, SamplePosition sample, float far) {
   const antialias::CameraMotion camera(context, frame.depth.width(), frame.depth.height());
-  for (int y = 0; y < frame.depth.height(); ++y)
+  antialias::for_rows(frame.depth.height(), [&](int y) {
     for (int x = 0; x < frame.depth.width(); ++x)
       if (float& depth = frame.depth(x, y); !(depth < far)) {
         frame.motion(x, y) = camera.at(x + sample.x / 256.0, y + sample.y / 256.0, double{depth});
         depth = far;
       }
+  });
 }
 
-LinearImage cropped(LinearImage image, const std::optional<Crop>& crop) {
-  if (!crop) return image;
-  LinearImage out(crop->width, crop->height);
-  for (int y = 0; y < crop->height; ++y)
-    std::copy_n(image.row(crop->y + y).begin() + crop->x, crop->width, out.row(y).begin());
+LinearImage cropped(const LinearImage& image, const std::optional<Crop>& crop, LinearImage memory) {
+  const Crop part = crop.value_or(Crop{0, 0, image.width(), image.height()});
+  LinearImage out = std::move(memory);
+  out.fit(part.width, part.height);
+  antialias::for_rows(
+      part.height, [&](int y) { std::copy_n(image.row(part.y + y).begin() + part.x, part.width, out.row(y).begin()); });
   return out;
+}
+
+LinearImage cropped(LinearImage&& image, const std::optional<Crop>& crop) {
+  return crop ? cropped(std::as_const(image), crop) : std::move(image);
 }
 
 }  // namespace zoneplate::upscale

@@ -39,7 +39,8 @@ LinearImage over_background(LinearImage image, const DisplayOptions& display, st
 /// causes. `sample` is the position of the frame's samples.
 void complete_background(Frame& frame, const FrameContext& context, SamplePosition sample, float far);
 
-/// The part of an image that a crop names, or all of it.
-LinearImage cropped(LinearImage image, const std::optional<Crop>& crop);
+/// A copy of the part of an image that a crop names, or of all of it, in `memory` if that has its size.
+LinearImage cropped(const LinearImage& image, const std::optional<Crop>& crop, LinearImage memory = {});
+LinearImage cropped(LinearImage&& image, const std::optional<Crop>& crop);  // all of it is the image itself
 
 }  // namespace zoneplate::upscale

@@ -3,7 +3,18 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <vector>
+
 #include "zoneplate/image/tonemap.h"
+#include "zoneplate/image/transfer.h"
+#include "zoneplate/math/random.h"
+#include "zoneplate/math/transform.h"
+#include "zoneplate/render/renderer.h"
+#include "zoneplate/render/view.h"
+#include "zoneplate/scene/builtin/builtin.h"
+#include "zoneplate/upscale/scatter_rows.h"
+#include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::upscale {
 namespace {
@@ -22,6 +33,66 @@ TEST(JitteredFrame, TheBackgroundKeepsItsColourUnderEveryToneMapping) {
         EXPECT_NEAR(c.b, background.z, 0.5 / 255) << static_cast<int>(mapping);
         EXPECT_EQ(c.a, 1);
       }
+}
+
+TEST(JitteredFrame, ACropIsCopiedIntoTheMemoryOfItsSize) {
+  LinearImage image(37, 41);
+  for (int y = 0; y < 41; ++y)
+    for (int x = 0; x < 37; ++x) image(x, y) = {static_cast<float>(x), static_cast<float>(y), 0, 1};
+  for (const auto& crop : {std::optional<Crop>(), std::optional(Crop{5, 7, 20, 33})})
+    for (const int width : {0, 20, 37}) {
+      const LinearImage made = cropped(image, crop, LinearImage(width, width == 20 ? 33 : 41, {9, 9, 9, 9}));
+      const Crop part = crop.value_or(Crop{0, 0, 37, 41});
+      ASSERT_EQ(made.width(), part.width);
+      ASSERT_EQ(made.height(), part.height);
+      for (int y = 0; y < part.height; ++y)
+        for (int x = 0; x < part.width; ++x) EXPECT_EQ(made(x, y), image(part.x + x, part.y + y));
+      EXPECT_EQ(cropped(LinearImage(image), crop), made);
+    }
+}
+
+// The codes of methods that end in light, whose results take the memory of the frame before, are those of their light.
+TEST(JitteredFrame, FramesAreTheSameInMemoryThatIsReused) {
+  for (const char* method :
+       {"fsr2", "fsr3:sharpness=0.5", "sgsr2", "taau", "taau:preset=karis", "learned", "oracle-taau"}) {
+    Renderer codes(PreparedScene(*make_builtin_scene("panning-wires")), make_method(method));
+    Renderer light(PreparedScene(*make_builtin_scene("panning-wires")), make_method(method));
+    const Camera camera = choose_camera(codes.scene().scene(), {.index = 0}, 1.5f);
+    for (const bool is_cropped : {false, true}) {
+      codes.begin_sequence(), light.begin_sequence();
+      for (int i = 0; i < 3; ++i) {
+        Camera moved = camera;
+        moved.world_from_camera = camera.world_from_camera * translation(float3{0.01f * static_cast<float>(i), 0, 0});
+        RenderSettings settings{.options = {.width = 66, .height = 44}};
+        if (is_cropped) settings.options.crop = Crop{9, 5, 31, 30};
+        const Rgba8Image image = codes.render(moved, settings).display;
+        settings.form = ImageForm::Linear;
+        EXPECT_EQ(image, quantize8(make_display(light.render(moved, settings).linear, settings.options.display)))
+            << method << ' ' << i;
+      }
+    }
+  }
+}
+
+TEST(ScatterRows, VisitsEachRowForEveryBlockThatItReaches) {
+  constexpr int height = 200;
+  const auto target = [](int y) { return static_cast<int>(hash(static_cast<std::uint32_t>(y)) % 240) - 20; };
+  std::vector<RowRange> rows(height);
+  std::vector<std::vector<int>> expected(height), found(height);
+  for (int y = 0; y < height; ++y)
+    for (const int to : {target(y), target(y) + 1}) {
+      if (to < 0 || to >= height) continue;
+      rows[static_cast<std::size_t>(y)].add(to);
+      expected[static_cast<std::size_t>(to)].push_back(y);
+    }
+  const auto begin = [&](int first, int after) {
+    for (int to = first; to < after; ++to) found[static_cast<std::size_t>(to)] = {};
+  };
+  scatter_rows(rows, begin, [&](int y, int first, int after) {
+    for (const int to : {target(y), target(y) + 1})
+      if (to >= first && to < after) found[static_cast<std::size_t>(to)].push_back(y);
+  });
+  EXPECT_EQ(found, expected);
 }
 
 }  // namespace

@@ -7,12 +7,14 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "zoneplate/antialias/temporal/resolve.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/elementary.h"
+#include "zoneplate/upscale/scatter_rows.h"
 #include "zoneplate/upscale/taau/taau_axis.h"
 
 namespace zoneplate::upscale {
@@ -86,8 +88,9 @@ Plane<float> restarts_of(const Plane<float>& change) {
 /// out of sight has an empty range.
 struct SampleMean::Motions {
   Plane<float> side[4], nearest;
+  Plane<std::int32_t> source;  ///< memory of `find`
 
-  Motions(int width, int height) : nearest(width, height) {
+  Motions(int width, int height) : nearest(width, height), source(width, height) {
     for (Plane<float>& limits : side) limits = Plane<float>(width, height);
   }
   void find(const TaauInput& frame);
@@ -96,22 +99,44 @@ struct SampleMean::Motions {
 void SampleMean::Motions::find(const TaauInput& frame) {
   const int width = frame.motion_x.width(), height = frame.motion_x.height();
   constexpr float infinity = std::numeric_limits<float>::infinity();
-  for (int k = 0; k < 4; ++k) std::ranges::fill(side[k].values(), k % 2 == 0 ? infinity : -infinity);
-  std::ranges::fill(nearest.values(), -infinity);
-  for (int y = 0; y < height; ++y)
+  // Which pixel of the last frame each pixel comes from, or -1.
+  std::vector<RowRange> rows(static_cast<std::size_t>(height));
+  for_rows_of(height, [&](int y) {
+    RowRange& own = rows[static_cast<std::size_t>(y)];
     for (int x = 0; x < width; ++x) {
-      const float motion[2] = {frame.motion_x(x, y), frame.motion_y(x, y)};
-      const float from_x = std::floor(static_cast<float>(x) - motion[0] + 0.5f);
-      const float from_y = std::floor(static_cast<float>(y) - motion[1] + 0.5f);
+      const float from_x = std::floor(static_cast<float>(x) - frame.motion_x(x, y) + 0.5f);
+      const float from_y = std::floor(static_cast<float>(y) - frame.motion_y(x, y) + 0.5f);
+      std::int32_t& from = source(x, y);
+      from = -1;
       if (!(from_x >= 0 && from_y >= 0 && from_x < static_cast<float>(width) && from_y < static_cast<float>(height)))
         continue;
-      const int u = static_cast<int>(from_x), v = static_cast<int>(from_y);
-      nearest(u, v) = std::max(nearest(u, v), frame.nearness(x, y));
-      for (int k = 0; k < 4; ++k) {
-        float& limit = side[k](u, v);
-        limit = k % 2 == 0 ? std::min(limit, motion[k / 2]) : std::max(limit, motion[k / 2]);
-      }
+      const int v = static_cast<int>(from_y);
+      from = v * width + static_cast<int>(from_x);
+      own.add(v);
     }
+  });
+  float *const low_x = side[0].values().data(), *const high_x = side[1].values().data();
+  float *const low_y = side[2].values().data(), *const high_y = side[3].values().data();
+  float* const near = nearest.values().data();
+  const auto begin = [&](int first, int after) {
+    const std::ptrdiff_t offset = std::ptrdiff_t{first} * width, size = std::ptrdiff_t{after - first} * width;
+    for (float* const low : {low_x, low_y}) std::fill_n(low + offset, size, infinity);
+    for (float* const high : {high_x, high_y, near}) std::fill_n(high + offset, size, -infinity);
+  };
+  scatter_rows(rows, begin, [&](int y, int first, int after) {
+    const auto origin = static_cast<std::uint32_t>(first * width);
+    const auto size = static_cast<std::uint32_t>((after - first) * width);
+    const std::span<const std::int32_t> from = source.row(y);
+    const std::span<const float> nearness = frame.nearness.row(y);
+    const std::span<const float> motion_x = frame.motion_x.row(y), motion_y = frame.motion_y.row(y);
+    for (std::size_t x = 0; x < from.size(); ++x) {
+      const std::int32_t i = from[x];
+      if (static_cast<std::uint32_t>(i) - origin >= size) continue;
+      near[i] = std::max(near[i], nearness[x]);
+      low_x[i] = std::min(low_x[i], motion_x[x]), high_x[i] = std::max(high_x[i], motion_x[x]);
+      low_y[i] = std::min(low_y[i], motion_y[x]), high_y[i] = std::max(high_y[i], motion_y[x]);
+    }
+  });
 }
 
 /// What is known of a frame, kept for the next one of its size, since memory for each frame anew takes a fifth of the

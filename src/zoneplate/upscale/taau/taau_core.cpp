@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
+#include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/antialias/temporal/resolve.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/upscale/taau/taau_axis.h"
@@ -12,13 +14,14 @@
 
 namespace zoneplate::upscale {
 
-LinearImage Taau::accumulate(const TaauInput& frame) {
+const LinearImage& Taau::accumulate(const TaauInput& frame) {
   const int frame_width = frame.color.width(), frame_height = frame.color.height();
   const TaauAxis columns(width_, frame_width, frame.jitter.x), rows(height_, frame_height, frame.jitter.y);
-  LinearImage color(frame_width, frame_height);
-  for (int y = 0; y < frame_height; ++y)
-    antialias::TemporalKernels::of().limit(&frame.color.row(y).data()->r, &color.row(y).data()->r,
+  limited_.fit(frame_width, frame_height);
+  antialias::for_rows(frame_height, [&](int y) {
+    antialias::TemporalKernels::of().limit(&frame.color.row(y).data()->r, &limited_.row(y).data()->r,
                                            static_cast<std::size_t>(frame_width));
+  });
   const float scale_x = static_cast<float>(width_) / static_cast<float>(frame_width);
   const float scale_y = static_cast<float>(height_) / static_cast<float>(frame_height);
   const bool is_first = frame.is_first || history_.empty();
@@ -30,7 +33,7 @@ LinearImage Taau::accumulate(const TaauInput& frame) {
                          .history = is_first ? nullptr : &history_.values().data()->r};
   std::vector<float> column(static_cast<std::size_t>(width_));
   for (std::size_t x = 0; x < column.size(); ++x) column[x] = static_cast<float>(x);
-  LinearImage out(width_, height_);
+  next_history_.fit(width_, height_);
   parallel_ranges(static_cast<std::size_t>(height_), 16, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const int y = static_cast<int>(i);
@@ -38,18 +41,18 @@ LinearImage Taau::accumulate(const TaauInput& frame) {
                   .dy = rows.offset[i],
                   .column = column.data(),
                   .y = y,
-                  .resolved = &out.row(y).data()->r};
+                  .resolved = &next_history_.row(y).data()->r};
       for (int k = 0; k < 3; ++k) {
         const int r = rows.around[k][i];
         row.columns[k] = columns.around[k].data();
-        row.color[k] = &color.row(r).data()->r, row.nearness[k] = frame.nearness.row(r).data();
+        row.color[k] = &limited_.row(r).data()->r, row.nearness[k] = frame.nearness.row(r).data();
         row.motion_x[k] = frame.motion_x.row(r).data(), row.motion_y[k] = frame.motion_y.row(r).data();
       }
       TaauKernels::of().resolve_row(common, row, column.size());
     }
   });
-  history_ = out;
-  return out;
+  std::swap(history_, next_history_);
+  return history_;
 }
 
 }  // namespace zoneplate::upscale

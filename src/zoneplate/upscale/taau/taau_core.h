@@ -27,14 +27,14 @@ class Taau {
 
   Taau(int width, int height) : width_(width), height_(height) {}
 
-  /// The output after one more frame: scene-linear, of the size given to the constructor.
+  /// The output after one more frame: scene-linear, of the size given to the constructor. Valid until the next frame.
   ///
   /// Requires  frames of one size, at most the output's, until the next one that is first.
-  LinearImage accumulate(const TaauInput& frame);
+  const LinearImage& accumulate(const TaauInput& frame);
 
  private:
   int width_, height_;
-  LinearImage history_;
+  LinearImage history_, next_history_, limited_;
 };
 
 }  // namespace zoneplate::upscale

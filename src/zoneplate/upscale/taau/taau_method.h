@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/signal/samples.h"
 #include "zoneplate/upscale/jittered_frame.h"
 #include "zoneplate/upscale/taau/taau_core.h"
@@ -31,6 +32,7 @@ class TaauMethod : public Resolver {
     request.planes.depth = request.planes.motion = true;
     request.frame = frame_size(context, scale_);
     request.footprint = footprint_of(scale_, bias_);
+    request.ends_in_light = true;
     request.settling_frames = Core::settling_periods * static_cast<int>(jitter_.size());
     return request;
   }
@@ -46,9 +48,14 @@ class TaauMethod : public Resolver {
                     .motion_y = Plane<float>::unset(width, height),
                     .jitter = {(128 - sample_.x) / 256.0f, (128 - sample_.y) / 256.0f},
                     .is_first = context_.is_first};
-    std::ranges::transform(frame.motion.values(), input.motion_x.values().begin(), &float2::x);
-    std::ranges::transform(frame.motion.values(), input.motion_y.values().begin(), &float2::y);
-    return cropped(core_->accumulate(input), image.crop);
+    antialias::for_rows(height, [&](int y) {
+      std::ranges::transform(frame.motion.row(y), input.motion_x.row(y).begin(), &float2::x);
+      std::ranges::transform(frame.motion.row(y), input.motion_y.row(y).begin(), &float2::y);
+    });
+    if constexpr (requires { core_->accumulate(input, LinearImage()); })
+      return cropped(core_->accumulate(input, std::move(frame.memory)), image.crop);
+    else
+      return cropped(core_->accumulate(input), image.crop, std::move(frame.memory));
   }
 
  private:

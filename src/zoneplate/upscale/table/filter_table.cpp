@@ -83,17 +83,19 @@ void TableInput::read(const LinearImage& image, int begin, int end) {
   }
 }
 
-LinearImage filtered(const LinearImage& image, const FilterTable& table, const Plane<std::uint8_t>& group) {
+LinearImage filtered(const LinearImage& image, const FilterTable& table, const Plane<std::uint8_t>& group,
+                     LinearImage memory) {
   const auto filter = table.side() == 3 ? TableKernels::of().filter3 : TableKernels::of().filter5;
-  auto out = LinearImage::unset(image.width(), image.height());
+  LinearImage out = std::move(memory);
+  out.fit(image.width(), image.height());
   struct Memory {
     TableInput input;
     std::vector<std::int32_t> classes;
     explicit Memory(int width) : input(width, rows_a_block), classes(static_cast<std::size_t>(width)) {}
   };
-  PerThread<Memory> memory;
+  PerThread<Memory> buffers;
   parallel_ranges(static_cast<std::size_t>(image.height()), rows_a_block, [&](std::size_t begin, std::size_t end) {
-    auto& [input, classes] = memory.local(image.width());
+    auto& [input, classes] = buffers.local(image.width());
     input.read(image, static_cast<int>(begin), static_cast<int>(end));
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) {
       const std::int32_t* const of = input.classes(y);

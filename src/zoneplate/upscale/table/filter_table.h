@@ -74,10 +74,12 @@ class TableInput {
   Plane<std::int32_t> classes_;
 };
 
-/// The image that a table makes; `group` is the group of each pixel. Alpha stays.
+/// The image that a table makes; `group` is the group of each pixel. Alpha stays. It takes `memory` if that has its
+/// size.
 ///
 /// Exact     the same bits for any number of threads and any instruction set; one colour stays that colour.
-LinearImage filtered(const LinearImage& image, const FilterTable& table, const Plane<std::uint8_t>& group);
+LinearImage filtered(const LinearImage& image, const FilterTable& table, const Plane<std::uint8_t>& group,
+                     LinearImage memory = {});
 
 /// The least squares by which a table is made. Sums are of doubles, in the order of the calls and of the pixels.
 ///

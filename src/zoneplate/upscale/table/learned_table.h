@@ -25,9 +25,10 @@ class FilteredMean {
   static constexpr int settling_periods = Mean::settling_periods, grain = Mean::grain;
 
   FilteredMean(int width, int height) : mean_(width, height) {}
-  LinearImage accumulate(const TaauInput& frame) {
+  /// The image takes `memory` if that has its size.
+  LinearImage accumulate(const TaauInput& frame, LinearImage memory = {}) {
     const LinearImage& image = mean_.accumulate(frame);
-    return filtered(image, table(), CountGroups::of(mean_.counts()));
+    return filtered(image, table(), CountGroups::of(mean_.counts()), std::move(memory));
   }
 
  private:
