@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
                       const zoneplate::Conditions& conditions) {
     benchmark::RegisterBenchmark(name.c_str(),
                                  [=](benchmark::State& s) { zoneplate::measure(s, scene, method, conditions); })
-        ->Iterations(6)
+        ->Iterations(12)
         ->Unit(benchmark::kMillisecond);
   };
   for (const std::string method : {"taa",
@@ -108,7 +108,8 @@ int main(int argc, char** argv) {
                                    "taau:scale=2,preset=karis"})
     for (const std::string scene : {"city", "panning-wires"})
       add(scene + "/" + method, scene, method, zoneplate::usual);
-  for (const std::string method : {"taau:scale=2", "learned-table:scale=2", "learned:scale=2"})
+  for (const std::string method :
+       {"fsr2:scale=2", "fsr3:scale=2", "sgsr2:scale=2", "taau:scale=2", "learned-table:scale=2", "learned:scale=2"})
     for (const int threads : {1, 2})
       add("1080p/" + method + "/threads:" + std::to_string(threads), "city", method, {1920, 1080, threads});
   benchmark::Initialize(&argc, argv);

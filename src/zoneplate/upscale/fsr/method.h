@@ -47,6 +47,7 @@ class FsrMethod : public Resolver {
     request.planes.depth = request.planes.motion = true;
     request.frame = frame_;
     request.footprint = footprint_of(scale_, bias_);
+    request.ends_in_light = true;
     request.settling_frames = phases;
     return request;
   }
@@ -60,7 +61,7 @@ class FsrMethod : public Resolver {
     complete_background(frame, context_, sample_, FsrFrame::far);
     input.color = over_background(std::move(frame.color), frame.display, name_);
     input.depth = std::move(frame.depth), input.motion = std::move(frame.motion);
-    return cropped(core_->accumulate(input), image.crop);
+    return cropped(core_->accumulate(input, std::move(frame.memory)), image.crop);
   }
 
  private:

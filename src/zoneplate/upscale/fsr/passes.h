@@ -12,9 +12,9 @@
 namespace zoneplate::upscale::fsr {
 
 /// Calls body(y) for every row, in parallel.
+inline constexpr std::size_t rows_a_block = 16;
 template <class Body>
 void for_rows(int height, const Body& body) {
-  constexpr int rows_a_block = 16;
   parallel_ranges(static_cast<std::size_t>(height), rows_a_block, [&](std::size_t begin, std::size_t end) {
     for (int y = static_cast<int>(begin); y < static_cast<int>(end); ++y) body(y);
   });
@@ -54,7 +54,7 @@ struct Dilated {
   Plane<float> depth;
   Plane<float2> motion;  ///< to the last frame, in widths and heights of the image
 };
-Dilated dilate(const FsrFrame& frame);
+void dilate(const FsrFrame& frame, Dilated& out);
 
 /// Where the frame's surfaces were in the last frame: every pixel that a surface touched with more than `min_weight`
 /// gets the nearest depth. A motion at a depth moves nothing unless is_motion says so.
@@ -68,10 +68,10 @@ Plane<float> halved(const Plane<float>& plane);
 float automatic_exposure(float log_luminance);
 
 /// The image, opaque, after robust contrast-adaptive sharpening of its exposed colours, of which values above `most`
-/// are clamped.
-LinearImage sharpened(const LinearImage& image, float exposure, float sharpness, float most);
+/// are clamped. The result takes `memory` if that has its size.
+LinearImage sharpened(const LinearImage& image, float exposure, float sharpness, float most, LinearImage memory);
 
-/// The image with alpha 1.
-LinearImage opaque(const LinearImage& image);
+/// The image with alpha 1. The result takes `memory` if that has its size.
+LinearImage opaque(const LinearImage& image, LinearImage memory);
 
 }  // namespace zoneplate::upscale::fsr

@@ -181,24 +181,27 @@ bool is_thin_feature(const Plane<float>& luma, int x, int y) {
 }
 
 /// New locks at the output pixels that contain the samples of thin features.
-Plane<float> find_locks(const Plane<float>& luma, float2 jitter, int width, int height) {
-  Plane<float> out(width, height);
+void lock_thin_features(const Plane<float>& luma, float2 jitter, Plane<float>& out) {
+  auto is_thin = Plane<std::uint8_t>::unset(luma.width(), luma.height());
+  for_rows(luma.height(), [&](int y) {
+    for (int x = 0; x < luma.width(); ++x) is_thin(x, y) = is_thin_feature(luma, x, y) ? 1 : 0;
+  });
   for (int y = 0; y < luma.height(); ++y)
     for (int x = 0; x < luma.width(); ++x) {
-      if (!is_thin_feature(luma, x, y)) continue;
+      if (is_thin(x, y) == 0) continue;
       const auto place = [](int i, float shift, int from, int to) {
         const float centre = (static_cast<float>(i) + 0.5f - shift) / static_cast<float>(from);
         return static_cast<int>(std::floor(centre * static_cast<float>(to)));
       };
-      const int i = place(x, jitter.x, luma.width(), width), j = place(y, jitter.y, luma.height(), height);
+      const int i = place(x, jitter.x, luma.width(), out.width());
+      const int j = place(y, jitter.y, luma.height(), out.height());
       if (contains(out, i, j)) out(i, j) = 1;
     }
-  return out;
 }
 
 }  // namespace
 
-LinearImage Fsr2::accumulate(const FsrFrame& frame) {
+LinearImage Fsr2::accumulate(const FsrFrame& frame, LinearImage memory) {
   const int frame_width = frame.color.width(), frame_height = frame.color.height();
   const float2 output{static_cast<float>(width_), static_cast<float>(height_)};
   const bool is_first = frame.is_first || history_.empty();
@@ -211,13 +214,15 @@ LinearImage Fsr2::accumulate(const FsrFrame& frame) {
   passes_.exposure = options_.exposure > 0 ? options_.exposure : automatic_exposure(log_luminance_);
   passes_.luminance = std::move(pyramid.blocks);
 
-  passes_.dilated = dilate(frame);
+  dilate(frame, passes_.dilated);
   passes_.previous_depth = previous_depth(passes_.dilated, min_weight, [&](float2 motion, float) {
     return length(motion.x * output.x, motion.y * output.y) > 0.1f;
   });
-  passes_.lock_luma = Plane<float>(frame_width, frame_height);
-  passes_.prepared = DisplayImage(frame_width + 2, frame_height + 2, Display{0, 0, 0, 0});
-  passes_.accumulation = Plane<float>(frame_width + 2, frame_height + 2);
+  if (passes_.prepared.width() != frame_width + 2 || passes_.prepared.height() != frame_height + 2) {
+    passes_.prepared = DisplayImage(frame_width + 2, frame_height + 2, Display{0, 0, 0, 0});  // the border stays
+    passes_.accumulation = Plane<float>(frame_width + 2, frame_height + 2);
+  }
+  passes_.lock_luma.fit(frame_width, frame_height);
   const DepthClip depth_clip(frame, passes_, output);
   for_rows(frame_height, [&](int y) {
     for (int x = 0; x < frame_width; ++x) {
@@ -233,17 +238,19 @@ LinearImage Fsr2::accumulate(const FsrFrame& frame) {
       passes_.accumulation(x + 1, y + 1) = std::max(faster, motion_divergence(frame.motion, x, y));
     }
   });
-  passes_.new_locks =
-      options_.locks ? find_locks(passes_.lock_luma, frame.jitter, width_, height_) : Plane<float>(width_, height_);
+  passes_.new_locks.fit(width_, height_);
+  for_rows(height_, [&](int y) { std::ranges::fill(passes_.new_locks.row(y), 0.0f); });
+  if (options_.locks) lock_thin_features(passes_.lock_luma, frame.jitter, passes_.new_locks);
 
-  next_history_ = LinearImage(width_, height_), next_lumas_ = DisplayImage(width_, height_);
-  next_lock_life_ = Plane<float>(width_, height_), next_lock_luma_ = Plane<float>(width_, height_);
+  next_history_.fit(width_, height_), next_lumas_.fit(width_, height_);
+  next_lock_life_.fit(width_, height_), next_lock_luma_.fit(width_, height_);
   rectify_and_blend(frame);
   std::swap(history_, next_history_), std::swap(lumas_, next_lumas_);
   std::swap(lock_life_, next_lock_life_), std::swap(lock_luma_, next_lock_luma_);
   last_motion_ = passes_.dilated.motion;
 
-  return options_.sharpens ? sharpened(history_, passes_.exposure, options_.sharpness, 65504) : opaque(history_);
+  return options_.sharpens ? sharpened(history_, passes_.exposure, options_.sharpness, 65504, std::move(memory))
+                           : opaque(history_, std::move(memory));
 }
 
 void Fsr2::rectify_and_blend(const FsrFrame& frame) {

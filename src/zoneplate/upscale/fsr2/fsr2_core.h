@@ -39,8 +39,9 @@ class Fsr2 {
 
   /// The output after one more frame: scene-linear, opaque, of the size given to the constructor.
   ///
-  /// Requires  frames of one size, at most the output's, until the next one that is first.
-  LinearImage accumulate(const FsrFrame& frame);
+  /// Requires  frames of one size, at most the output's, until the next one that is first. The image takes `memory` if
+  ///           that has its size.
+  LinearImage accumulate(const FsrFrame& frame, LinearImage memory = {});
 
   /// The intermediate results of the last frame.
   const Fsr2Passes& passes() const { return passes_; }

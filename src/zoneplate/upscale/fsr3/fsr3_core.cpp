@@ -95,7 +95,9 @@ Plane<float> shading_changes(const Plane<float>& differences, float2 jitter) {
       }
     });
   }
-  for (float& v : out.values()) v = std::floor(saturated(v) * 255 + 0.5f) / 255;
+  for_rows(out.height(), [&](int y) {
+    for (float& v : out.row(y)) v = std::floor(saturated(v) * 255 + 0.5f) / 255;
+  });
   return out;
 }
 
@@ -134,21 +136,19 @@ class Positions {
 };
 
 /// The contrasts of thin features, at the output pixels that contain their samples.
-Plane<float> place_locks(const Plane<float>& confidence, float2 jitter, int width, int height) {
-  Plane<float> out(width, height);
+void place_locks(const Plane<float>& confidence, float2 jitter, Plane<float>& out) {
   const auto place = [](int i, float shift, int from, int to) {
     const float centre = (static_cast<float>(i) + 0.5f - shift) / static_cast<float>(from);
     return static_cast<int>(std::floor(centre * static_cast<float>(to)));
   };
   for (int y = 0; y < confidence.height(); ++y) {
-    const int row = place(y, jitter.y, confidence.height(), height);
+    const int row = place(y, jitter.y, confidence.height(), out.height());
     for (int x = 0; x < confidence.width(); ++x) {
       if (!(confidence(x, y) > 0.01f)) continue;
-      const int column = place(x, jitter.x, confidence.width(), width);
+      const int column = place(x, jitter.x, confidence.width(), out.width());
       if (contains(out, column, row)) out(column, row) = std::floor(confidence(x, y) * 255 + 0.5f) / 255;
     }
   }
-  return out;
 }
 
 }  // namespace
@@ -160,24 +160,25 @@ void Fsr3::forget(int frame_width, int frame_height) {
   luma_history_ = DisplayImage(frame_width, frame_height, Display{0, 0, 0, 0});
 }
 
-LinearImage Fsr3::accumulate(const FsrFrame& frame) {
+LinearImage Fsr3::accumulate(const FsrFrame& frame, LinearImage memory) {
   is_first_ = frame.is_first || history_.empty();
   if (is_first_) forget(frame.color.width(), frame.color.height());
   prepare(frame);
-  next_history_ = LinearImage(width_, height_);
+  next_history_.fit(width_, height_);
   upsample(frame);
   std::swap(history_, next_history_), std::swap(accumulation_, next_accumulation_);
   std::swap(luma_history_, next_luma_history_);
   last_luma_ = passes_.luma, last_jitter_ = frame.jitter;
-  return options_.sharpens ? sharpened(history_, passes_.exposure, options_.sharpness, max_half) : opaque(history_);
+  return options_.sharpens ? sharpened(history_, passes_.exposure, options_.sharpness, max_half, std::move(memory))
+                           : opaque(history_, std::move(memory));
 }
 
 void Fsr3::prepare(const FsrFrame& frame) {
   const int width = frame.color.width(), height = frame.color.height();
   const auto& kernels = Fsr3PrepareKernels::of();
 
-  passes_.luma = Plane<float>(width, height);
-  Plane<float> logarithms(width, height);
+  passes_.luma.fit(width, height);
+  auto logarithms = Plane<float>::unset(width, height);
   for_rows(height, [&](int y) {
     kernels.luma_row(&frame.color.row(y).data()->r, passes_.luma.row(y).data(), logarithms.row(y).data(),
                      static_cast<std::size_t>(width));
@@ -187,7 +188,7 @@ void Fsr3::prepare(const FsrFrame& frame) {
   passes_.exposure = options_.exposure > 0 ? options_.exposure : automatic_exposure(log_luminance_);
 
   const float min_weight = 10 * fsr3_epsilon;
-  passes_.dilated = dilate(frame);
+  dilate(frame, passes_.dilated);
   passes_.previous_depth = previous_depth(passes_.dilated, min_weight, [](float2 motion, float depth) {
     const float far = saturated(std::min(depth, max_half) / 100);
     return length(float2{motion.x * 3840, motion.y * 2160}) > 0.25f + 0.5f * far;
@@ -221,18 +222,19 @@ void Fsr3::prepare(const FsrFrame& frame) {
   passes_.shading_change = shading_changes(passes_.differences, frame.jitter);
 
   const float2 shift{frame.jitter.x / static_cast<float>(width), frame.jitter.y / static_cast<float>(height)};
-  passes_.masks = DisplayImage(width, height);
-  next_accumulation_ = passes_.instability = Plane<float>(width, height);
-  Plane<float> confidence(width, height);
+  passes_.masks.fit(width, height);
+  next_accumulation_.fit(width, height), passes_.instability.fit(width, height);
+  auto confidence = Plane<float>::unset(width, height);
   const Positions unjittered(width, height, passes_.shading_change, {-shift.x, -shift.y});
   for_rows(height, [&](int y) {
     kernels.reactivity_row(common, y, unjittered.row(y), &passes_.masks.row(y).data()->r,
                            next_accumulation_.row(y).data(), confidence.row(y).data());
   });
-  passes_.new_locks =
-      options_.locks ? place_locks(confidence, frame.jitter, width_, height_) : Plane<float>(width_, height_);
+  passes_.new_locks.fit(width_, height_);
+  for_rows(height_, [&](int y) { std::ranges::fill(passes_.new_locks.row(y), 0.0f); });
+  if (options_.locks) place_locks(confidence, frame.jitter, passes_.new_locks);
 
-  next_luma_history_ = DisplayImage(width, height);
+  next_luma_history_.fit(width, height);
   const Positions masks(width, height, passes_.masks, shift), lumas(width, height, passes_.luma, shift);
   for_rows(height, [&](int y) {
     kernels.instability_row(common, y, masks.row(y), lumas.row(y), &next_luma_history_.row(y).data()->r,
@@ -244,7 +246,7 @@ void Fsr3::upsample(const FsrFrame& frame) {
   const int frame_width = frame.color.width(), frame_height = frame.color.height();
 
   // The exposed colours with a border that continues them, and below them the tone-mapped ones.
-  DisplayImage prepared(frame_width + 2, 2 * (frame_height + 2));
+  auto prepared = DisplayImage::unset(frame_width + 2, 2 * (frame_height + 2));
   for_rows(frame_height + 2, [&](int y) {
     for (int x = 0; x < frame_width + 2; ++x) {
       const Linear& c = at_clamped(frame.color, x - 1, y - 1);

@@ -19,6 +19,7 @@
 #include <optional>
 #include <utility>
 
+#include "zoneplate/antialias/post/encoded.h"
 #include "zoneplate/antialias/temporal/camera_motion.h"
 #include "zoneplate/signal/samples.h"
 #include "zoneplate/upscale/jittered_frame.h"
@@ -66,6 +67,7 @@ class Sgsr2Method : public Resolver {
     request.planes.depth = request.planes.motion = true;
     request.frame = frame_ = frame_size(context, scale_);
     request.footprint = footprint_of(scale_, bias_);
+    request.ends_in_light = true;
     request.settling_frames = Sgsr2::phases;
     return request;
   }
@@ -83,8 +85,8 @@ class Sgsr2Method : public Resolver {
                            : clip_from_world == last_clip_from_world;
     Sgsr2Frame input{.color = over_background(std::move(frame.color), frame.display, "sgsr2"),
                      .depth = std::move(frame.depth),
-                     .motion_x = Plane<float>(frame_.width, frame_.height),
-                     .motion_y = Plane<float>(frame_.width, frame_.height),
+                     .motion_x = Plane<float>::unset(frame_.width, frame_.height),
+                     .motion_y = Plane<float>::unset(frame_.width, frame_.height),
                      .jitter = {(128 - sample_.x) / 256.0f, (128 - sample_.y) / 256.0f},
                      .half_width = camera.is_orthographic ? 1.0f : 1 / camera.clip_from_camera(aspect).column[0].x,
                      .is_first = context_.is_first,
@@ -94,7 +96,7 @@ class Sgsr2Method : public Resolver {
                                   (inverse(last.world_from_camera) * camera.world_from_camera) *
                                   inverse(sgsr2_projection(camera, aspect));
     const antialias::CameraMotion camera_motion(context_, frame_.width, frame_.height);
-    for (int y = 0; y < frame_.height; ++y)
+    antialias::for_rows(frame_.height, [&](int y) {
       for (int x = 0; x < frame_.width; ++x) {
         float& depth = input.depth(x, y);
         const float2 own = frame.motion(x, y);
@@ -107,7 +109,8 @@ class Sgsr2Method : public Resolver {
         input.motion_y(x, y) = is_object ? 2 * own.y / static_cast<float>(frame_.height) : none;
         depth = sgsr2_depth(camera, depth);
       }
-    return cropped(sgsr2_->accumulate(input), image.crop);
+    });
+    return cropped(sgsr2_->accumulate(input, std::move(frame.memory)), image.crop);
   }
 
  private:

@@ -46,11 +46,13 @@ struct Sgsr2Axis {
 
 void Sgsr2::convert(const Sgsr2Frame& frame) {
   const int width = frame.color.width(), height = frame.color.height();
-  motion_clip_ = ycocg_ = Plane<float4>(width, height);
-  Plane<float> depth(width + 3, height + 3);  // one pixel to the left and above, two to the right and below
-  for (int y = 0; y < depth.height(); ++y)
+  motion_clip_.fit(width, height), ycocg_.fit(width, height);
+  auto depth =
+      Plane<float>::unset(width + 3, height + 3);  // one pixel to the left and above, two to the right and below
+  for_each_row(depth.height(), [&](int y) {
     for (int x = 0; x < depth.width(); ++x)
       depth(x, y) = frame.depth(std::clamp(x - 1, 0, width - 1), std::clamp(y - 1, 0, height - 1));
+  });
   std::vector<float> centres;
   for (int x = 0; x < width; ++x)
     centres.push_back(2 * ((static_cast<float>(x) + 0.5f) / static_cast<float>(width)) - 1);
@@ -74,7 +76,7 @@ void Sgsr2::convert(const Sgsr2Frame& frame) {
   });
 }
 
-LinearImage Sgsr2::accumulate(const Sgsr2Frame& frame) {
+LinearImage Sgsr2::accumulate(const Sgsr2Frame& frame, LinearImage memory) {
   const int frame_width = frame.color.width(), frame_height = frame.color.height();
   frames_at_rest_ = frame.is_camera_at_rest && !frame.is_first ? frames_at_rest_ + 1 : 0;
   convert(frame);
@@ -90,8 +92,9 @@ LinearImage Sgsr2::accumulate(const Sgsr2Frame& frame) {
                                  .box_scale = std::min(20.0f, area * area * area),
                                  .rest_share = frames_at_rest_ > 5 ? 0.3f : 0.0f,
                                  .history = is_first ? nullptr : &history_.values().data()->x};
-  next_history_ = Plane<float4>(width_, height_);
-  LinearImage out(width_, height_);
+  next_history_.fit(width_, height_);
+  LinearImage out = std::move(memory);
+  out.fit(width_, height_);
   for_each_row(height_, [&](int o) {
     const auto i = static_cast<std::size_t>(o);
     Sgsr2UpscaleRow row{.dx = columns.offset.data(),

@@ -33,8 +33,9 @@ class Sgsr2 {
 
   /// The output after one more frame: scene-linear, opaque, of the size given to the constructor.
   ///
-  /// Requires  frames of one size, at most the output's, until the next one that is first.
-  LinearImage accumulate(const Sgsr2Frame& frame);
+  /// Requires  frames of one size, at most the output's, until the next one that is first. The image takes `memory` if
+  ///           that has its size.
+  LinearImage accumulate(const Sgsr2Frame& frame, LinearImage memory = {});
 
   /// Of the last frame: motion, depth clip, and the greatest channel plus 1.
   const Plane<float4>& motion_clip() const { return motion_clip_; }
