@@ -7,6 +7,7 @@ foreach(bench IN LISTS benches)
   add_executable(${name} ${bench})
   target_link_libraries(${name} PRIVATE zoneplate zoneplate_flags benchmark::benchmark)
 endforeach()
+target_link_libraries(network_bench PRIVATE zoneplate_evaluate) # the machine's limits
 find_library(embree_library embree3) # measured too where it is installed
 if(embree_library)
   target_compile_definitions(ray_bench PRIVATE ZONEPLATE_EMBREE)

@@ -88,9 +88,16 @@ TEST(LimitKernels, AllInstructionSetsSumTheSame) {
     index[i] = static_cast<std::int32_t>(hash(i, 1) % 320);
   }
   for (std::size_t i = 0; i < 320; ++i) sum += words[i], gathered += words[static_cast<std::size_t>(index[i])];
+  std::vector<std::int16_t> values(LimitKernels::factors);
+  std::uint32_t product = 0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    values[i] = static_cast<std::int16_t>(hash(static_cast<std::uint32_t>(i), 2));
+    product += static_cast<std::uint32_t>(3 * values[i]);
+  }
   for (const Isa isa : supported_isas()) {
     EXPECT_EQ(LimitKernels::of(isa).sum(words.data(), 320), sum);
     EXPECT_EQ(LimitKernels::of(isa).gather(words.data(), index.data(), 320), gathered);
+    EXPECT_EQ(LimitKernels::of(isa).multiply(values.data(), 1000), 1000 * product);
   }
 }
 

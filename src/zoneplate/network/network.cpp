@@ -187,4 +187,15 @@ void Network::write(const NetworkFrame& frame, int x, int y, int count, int firs
   NetworkKernels::of().convolve(row, static_cast<std::size_t>(count));
 }
 
+std::uint64_t Network::multiplications(int width, int height) const {
+  std::uint64_t sum = 0;
+  for (int k = 0; k < layer_count; ++k) {
+    const Convolution& layer = layers_[k];
+    const bool is_half = k == Wide0 || k == Wide1 || k == Wide2;
+    const int w = is_half ? halved(width) : width, h = is_half ? halved(height) : height;
+    sum += static_cast<std::uint64_t>(w) * static_cast<std::uint64_t>(h) * layer.weights.size();
+  }
+  return sum;
+}
+
 }  // namespace zoneplate::network

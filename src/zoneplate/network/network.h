@@ -74,6 +74,8 @@ class Network {
   ///
   /// Requires  `outputs` is a multiple of 8.
   void write(const NetworkFrame& frame, int x, int y, int count, int first, int outputs, float* out) const;
+  /// The multiplications of a weight and an activation in all layers, for all pixels of a frame.
+  std::uint64_t multiplications(int width, int height) const;
 
  private:
   enum Layer { Wide0, Wide1, Wide2, Own, Joined, Out, layer_count };

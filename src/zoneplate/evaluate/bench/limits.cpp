@@ -16,6 +16,13 @@ std::uint32_t gather(const std::uint32_t* table, const std::int32_t* index, std:
   return all;
 }
 
+std::uint32_t multiply(const std::int16_t* values, std::size_t turns) {
+  std::uint32_t all = 0;
+  for (std::size_t turn = 0; turn < turns; ++turn)
+    for (std::size_t i = 0; i < LimitKernels::factors; ++i) all += static_cast<std::uint32_t>(3 * values[i]);
+  return all;
+}
+
 }  // namespace
 
 }  // namespace zoneplate::scalar
@@ -23,6 +30,7 @@ std::uint32_t gather(const std::uint32_t* table, const std::int32_t* index, std:
 namespace zoneplate {
 
 template <>
-const LimitKernels PerIsa<LimitKernels>::scalar = {.sum = scalar::sum, .gather = scalar::gather};
+const LimitKernels PerIsa<LimitKernels>::scalar = {
+    .sum = scalar::sum, .gather = scalar::gather, .multiply = scalar::multiply};
 
 }  // namespace zoneplate

@@ -24,6 +24,10 @@ struct LimitKernels : PerIsa<LimitKernels> {
   std::uint32_t (*sum)(const std::uint32_t* words, std::size_t n);
   /// The sum of table[index[i]] for n indices. Requires: n is a multiple of 32.
   std::uint32_t (*gather)(const std::uint32_t* table, const std::int32_t* index, std::size_t n);
+  /// The sum of `turns` times 3 values[i] for `factors` values, modulo 2^32: as many multiplications of 16-bit
+  /// integers, of which pairs are added.
+  std::uint32_t (*multiply)(const std::int16_t* values, std::size_t turns);
+  static constexpr std::size_t factors = 384;
 };
 
 }  // namespace zoneplate

@@ -189,6 +189,9 @@ std::vector<float> corrections_of(NetworkFrame& frame) {
   const Network& network = LearnedNetwork::trained();
   const int width = frame.features.width, height = frame.features.height;
   network.read(frame);
+  // Three layers at half the size, and then one that reads the features, one of 3 × 3 and the last.
+  EXPECT_EQ(network.multiplications(20, 10), 50u * (9 * 40 * 16 + 9 * 16 * 16 + 9 * 16 * 24) +
+                                                 200u * (40 * 8 + 9 * 14 * 16 + 16 * LearnedNetwork::form.outputs));
   std::vector<float> out, row(static_cast<std::size_t>(width) * LearnedNetwork::per_pixel);
   constexpr int of_half = 2 * LearnedNetwork::corrections;
   for (int y = 0; y < height; ++y) {
