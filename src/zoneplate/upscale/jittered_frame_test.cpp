@@ -7,14 +7,8 @@
 #include <vector>
 
 #include "zoneplate/image/tonemap.h"
-#include "zoneplate/image/transfer.h"
 #include "zoneplate/math/random.h"
-#include "zoneplate/math/transform.h"
-#include "zoneplate/render/renderer.h"
-#include "zoneplate/render/view.h"
-#include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/upscale/scatter_rows.h"
-#include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::upscale {
 namespace {
@@ -49,29 +43,6 @@ TEST(JitteredFrame, ACropIsCopiedIntoTheMemoryOfItsSize) {
         for (int x = 0; x < part.width; ++x) EXPECT_EQ(made(x, y), image(part.x + x, part.y + y));
       EXPECT_EQ(cropped(LinearImage(image), crop), made);
     }
-}
-
-// The codes of methods that end in light, whose results take the memory of the frame before, are those of their light.
-TEST(JitteredFrame, FramesAreTheSameInMemoryThatIsReused) {
-  for (const char* method :
-       {"fsr2", "fsr3:sharpness=0.5", "sgsr2", "taau", "taau:preset=karis", "learned", "oracle-taau"}) {
-    Renderer codes(PreparedScene(*make_builtin_scene("panning-wires")), make_method(method));
-    Renderer light(PreparedScene(*make_builtin_scene("panning-wires")), make_method(method));
-    const Camera camera = choose_camera(codes.scene().scene(), {.index = 0}, 1.5f);
-    for (const bool is_cropped : {false, true}) {
-      codes.begin_sequence(), light.begin_sequence();
-      for (int i = 0; i < 3; ++i) {
-        Camera moved = camera;
-        moved.world_from_camera = camera.world_from_camera * translation(float3{0.01f * static_cast<float>(i), 0, 0});
-        RenderSettings settings{.options = {.width = 66, .height = 44}};
-        if (is_cropped) settings.options.crop = Crop{9, 5, 31, 30};
-        const Rgba8Image image = codes.render(moved, settings).display;
-        settings.form = ImageForm::Linear;
-        EXPECT_EQ(image, quantize8(make_display(light.render(moved, settings).linear, settings.options.display)))
-            << method << ' ' << i;
-      }
-    }
-  }
 }
 
 TEST(ScatterRows, VisitsEachRowForEveryBlockThatItReaches) {

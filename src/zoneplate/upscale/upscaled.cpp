@@ -61,7 +61,7 @@ class Upscaled : public Resolver {
   Request shrunk(Request request) const {
     request.frame = frame_;
     request.is_display_referred = true;
-    request.resolves_per_pixel = request.estimates_error = false;
+    request.resolves_per_pixel = request.ends_in_light = request.estimates_error = false;
     const float own = request.footprint > 0          ? request.footprint
                       : request.rate == Rate::Sample ? 1 / std::sqrt(static_cast<float>(request.samples.size()))
                                                      : 1.0f;

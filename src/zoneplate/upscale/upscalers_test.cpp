@@ -5,13 +5,20 @@
 
 #include <cmath>
 #include <tuple>
+#include <vector>
 
 #include "zoneplate/antialias/charts_for_test.h"
 #include "zoneplate/antialias/methods.h"
 #include "zoneplate/base/error.h"
 #include "zoneplate/base/isa.h"
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/image/tonemap.h"
+#include "zoneplate/image/transfer.h"
 #include "zoneplate/math/random.h"
+#include "zoneplate/math/transform.h"
+#include "zoneplate/render/renderer.h"
+#include "zoneplate/render/view.h"
+#include "zoneplate/scene/builtin/builtin.h"
 #include "zoneplate/upscale/upscaler.h"
 
 namespace zoneplate::upscale {
@@ -185,6 +192,34 @@ std::vector<std::string> all_methods() {
        {"fsr2:scale=1", "fsr3:scale=1", "fsr2:scale=4", "taa+fsr1", "smaa:mode=t2x+nis", "msaa+fsr1"})
     out.emplace_back(text);
   return out;
+}
+
+// The results of methods with history take the memory of the frame before.
+TEST(Upscalers, CodesOfMethodsThatEndInLightAreThoseOfTheirLight) {
+  int ends_in_light = 0;
+  std::vector<std::string> texts = all_methods();
+  for (const char* text : {"taau:preset=karis", "fsr3:sharpness=0.5", "learned:scale=1"}) texts.emplace_back(text);
+  for (const std::string& text : texts) {
+    Renderer codes(PreparedScene(*make_builtin_scene("panning-wires")), make_method(text));
+    Renderer light(PreparedScene(*make_builtin_scene("panning-wires")), make_method(text));
+    if (!make_method(text)->request({.image = {66, 44, std::nullopt}}).ends_in_light) continue;
+    ++ends_in_light;
+    const Camera camera = choose_camera(codes.scene().scene(), {.index = 0}, 1.5f);
+    for (const bool is_cropped : {false, true}) {
+      codes.begin_sequence(), light.begin_sequence();
+      for (int i = 0; i < 3; ++i) {
+        Camera moved = camera;
+        moved.world_from_camera = camera.world_from_camera * translation(float3{0.01f * static_cast<float>(i), 0, 0});
+        RenderSettings settings{.options = {.width = 66, .height = 44}};
+        if (is_cropped) settings.options.crop = Crop{9, 5, 31, 30};
+        const Rgba8Image image = codes.render(moved, settings).display;
+        settings.form = ImageForm::Linear;
+        EXPECT_EQ(image, quantize8(make_display(light.render(moved, settings).linear, settings.options.display)))
+            << text << ' ' << i;
+      }
+    }
+  }
+  EXPECT_GT(ends_in_light, 30);
 }
 
 // Whoever asks has no frame yet: the answer is that of every frame.

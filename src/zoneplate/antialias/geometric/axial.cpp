@@ -97,6 +97,7 @@ class Axial : public Resolver {
     Request request;
     request.planes.normal = request.planes.object_id = request.planes.material_id = of_surfaces_;
     request.halo = 1;
+    request.ends_in_light = true;
     return request;
   }
   /// Requests the colours first, then the triangles.

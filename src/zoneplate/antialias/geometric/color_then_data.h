@@ -26,6 +26,7 @@ class ColorThenData : public Resolver {
  private:
   static Request with_halo(Request request) {
     request.halo = 1;
+    request.ends_in_light = true;
     return request;
   }
 

@@ -52,6 +52,7 @@ class Adaptive : public Resolver {
     Request request{
         .samples = standard_pattern(4), .rate = Rate::Sample, .weights = {}, .planes = {}, .pixel_mask = {}};
     request.planes.sample_colors = true;
+    request.ends_in_light = true;
     return request;
   }
   std::optional<Request> refine(Frame& frame) override {

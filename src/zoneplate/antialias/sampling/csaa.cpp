@@ -22,6 +22,7 @@ class Csaa : public Resolver {
   Csaa(int samples, int slots) : pattern_(standard_pattern(samples)), slots_(static_cast<std::size_t>(slots)) {}
   Request request(const FrameContext&) override {
     Request request{.samples = pattern_, .rate = Rate::Surface, .weights = {}, .planes = {}, .pixel_mask = {}};
+    request.ends_in_light = true;
     request.draw = [samples = pattern_, slots = slots_](const CustomDraw& drawing) {
       draw_with_slots(drawing, samples, slots);
     };

@@ -28,6 +28,7 @@ class FlipQuad : public Resolver {
     request.centroid = Centroid::MeanOfAll;
     request.planes.sample_colors = true;
     request.halo = 1;
+    request.ends_in_light = true;
     return request;
   }
   /// The last column and row have no samples on their far sides.

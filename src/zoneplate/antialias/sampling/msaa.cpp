@@ -33,6 +33,7 @@ class Msaa : public Resolver {
     request.planes.sample_colors = !filter_.is_plain();
     request.halo = filter_.radius();
     request.is_display_referred = filter_.is_display_referred();
+    request.ends_in_light = !request.is_display_referred;
     return request;
   }
   LinearImage resolve(Frame& frame) override {

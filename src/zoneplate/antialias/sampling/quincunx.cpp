@@ -22,6 +22,7 @@ class Quincunx : public Resolver {
     request.centroid = Centroid::MeanOfAll;
     request.planes.sample_colors = true;
     request.halo = 1;
+    request.ends_in_light = true;
     return request;
   }
   /// Pixels at the image's right and lower side lack corners; the weights of the others are increased.

@@ -62,6 +62,7 @@ class Ssaa : public Resolver {
     request.footprint = 1 / std::sqrt(static_cast<float>(pattern_.size()));
     request.halo = filter_.radius();
     request.is_display_referred = filter_.is_display_referred();
+    request.ends_in_light = !request.is_display_referred;
     return request;
   }
   void take(const Frame& frame) {

@@ -181,6 +181,7 @@ Request TemporalAccumulation::request(const FrameContext& context) {
   request.planes.motion = !options_.follows_camera;
   request.planes.last_position = tests_surfaces();
   request.is_display_referred = options_.new_pixels != NewPixels::Sample;
+  request.ends_in_light = !request.is_display_referred;
   return request;
 }
 

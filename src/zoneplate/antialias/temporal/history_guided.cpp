@@ -70,6 +70,7 @@ class HistoryGuided : public Resolver {
     request.samples = {sample()};
     request.halo = Request::whole_image;
     request.settling_frames = frames_;
+    request.ends_in_light = true;
     request.planes.depth = request.planes.object_id = request.planes.motion = true;
     return request;
   }

@@ -68,6 +68,7 @@ Request SurfaceHistory::request(const FrameContext& context) {
     request.halo = Request::whole_image;
   }
   request.settling_frames = options_.most;
+  request.ends_in_light = true;
   request.planes.object_id = request.planes.motion = request.planes.was_visible = true;
   return request;
 }

@@ -18,7 +18,6 @@ class OracleTaau : public antialias::SurfaceHistory {
 
   Request request(const FrameContext& context) override {
     Request request = SurfaceHistory::request(context);
-    request.ends_in_light = true;
     if (request.frame) crop_ = context.image.crop;
     return request;
   }
