@@ -236,7 +236,7 @@ void Renderer::finish(LinearImage picture, const Frame& frame, const Request& re
     return;
   }
   Stopwatch watch;
-  if (form == ImageForm::Display8 && request.ends_in_light && edges.empty()) {
+  if (form == ImageForm::Display8 && (request.ends_in_light || request.resolves_per_pixel) && edges.empty()) {
     out.display = make_display8(picture, frame.display);
     out.counts.display_ms += watch.ms();
     if (method_->has_history()) memory_ = std::move(picture);
