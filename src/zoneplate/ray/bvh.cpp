@@ -7,6 +7,8 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <memory>
+#include <tuple>
 #include <utility>
 
 #include "zoneplate/base/deadline.h"
@@ -14,188 +16,123 @@
 #include "zoneplate/base/out_of_memory.h"
 #include "zoneplate/base/parallel.h"
 #include "zoneplate/math/lanes.h"
+#include "zoneplate/ray/bvh_build.h"
 #include "zoneplate/ray/placement_lanes.h"
 
 namespace zoneplate {
 namespace {
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
-
-/// A box in four lanes, of which the last one is unused; compilers turn its loops into single instructions.
-struct alignas(16) WideBox {
-  float low[4] = {infinity, infinity, infinity, infinity};
-  float high[4] = {-infinity, -infinity, -infinity, -infinity};
-
-  void add(const WideBox& b) {
-    for (int c = 0; c < 4; ++c) low[c] = b.low[c] < low[c] ? b.low[c] : low[c];
-    for (int c = 0; c < 4; ++c) high[c] = b.high[c] > high[c] ? b.high[c] : high[c];
-  }
-  /// Half of the surface area; 0 of an empty box.
-  float area() const {
-    const float x = high[0] - low[0], y = high[1] - low[1], z = high[2] - low[2];
-    return x >= 0 ? x * y + y * z + z * x : 0;
-  }
-};
-
-/// A triangle in the build, or a placement: its box, with the caster or placement in the unused lane of `low` and the
-/// triangle in that of `high`.
-struct Reference {
-  WideBox box;
-  std::uint32_t caster() const { return std::bit_cast<std::uint32_t>(box.low[3]); }
-  std::uint32_t triangle() const { return std::bit_cast<std::uint32_t>(box.high[3]); }
-  /// Twice the centroid of the box.
-  float centre(int axis) const { return box.low[axis] + box.high[axis]; }
-};
-
-/// A range of references with their boxes.
+/// A range of references with their bounds.
 struct Range {
   std::size_t begin = 0, end = 0;
-  WideBox box;
-  WideBox centres;  ///< of twice the centroids
+  BuildBounds bounds;
   std::size_t size() const { return end - begin; }
+  const BuildBox& box() const { return bounds.box; }
 };
 
 std::uint32_t number(std::size_t x) { return static_cast<std::uint32_t>(x); }
 
-void add_centre(const Reference& r, WideBox& centres) {
-  WideBox c;
-  for (int i = 0; i < 4; ++i) c.low[i] = c.high[i] = r.box.low[i] + r.box.high[i];
-  centres.add(c);
-}
-
-constexpr int bins = 16;
 /// Nodes at this depth and below split their ranges in halves, so that no tree exceeds Bvh::max_depth.
 constexpr int halving_depth = 28;
 
-/// The cost of the triangles of a leaf, which are tested four at a time.
-float blocks(std::size_t triangles) { return static_cast<float>((triangles + BvhLeaf::width - 1) / BvhLeaf::width); }
-
-struct Split {
-  int axis = -1;
-  int bin = 0;  ///< the first on the right
-  float first = 0, scale = 0;
-  float cost = infinity;
-  bool is_left(const Reference& r) const { return bin_of(r) < bin; }
-  int bin_of(const Reference& r) const {
-    return std::min(static_cast<int>((r.centre(axis) - first) * scale), bins - 1);
-  }
-};
-
-/// The best division of the range by bins along one of the axes; none where all centroids are the same.
-Split find_split(std::span<const Reference> references, const Range& range) {
-  Split plan[3];
-  for (int a = 0; a < 3; ++a) {
-    const float extent = range.centres.high[a] - range.centres.low[a];
-    const float scale = static_cast<float>(bins) * 0.9999f / extent;
-    if (extent > 0 && scale < infinity) plan[a] = {.axis = a, .first = range.centres.low[a], .scale = scale};
-  }
-  std::array<std::array<WideBox, bins>, 3> box;
-  std::array<std::array<std::uint32_t, bins>, 3> count{};
-  for (std::size_t i = range.begin; i < range.end; ++i) {
-    const Reference& r = references[i];
-    for (std::size_t a = 0; a < 3; ++a) {
-      if (plan[a].axis < 0) continue;
-      const auto b = static_cast<std::size_t>(plan[a].bin_of(r));
-      ++count[a][b];
-      box[a][b].add(r.box);
-    }
-  }
-
-  Split best;
-  for (std::size_t a = 0; a < 3; ++a) {
-    if (plan[a].axis < 0) continue;
-    float right_area[bins];
-    WideBox right;
-    for (std::size_t b = bins - 1; b > 0; --b) right.add(box[a][b]), right_area[b] = right.area();
-    WideBox left;
-    std::size_t on_left = 0;
-    for (std::size_t b = 1; b < bins; ++b) {
-      left.add(box[a][b - 1]), on_left += count[a][b - 1];
-      if (on_left == 0 || on_left == range.size()) continue;
-      const float cost = left.area() * blocks(on_left) + right_area[b] * blocks(range.size() - on_left);
-      if (cost < best.cost) best = plan[a], best.bin = static_cast<int>(b), best.cost = cost;
-    }
-  }
-  return best;
-}
-
 /// Divides the range in two, and reorders its references.
-std::pair<Range, Range> divide(std::span<Reference> references, const Range& range, bool halves) {
-  const Split split = halves ? Split() : find_split(references, range);
+std::pair<Range, Range> divide(std::span<BuildReference> references, const Range& range, bool halves) {
+  const BuildBins bins(range.bounds.centres, range.size());
+  BuildSplit split;
+  if (!halves) split = BuildKernels::of().split(&references[range.begin], range.size(), bins);
   Range left{.begin = range.begin}, right{.end = range.end};
-  const auto add = [](const Reference& r, Range& to) { to.box.add(r.box), add_centre(r, to.centres); };
   if (split.axis < 0) {
     left.end = right.begin = range.begin + range.size() / 2;
-    for (std::size_t i = range.begin; i < range.end; ++i) add(references[i], i < left.end ? left : right);
+    for (std::size_t i = range.begin; i < range.end; ++i) {
+      BuildBounds& side = i < left.end ? left.bounds : right.bounds;
+      side.box.add(references[i].box), side.add_centre(references[i]);
+    }
     return {left, right};
   }
+  const auto is_left = [&](const BuildReference& r) { return bins.bin_of(r, split.axis) < split.bin; };
   std::size_t i = range.begin, j = range.end;
   while (true) {
-    for (; i < j && split.is_left(references[i]); ++i) add(references[i], left);
-    for (; i < j && !split.is_left(references[j - 1]); --j) add(references[j - 1], right);
+    for (; i < j && is_left(references[i]); ++i) left.bounds.add_centre(references[i]);
+    for (; i < j && !is_left(references[j - 1]); --j) right.bounds.add_centre(references[j - 1]);
     if (i >= j) break;
     std::swap(references[i], references[j - 1]);
   }
   left.end = right.begin = i;
+  left.bounds.box = split.left, right.bounds.box = split.right;
   return {left, right};
 }
 
-/// The children of a node: at most eight ranges, each of which is small enough for a leaf or worth a node.
-std::vector<Range> children_of(std::span<Reference> references, const Range& range, std::size_t leaf_size, int depth) {
-  std::vector<Range> parts{range};
-  while (parts.size() < BvhNode::width) {
+/// At most eight ranges, each of which is small enough for a leaf or worth a node.
+struct Children {
+  std::array<Range, BvhNode::width> range;
+  std::size_t size = 0;
+};
+
+Children children_of(std::span<BuildReference> references, const Range& range, std::size_t leaf_size, int depth) {
+  Children out{.range = {range}, .size = 1};
+  while (out.size < BvhNode::width) {
     // The child that a ray is most likely to enter is divided next.
-    std::size_t widest = parts.size();
+    std::size_t widest = out.size;
     std::pair<float, std::size_t> greatest;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      const std::pair weight{depth >= halving_depth ? 0 : parts[i].box.area(), parts[i].size()};
-      if (parts[i].size() > leaf_size && weight > greatest) widest = i, greatest = weight;
+    for (std::size_t i = 0; i < out.size; ++i) {
+      const Range& child = out.range[i];
+      const std::pair weight{depth >= halving_depth ? 0 : child.box().area(), child.size()};
+      if (child.size() > leaf_size && weight > greatest) widest = i, greatest = weight;
     }
-    if (widest == parts.size()) break;
-    auto [left, right] = divide(references, parts[widest], depth >= halving_depth);
-    parts[widest] = left;
-    parts.push_back(right);
+    if (widest == out.size) break;
+    std::tie(out.range[widest], out.range[out.size]) = divide(references, out.range[widest], depth >= halving_depth);
+    ++out.size;
   }
   // Rays that search for any hit visit the largest children first.
-  std::stable_sort(parts.begin(), parts.end(),
-                   [](const Range& a, const Range& b) { return a.box.area() > b.box.area(); });
-  return parts;
+  std::stable_sort(out.range.begin(), out.range.begin() + out.size,
+                   [](const Range& a, const Range& b) { return a.box().area() > b.box().area(); });
+  return out;
 }
 
-void set_box(BvhNode& node, std::size_t child, const WideBox& box) {
-  for (int a = 0; a < 3; ++a) node.bound[0][a][child] = box.low[a], node.bound[1][a][child] = box.high[a];
+void set_box(BvhNode& node, std::size_t child, const BuildBox& box) {
+  for (int a = 0; a < 3; ++a) node.bound[0][a][child] = box.low(a), node.bound[1][a][child] = box.high(a);
 }
 
 BvhNode empty_node() {
   BvhNode node;
-  for (std::size_t i = 0; i < BvhNode::width; ++i) set_box(node, i, WideBox()), node.child[i] = 0;
+  for (std::size_t i = 0; i < BvhNode::width; ++i) set_box(node, i, BuildBox::empty()), node.child[i] = 0;
   return node;
+}
+
+std::size_t triangles_of(std::span<const ShadowCaster> casters) {
+  std::size_t all = 0;
+  for (const ShadowCaster& caster : casters) all += caster.index.size() / 3;
+  return all;
 }
 
 float3 vertex(const ShadowCaster& caster, std::size_t triangle, std::size_t k) {
   return transform_point(caster.world_from_object, caster.position[caster.index[3 * triangle + k]]);
 }
 
+/// The references of a leaf.
+struct LeafRange {
+  std::uint32_t begin, size;
+};
+
 /// A part of the tree. Its references to nodes and leaves count from its own first ones.
-struct Tree {
+struct Part {
   std::vector<BvhNode> nodes;
-  std::vector<BvhLeaf> leaves;
+  std::vector<LeafRange> leaves;
 };
 
 /// Builds a tree of the triangles of casters, or one of placements if there are no casters.
 struct Builder {
   std::span<const ShadowCaster> casters;
-  std::span<Reference> references;
+  std::span<BuildReference> references;
 
   std::size_t leaf_size() const { return casters.empty() ? 1 : BvhLeaf::width; }
 
-  std::uint32_t add_leaf(const Range& range, Tree& tree) const {
-    if (casters.empty()) return BvhNode::placement + references[range.begin].caster();
+  BvhLeaf leaf_of(const LeafRange& range) const {
     BvhLeaf leaf;
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
     for (std::size_t i = 0; i < BvhLeaf::width; ++i) {
-      const bool is_used = i < range.size();
-      const Reference& r = references[range.begin + (is_used ? i : 0)];
+      const bool is_used = i < range.size;
+      const BuildReference& r = references[range.begin + (is_used ? i : 0)];
       const ShadowCaster& caster = casters[r.caster()];
       for (std::size_t k = 0; k < 3; ++k) {
         const float3 p = is_used ? vertex(caster, r.triangle(), k) : float3{nan, nan, nan};
@@ -204,54 +141,56 @@ struct Builder {
       leaf.instance[i] = r.caster(), leaf.primitive[i] = r.triangle();
       if (caster.is_translucent) leaf.translucent |= 1u << i;
     }
-    tree.leaves.push_back(leaf);
-    return BvhNode::leaf + number(tree.leaves.size() - 1);
+    return leaf;
   }
 
   /// Appends the tree of a range, depth first; returns the reference to it.
-  std::uint32_t build(const Range& range, int depth, Tree& tree) const {
-    if (range.size() <= leaf_size()) return add_leaf(range, tree);
-    const std::uint32_t at = number(tree.nodes.size());
-    tree.nodes.push_back(empty_node());
-    const std::vector<Range> parts = children_of(references, range, leaf_size(), depth);
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      const std::uint32_t child = build(parts[i], depth + 1, tree);
-      tree.nodes[at].child[i] = child;
-      set_box(tree.nodes[at], i, parts[i].box);
+  std::uint32_t build(const Range& range, int depth, Part& part) const {
+    if (range.size() <= leaf_size()) {
+      if (casters.empty()) return BvhNode::placement + references[range.begin].caster();
+      part.leaves.push_back({number(range.begin), number(range.size())});
+      return BvhNode::leaf + number(part.leaves.size() - 1);
+    }
+    const std::uint32_t at = number(part.nodes.size());
+    part.nodes.push_back(empty_node());
+    const Children children = children_of(references, range, leaf_size(), depth);
+    for (std::size_t i = 0; i < children.size; ++i) {
+      const std::uint32_t child = build(children.range[i], depth + 1, part);
+      part.nodes[at].child[i] = child;
+      set_box(part.nodes[at], i, children.range[i].box());
     }
     return at;
   }
 };
 
-void add_reference(Reference r, std::size_t caster, std::size_t triangle, std::vector<Reference>& to, Range& all) {
-  r.box.low[3] = std::bit_cast<float>(number(caster));
-  r.box.high[3] = std::bit_cast<float>(number(triangle));
-  all.box.add(r.box), add_centre(r, all.centres);
-  to.push_back(r);
-  all.end = to.size();
-}
+/// The references of a tree.
+struct References {
+  std::unique_ptr<BuildReference[]> memory;
+  Range all;
 
-/// The boxes of all triangles with finite vertices, in order.
-std::vector<Reference> make_references(std::span<const ShadowCaster> casters, Range& all) {
-  std::size_t most = 0;
-  for (const ShadowCaster& caster : casters) most += caster.index.size() / 3;
-  std::vector<Reference> references;
-  reserve_large(references, most);
-  for (std::size_t c = 0; c < casters.size(); ++c) {
-    for (std::size_t t = 0; t < casters[c].index.size() / 3; ++t) {
-      if (t % 4096 == 0) check_deadline();
-      Reference r;
-      bool is_usable = true;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const float3 p = vertex(casters[c], t, k);
-        is_usable = is_usable && is_finite(p);
-        r.box.add({{p.x, p.y, p.z, 0}, {p.x, p.y, p.z, 0}});
+  /// Without any, and memory for so many.
+  explicit References(std::size_t capacity) : memory(new BuildReference[capacity]) {
+    prefault(memory.get(), capacity * sizeof(BuildReference));
+  }
+  /// Those of all triangles with finite vertices, in order.
+  explicit References(std::span<const ShadowCaster> casters) : References(triangles_of(casters)) {
+    for (std::size_t c = 0; c < casters.size(); ++c) {
+      constexpr std::size_t chunk = 4096;
+      const std::size_t triangles = casters[c].index.size() / 3;
+      for (std::size_t t = 0; t < triangles; t += chunk) {
+        check_deadline();
+        all.end += BuildKernels::of().refer(casters[c], number(c), t, std::min(t + chunk, triangles),
+                                            memory.get() + all.end, all.bounds);
       }
-      if (is_usable) add_reference(r, c, t, references, all);
     }
   }
-  return references;
-}
+  void add(const BuildBox& box, std::size_t placement) {
+    BuildReference& r = memory[all.end++];
+    r.box = box, r.set(number(placement), 0);
+    all.bounds.box.add(box), all.bounds.add_centre(r);
+  }
+  std::span<BuildReference> span() const { return {memory.get(), all.end}; }
+};
 
 /// Nodes above this size are divided one after the other, the parts below in parallel.
 constexpr std::size_t serial_size = std::size_t{1} << 15;
@@ -264,57 +203,68 @@ struct Job {
   std::size_t child = 0;
 };
 
-void build_top(const Builder& builder, const Range& range, int depth, Tree& tree, std::vector<Job>& jobs) {
-  const std::uint32_t at = number(tree.nodes.size());
-  tree.nodes.push_back(empty_node());
+void build_top(const Builder& builder, const Range& range, int depth, std::vector<BvhNode>& nodes,
+               std::vector<Job>& jobs) {
+  const std::uint32_t at = number(nodes.size());
+  nodes.push_back(empty_node());
   check_deadline();
-  const std::vector<Range> parts = children_of(builder.references, range, builder.leaf_size(), depth);
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    set_box(tree.nodes[at], i, parts[i].box);
-    if (parts[i].size() <= serial_size) {
-      jobs.push_back({parts[i], depth + 1, at, i});
+  const Children children = children_of(builder.references, range, builder.leaf_size(), depth);
+  for (std::size_t i = 0; i < children.size; ++i) {
+    const Range& child = children.range[i];
+    set_box(nodes[at], i, child.box());
+    if (child.size() <= serial_size) {
+      jobs.push_back({child, depth + 1, at, i});
     } else {
-      tree.nodes[at].child[i] = number(tree.nodes.size());
-      build_top(builder, parts[i], depth + 1, tree, jobs);
+      nodes[at].child[i] = number(nodes.size());
+      build_top(builder, child, depth + 1, nodes, jobs);
     }
   }
 }
 
-/// Appends a part to the tree and frees it; returns the reference to its root.
-std::uint32_t append(Tree& part, std::uint32_t root, Tree& tree) {
-  const std::uint32_t nodes = number(tree.nodes.size()), leaves = number(tree.leaves.size());
-  const auto moved = [&](std::uint32_t child) {
-    return child + (child & BvhNode::leaf ? leaves : child & BvhNode::placement ? 0 : nodes);
-  };
-  for (BvhNode& node : part.nodes) {
-    for (std::size_t i = 0; i < BvhNode::width; ++i)
-      if (node.bound[0][0][i] <= node.bound[1][0][i]) node.child[i] = moved(node.child[i]);
-    tree.nodes.push_back(node);
-  }
-  tree.leaves.insert(tree.leaves.end(), part.leaves.begin(), part.leaves.end());
-  part = Tree();
-  return moved(root);
-}
+struct Tree {
+  std::vector<BvhNode> nodes;
+  std::vector<BvhLeaf> leaves;
+};
 
-/// Appends the tree of these references, and frees them; returns its root, a node.
-std::uint32_t append_tree(std::span<const ShadowCaster> casters, std::vector<Reference> references, const Range& all,
-                          Tree& tree) {
+/// Appends the tree of these references; returns its root, a node.
+std::uint32_t append_tree(std::span<const ShadowCaster> casters, References references, Tree& tree) {
   const std::uint32_t root = number(tree.nodes.size());
-  const Builder builder{casters, references};
+  const Builder builder{casters, references.span()};
   std::vector<Job> jobs;
-  build_top(builder, all, 0, tree, jobs);
+  build_top(builder, references.all, 0, tree.nodes, jobs);
 
-  std::vector<Tree> parts(jobs.size());
-  std::vector<std::uint32_t> roots(jobs.size());
+  std::vector<Part> parts(jobs.size());
+  std::vector<std::uint32_t> roots(jobs.size()), first_leaf(jobs.size());
   parallel_for(jobs.size(), [&](std::size_t i) {
-    growing("shadow rays' triangles", [&] { roots[i] = builder.build(jobs[i].range, jobs[i].depth, parts[i]); });
+    growing("shadow rays' triangles", [&] {
+      parts[i].nodes.reserve(jobs[i].range.size() / 10), parts[i].leaves.reserve(jobs[i].range.size() / 3);
+      roots[i] = builder.build(jobs[i].range, jobs[i].depth, parts[i]);
+    });
   });
-  references = {};
   std::size_t nodes = tree.nodes.size(), leaves = tree.leaves.size();
-  for (const Tree& part : parts) nodes += part.nodes.size(), leaves += part.leaves.size();
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    first_leaf[i] = number(leaves);
+    nodes += parts[i].nodes.size(), leaves += parts[i].leaves.size();
+  }
   reserve_large(tree.nodes, nodes), reserve_large(tree.leaves, leaves);
-  for (std::size_t i = 0; i < jobs.size(); ++i)
-    tree.nodes[jobs[i].node].child[jobs[i].child] = append(parts[i], roots[i], tree);
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    const std::uint32_t first_node = number(tree.nodes.size());
+    const auto moved = [&](std::uint32_t child) {
+      return child + (child & BvhNode::leaf ? first_leaf[i] : child & BvhNode::placement ? 0 : first_node);
+    };
+    tree.nodes[jobs[i].node].child[jobs[i].child] = moved(roots[i]);
+    for (BvhNode& node : parts[i].nodes) {
+      for (std::size_t k = 0; k < BvhNode::width; ++k)
+        if (node.bound[0][0][k] <= node.bound[1][0][k]) node.child[k] = moved(node.child[k]);
+      tree.nodes.push_back(node);
+    }
+    parts[i].nodes = {};
+  }
+  tree.leaves.resize(leaves);
+  parallel_for(jobs.size(), [&](std::size_t i) {
+    for (std::size_t k = 0; k < parts[i].leaves.size(); ++k)
+      tree.leaves[first_leaf[i] + k] = builder.leaf_of(parts[i].leaves[k]);
+  });
   return root;
 }
 
@@ -344,8 +294,8 @@ std::vector<Casters> repeated(std::span<const ShadowCaster> casters) {
 }
 
 /// The tree of a caster with the root `root`, and its box in the world.
-std::pair<BvhPlacement, WideBox> place(const ShadowCaster& caster, std::size_t instance, const Tree& tree,
-                                       std::uint32_t root) {
+std::pair<BvhPlacement, BuildBox> place(const ShadowCaster& caster, std::size_t instance, const Tree& tree,
+                                        std::uint32_t root) {
   BvhPlacement placement{.root = root, .instance = number(instance), .translucent = caster.is_translucent ? 15u : 0u};
   const auto& column = caster.world_from_object.column;
   for (std::size_t c = 0; c < 4; ++c)
@@ -353,16 +303,16 @@ std::pair<BvhPlacement, WideBox> place(const ShadowCaster& caster, std::size_t i
       placement.world_from_object[r][c] = r == 0 ? column[c].x : r == 1 ? column[c].y : column[c].z;
   BvhNode node;
   stages::place<scalar::Float>(tree.nodes[root], placement, node);
-  WideBox box;
+  BuildBox box = BuildBox::empty();
   for (std::size_t i = 0; i < BvhNode::width; ++i)
-    box.add({{node.bound[0][0][i], node.bound[0][1][i], node.bound[0][2][i], 0},
-             {node.bound[1][0][i], node.bound[1][1][i], node.bound[1][2][i], 0}});
+    box.add({{node.bound[0][0][i], node.bound[0][1][i], node.bound[0][2][i], 0, -node.bound[1][0][i],
+              -node.bound[1][1][i], -node.bound[1][2][i], 0}});
   return {placement, box};
 }
 
-bool is_within(const WideBox& box, float limit) {
+bool is_within(const BuildBox& box, float limit) {
   bool is = true;
-  for (int a = 0; a < 3; ++a) is = is && box.low[a] > -limit && box.high[a] < limit;
+  for (int a = 0; a < 3; ++a) is = is && box.low(a) > -limit && box.high(a) < limit;
   return is;
 }
 
@@ -370,38 +320,34 @@ bool is_within(const WideBox& box, float limit) {
 
 Bvh::Bvh(std::span<const ShadowCaster> casters, std::size_t max_triangles) {
   growing("shadow rays' triangles", [&] {
-    std::size_t all_triangles = 0;
-    for (const ShadowCaster& caster : casters) all_triangles += caster.index.size() / 3;
     std::vector<ShadowCaster> expanded(casters.begin(), casters.end());
     Tree tree;
-    Range placed;
-    std::vector<Reference> boxes;
-    for (const Casters& group : all_triangles > max_triangles ? repeated(casters) : std::vector<Casters>()) {
+    References boxes(casters.size() + 1);
+    for (const Casters& group : triangles_of(casters) > max_triangles ? repeated(casters) : std::vector<Casters>()) {
       ShadowCaster mesh = casters[group[0]];
       mesh.world_from_object = {};
-      Range all;
-      std::vector<Reference> references = make_references({&mesh, 1}, all);
-      if (references.empty()) continue;
-      const std::size_t triangles = references.size();
-      const std::uint32_t root = append_tree({&mesh, 1}, std::move(references), all, tree);
+      References references(std::span(&mesh, 1));
+      if (references.all.end == 0) continue;
+      const std::size_t triangles = references.all.end;
+      const std::uint32_t root = append_tree({&mesh, 1}, std::move(references), tree);
       for (const std::uint32_t c : group) {
         const auto [placement, box] = place(casters[c], c, tree, root);
         if (!is_within(box, max_placed)) continue;
-        add_reference({box}, placements_.size(), 0, boxes, placed);
+        boxes.add(box, placements_.size());
         placements_.push_back(placement);
         triangles_ += triangles;
         expanded[c].index = {};
       }
     }
-    Range all;
-    std::vector<Reference> references = make_references(expanded, all);
-    triangles_ += references.size();
-    const bool has_triangles = !references.empty();
-    if (has_triangles) root_ = append_tree(expanded, std::move(references), all, tree);
+    References references(expanded);
+    const BuildBox all = references.all.box();
+    triangles_ += references.all.end;
+    const bool has_triangles = references.all.end > 0;
+    if (has_triangles) root_ = append_tree(expanded, std::move(references), tree);
     if (!placements_.empty()) {
       const std::uint32_t of_triangles = root_, stand_in = BvhNode::placement + number(placements_.size());
-      if (has_triangles) add_reference({all.box}, placements_.size(), 0, boxes, placed);
-      root_ = append_tree({}, std::move(boxes), placed, tree);
+      if (has_triangles) boxes.add(all, placements_.size());
+      root_ = append_tree({}, std::move(boxes), tree);
       for (std::size_t i = root_; has_triangles && i < tree.nodes.size(); ++i)
         std::replace(std::begin(tree.nodes[i].child), std::end(tree.nodes[i].child), stand_in, of_triangles);
     }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "zoneplate/base/parallel.h"
+#include "zoneplate/ray/bvh_build.h"
 #include "zoneplate/ray/casters_for_test.h"
 
 namespace zoneplate {
@@ -85,7 +86,7 @@ TEST(Bvh, DepthIsBoundedForAnyTriangles) {
   EXPECT_LT(checked_depth(Bvh(std::vector{series.caster()})), Bvh::max_depth);
 }
 
-TEST(BvhBits, AreTheSameForAnyNumberOfThreads) {
+TEST(BvhBits, AreTheSameForAnyNumberOfThreadsAndInstructionSet) {
   const TestMesh sphere = bumpy_sphere(200);
   const auto tree = [&](int threads) {
     std::vector<std::byte> bytes;
@@ -100,6 +101,40 @@ TEST(BvhBits, AreTheSameForAnyNumberOfThreads) {
   const auto one = tree(1);
   EXPECT_GT(one.size(), 80000u * 40);
   EXPECT_EQ(one, tree(3));
+  for (const Isa isa : supported_isas()) EXPECT_EQ(one, with_isa(isa, [&] { return tree(1); })) << name_of(isa);
+}
+
+// All divisions by all bins, each with the boxes of its sides.
+TEST(BvhSplit, HasTheLeastCostOfAllBins) {
+  for (const std::uint32_t n : {5u, 6u, 11u, 40u, 1000u}) {
+    const TestMesh soup = triangle_soup(n, 0.2f);
+    std::vector<BuildReference> references(n);
+    BuildBounds bounds;
+    ASSERT_EQ(BuildKernels::of().refer(soup.caster(), 7, 0, n, references.data(), bounds), n);
+    const BuildBins bins(bounds.centres, n);
+    float least = std::numeric_limits<float>::infinity();
+    for (int axis = 0; axis < 3; ++axis)
+      for (std::int32_t bin = 1; bin < static_cast<std::int32_t>(bins.count); ++bin) {
+        BuildBox side[2] = {BuildBox::empty(), BuildBox::empty()};
+        std::size_t count[2] = {};
+        for (const BuildReference& r : references) {
+          const bool is_right = bins.bin_of(r, axis) >= bin;
+          side[is_right].add(r.box), ++count[is_right];
+        }
+        float cost = 0;
+        for (int i = 0; i < 2; ++i) cost += side[i].area() * static_cast<float>((count[i] + 3) / 4);
+        if (count[0] > 0 && count[1] > 0) least = std::min(least, cost);
+      }
+    const BuildSplit split = BuildKernels::of().split(references.data(), n, bins);
+    EXPECT_EQ(split.cost, least) << n;
+    for (const BuildReference& r : references) {
+      EXPECT_EQ(r.caster(), 7u);
+      BuildBox all = bins.bin_of(r, split.axis) < split.bin ? split.left : split.right;
+      const float area = all.area();
+      all.add(r.box);
+      EXPECT_EQ(all.area(), area);
+    }
+  }
 }
 
 }  // namespace
