@@ -66,8 +66,13 @@ LinearImage color_of(const Array& array) {
   return out;
 }
 
+/// The typical mean square error of a sequence, by which those of others are divided: filters that change a sequence's
+/// PSNR by equal amounts count the same, as in the training of networks.
+constexpr double typical_error = 0.002, smallest_error = 1e-6;
+
 /// `network`: that of `learned`; null: `taau`.
 void add_sequence(const fs::path& data, const std::string& name, const network::Network* network, TableFit& fit) {
+  TableFit sequence(upscale::CountGroups::form);
   const nlohmann::json info = nlohmann::json::parse(bytes_of(data / (name + ".json")));
   const int width = info["Width"], height = info["Height"];
   const auto mean = network ? std::make_unique<upscale::LearnedMean>(width, height, *network)
@@ -93,9 +98,10 @@ void add_sequence(const fs::path& data, const std::string& name, const network::
     }
     const LinearImage image = mean->accumulate(input);
     if (index % 3 == 0)
-      fit.add(image, upscale::CountGroups::of(mean->counts()), color_of(read_npy(data / "ground_truth" / file)));
+      sequence.add(image, upscale::CountGroups::of(mean->counts()), color_of(read_npy(data / "ground_truth" / file)));
     ++index;
   }
+  fit.add(sequence, typical_error / (sequence.error() + smallest_error));
 }
 
 LinearImage read_png(const fs::path& path) {

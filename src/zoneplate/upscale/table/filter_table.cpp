@@ -132,6 +132,7 @@ void TableFit::add(const LinearImage& image, const Plane<std::uint8_t>& group, c
         for (int k = 0; k < side * side; ++k)
           if (k != side * side / 2)
             *next++ = static_cast<double>(input.roots(c, y + k / side - middle)[x + k % side - middle + margin] - is);
+        error_ += change * change, ++values_;
         double* square = sums.squares.data();
         for (int i = 0; i < taps; ++i) {
           for (int j = 0; j <= i; ++j) *square++ += tap[i] * tap[j];
@@ -139,6 +140,15 @@ void TableFit::add(const LinearImage& image, const Plane<std::uint8_t>& group, c
         }
       }
     }
+}
+
+void TableFit::add(const TableFit& other, double weight) {
+  for (std::size_t i = 0; i < sums_.size(); ++i) {
+    const Sums& from = other.sums_[i];
+    for (std::size_t k = 0; k < from.squares.size(); ++k) sums_[i].squares[k] += weight * from.squares[k];
+    for (std::size_t k = 0; k < from.changes.size(); ++k) sums_[i].changes[k] += weight * from.changes[k];
+  }
+  error_ += weight * other.error_, values_ += other.values_;
 }
 
 std::vector<std::uint8_t> TableFit::bytes() const {

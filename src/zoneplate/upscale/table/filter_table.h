@@ -81,7 +81,8 @@ class TableInput {
 LinearImage filtered(const LinearImage& image, const FilterTable& table, const Plane<std::uint8_t>& group,
                      LinearImage memory = {});
 
-/// The least squares by which a table is made. Sums are of doubles, in the order of the calls and of the pixels.
+/// The least squares by which a table is made, of square roots of light. Sums are of doubles, in the order of the calls
+/// and of the pixels.
 ///
 /// Exact     the same bytes on every machine.
 class TableFit {
@@ -89,6 +90,10 @@ class TableFit {
   explicit TableFit(FilterTable::Form form);
   /// Adds the pixels of an image that is to become `truth`.
   void add(const LinearImage& image, const Plane<std::uint8_t>& group, const LinearImage& truth);
+  /// Adds the images of another fit of this form, whose squares count so much.
+  void add(const TableFit& other, double weight);
+  /// The mean square error of the images before they are filtered.
+  double error() const { return error_ / static_cast<double>(values_); }
   /// The table as FilterTable reads it: per class a float32 scale and int8 weights. A class that few pixels have had
   /// changes little: the squares of its weights count too.
   std::vector<std::uint8_t> bytes() const;
@@ -101,6 +106,8 @@ class TableFit {
   };
   FilterTable::Form form_;
   std::vector<Sums> sums_;
+  double error_ = 0;  ///< the sum of the squares of `values_` differences
+  std::int64_t values_ = 0;
 };
 
 }  // namespace zoneplate::upscale

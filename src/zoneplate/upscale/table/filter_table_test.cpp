@@ -91,6 +91,21 @@ TEST(FilterTable, LeastSquaresFindTheFilterOfEachGroup) {
   }
 }
 
+TEST(FilterTable, ImagesCountByTheirWeight) {
+  const LinearImage image = noise(90, 70, 1), truth = blurred(image, true);
+  const Plane<std::uint8_t> group(90, 70, std::uint8_t{0});
+  TableFit once({2, 3}), twice({2, 3}), weighted({2, 3});
+  once.add(image, group, truth);
+  twice.add(once, 1), twice.add(once, 1), weighted.add(once, 2);
+  EXPECT_EQ(twice.bytes(), weighted.bytes());
+  EXPECT_NE(once.bytes(), weighted.bytes());
+  double expected = 0;
+  for (std::size_t i = 0; i < image.values().size(); ++i)
+    expected += std::pow(std::sqrt(double{image.values()[i].r}) - std::sqrt(double{truth.values()[i].r}), 2);
+  EXPECT_GT(once.error(), 0.5 * expected / (90 * 70));
+  EXPECT_LT(once.error(), 2 * expected / (90 * 70));
+}
+
 TEST(FilterTable, ItsBytesAreTheSameOnEveryInstructionSet) {
   const std::vector<std::uint8_t> expected = with_isa(Isa::Scalar, [] { return blurring_table(); });
   for (const Isa isa : supported_isas())
