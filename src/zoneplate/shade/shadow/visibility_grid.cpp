@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cassert>
 #include <memory>
-#include <tuple>
 
 #include "zoneplate/base/out_of_memory.h"
 #include "zoneplate/math/random.h"
@@ -72,6 +71,11 @@ VisibilityGrid::~VisibilityGrid() {
   for (const std::atomic<Block*>& block : blocks_) delete block.load();
 }
 
+std::uint64_t VisibilityGrid::order_of(int i, int j, int k) const {
+  const auto column = static_cast<std::uint64_t>(i - first_i_), row = static_cast<std::uint64_t>(j - first_j_);
+  return ((row << 32 | column) << order_bits) + static_cast<std::uint64_t>(k);
+}
+
 VisibilityGrid::Cell VisibilityGrid::cell_of(const Receivers& receivers, int k) const {
   constexpr int unit = 256;
   const int x = receivers.x[k] - unit / 2, y = receivers.y[k] - unit / 2, whole = unit * (step_ * step_ + rise_);
@@ -111,9 +115,9 @@ VisibilityGrid::Point& VisibilityGrid::point(int i, int j, int n) {
 /// The cells are in order.
 void VisibilityGrid::evaluate_missing(std::span<const Cell> cells, const Evaluate& evaluate) {
   struct Missing {
+    std::uint64_t order;
     int i, j, n;
     Point* point;
-    auto key() const { return std::tuple(j, i, n); }
   };
   std::vector<Missing> missing;
   Cell last{first_i_ - width, first_j_ - width, 0, 0, 0};
@@ -125,10 +129,11 @@ void VisibilityGrid::evaluate_missing(std::span<const Cell> cells, const Evaluat
     for (int j = cell.j - 1; j < cell.j - 1 + width; ++j)
       for (int i = cell.i - 1; i < cell.i - 1 + width; ++i)
         for (int n = 0; n < per_cell_ && !was_seen(i, j); ++n)
-          if (Point& p = point(i, j, n); !p.is_known.load(std::memory_order_acquire)) missing.push_back({i, j, n, &p});
+          if (Point& p = point(i, j, n); !p.is_known.load(std::memory_order_acquire))
+            missing.push_back({order_of(i, j, n), i, j, n, &p});
     last = cell;
   }
-  std::sort(missing.begin(), missing.end(), [](const Missing& a, const Missing& b) { return a.key() < b.key(); });
+  std::sort(missing.begin(), missing.end(), [](const Missing& a, const Missing& b) { return a.order < b.order; });
   missing.erase(std::unique(missing.begin(), missing.end(),
                             [](const Missing& a, const Missing& b) { return a.point == b.point; }),
                 missing.end());
@@ -171,15 +176,17 @@ GridNeighbours VisibilityGrid::neighbours_of(const Cell& cell) {
 /// Receivers of one cell have the same neighbours.
 void VisibilityGrid::interpolate(const Receivers& receivers, std::span<const int> which, const Evaluate& evaluate,
                                  float* visible) {
-  std::array<Cell, Receivers::capacity> places;
+  std::array<Cell, Receivers::capacity> places, sorted;
+  std::array<std::uint64_t, Receivers::capacity> order;
+  static_assert(Receivers::capacity <= 1 << order_bits);
   for (std::size_t k = 0; k < which.size(); ++k) {
     places[k] = cell_of(receivers, which[k]);
     places[k].receiver = static_cast<int>(k);
+    order[k] = order_of(places[k].i, places[k].j, places[k].receiver);
   }
-  const std::span<Cell> cells{places.data(), which.size()};
-  std::sort(cells.begin(), cells.end(), [](const Cell& a, const Cell& b) {
-    return std::tuple(a.j, a.i, a.receiver) < std::tuple(b.j, b.i, b.receiver);
-  });
+  std::sort(order.begin(), order.begin() + which.size());
+  for (std::size_t k = 0; k < which.size(); ++k) sorted[k] = places[order[k] % (1 << order_bits)];
+  const std::span<const Cell> cells{sorted.data(), which.size()};
   evaluate_missing(cells, evaluate);
 
   GridReceivers of_cell{};

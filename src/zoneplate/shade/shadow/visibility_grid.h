@@ -68,6 +68,9 @@ class VisibilityGrid {
     int receiver;
     bool is_that_of(const Cell& other) const { return i == other.i && j == other.j; }
   };
+  static constexpr int order_bits = 10;
+  /// Cells by row and then by column, and `k`, of that many bits, within one.
+  std::uint64_t order_of(int i, int j, int k) const;
   std::size_t per_cell() const { return static_cast<std::size_t>(per_cell_); }
   Cell cell_of(const Receivers& receivers, int i) const;
   PixelPosition pixel_of(int i, int j, int n) const;
