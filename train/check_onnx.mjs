@@ -11,7 +11,8 @@ const session = await ort.InferenceSession.create(`${folder}/network.onnx`, opti
 const floats = (name) => new Float32Array(new Uint8Array(readFileSync(`${folder}/${name}`)).buffer);
 let worst = 0;
 for (const name of readdirSync(folder).filter((file) => file.endsWith(".features")).sort()) {
-  const features = new ort.Tensor("float32", floats(name), [1, 40, 60, 80]);
+  const values = floats(name);
+  const features = new ort.Tensor("float32", values, [1, values.length / (60 * 80), 60, 80]);
   const { corrections } = await session.run({ features });
   const expected = floats(name.replace("features", "corrections"));
   if (corrections.data.length !== expected.length) throw new Error(`${name}: ${corrections.data.length} corrections`);

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
-"""Writes weights.bin as an ONNX model of the renderer's integers, and frames to check it with (check_onnx.mjs).
+"""Writes the weights of a network as an ONNX model of the renderer's integers, and frames to check it with
+(check_onnx.mjs).
 
-The model reads features (1, 40, height, width), whole numbers from 0 to 127, of an even height and width, and returns
-corrections (1, 56, height, width). All its sums are exact, so that any order of additions gives the same numbers."""
+The model reads features (1, F, height, width), whole numbers from 0 to 127, of an even height and width, and returns
+corrections (1, C, height, width): F and C are 40 and 56 of learned.bin, 12 and 16 of learned_smaa.bin, 12 and 40 of
+learned_still.bin. All its sums are exact, so that any order of additions gives the same numbers."""
 import argparse
 from pathlib import Path
 
@@ -11,7 +13,6 @@ import torch
 import torch.nn as nn
 import torch.nn.functional as F
 
-from mean import FEATURES
 from network import LEVELS, Network
 
 
@@ -52,17 +53,18 @@ def main():
     arguments = parser.parse_args()
     output = Path(arguments.output)
     output.mkdir(parents=True, exist_ok=True)
-    network = Network().load_weights(arguments.weights)
+    network = Network.of_weights(arguments.weights)
+    inputs = network.wide0.in_channels
     model, random = Integers(network), np.random.default_rng(1)
     height, width = 60, 80
     with torch.no_grad():
-        example = torch.zeros(1, FEATURES, height, width)
+        example = torch.zeros(1, inputs, height, width)
         torch.onnx.export(model, example, output / "network.onnx", opset_version=13, input_names=["features"],
                           output_names=["corrections"],
                           dynamic_axes={name: {2: "height", 3: "width"} for name in ("features", "corrections")})
         for number in range(arguments.frames):
             # Smooth, as features are, with noise.
-            coarse = torch.from_numpy(random.uniform(-40, 170, (1, FEATURES, 8, 10)).astype(np.float32))
+            coarse = torch.from_numpy(random.uniform(-40, 170, (1, inputs, 8, 10)).astype(np.float32))
             smooth = F.interpolate(coarse, (height, width), mode="bilinear", align_corners=False)
             noise = torch.from_numpy(random.normal(0, 8, tuple(smooth.shape)).astype(np.float32))
             features = torch.round(smooth + noise).clamp(0, LEVELS)

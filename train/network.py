@@ -79,6 +79,16 @@ class Network(nn.Module):
                 weights = torch.round(layer.weight.detach() / scale.view(-1, 1, 1, 1)).cpu().numpy()
                 file.write(np.ascontiguousarray(weights.transpose(0, 2, 3, 1)).astype(np.int8).tobytes())
 
+    @classmethod
+    def of_weights(cls, path):
+        """The network that save_weights has written, whatever its numbers of features and outputs."""
+        data, at = open(path, "rb").read(), 8
+        features = data[at]
+        for _ in cls.LAYERS:
+            inputs, outputs, side, _ = data[at:at + 4]
+            at += 4 + 8 * outputs + outputs * side * side * inputs
+        return cls(features, outputs).load_weights(path)
+
     def load_weights(self, path):
         """Reads what save_weights has written."""
         data = open(path, "rb").read()
