@@ -81,20 +81,9 @@ class Network(nn.Module):
 
     @classmethod
     def of_weights(cls, path):
-        """The network that save_weights has written, whatever its numbers of features and outputs."""
-        data, at = open(path, "rb").read(), 8
-        features = data[at]
+        """The network that save_weights has written, with its numbers of features and outputs."""
+        data, at, layers = open(path, "rb").read(), 8, []
         for _ in cls.LAYERS:
-            inputs, outputs, side, _ = data[at:at + 4]
-            at += 4 + 8 * outputs + outputs * side * side * inputs
-        return cls(features, outputs).load_weights(path)
-
-    def load_weights(self, path):
-        """Reads what save_weights has written."""
-        data = open(path, "rb").read()
-        at = 8
-        for name in self.LAYERS:
-            layer = getattr(self, name)
             inputs, outputs, side, _ = data[at:at + 4]
             scale = np.frombuffer(data, "<f4", outputs, at + 4)
             bias = np.frombuffer(data, "<i4", outputs, at + 4 + 4 * outputs)
@@ -102,7 +91,10 @@ class Network(nn.Module):
             count = outputs * side * side * inputs
             weights = np.frombuffer(data, np.int8, count, at).reshape(outputs, side, side, inputs).transpose(0, 3, 1, 2)
             at += count
-            with torch.no_grad():
-                layer.weight.copy_(torch.from_numpy(weights * scale.reshape(-1, 1, 1, 1)))
-                layer.bias.copy_(torch.from_numpy(bias * scale / LEVELS))
-        return self
+            layers.append((weights * scale.reshape(-1, 1, 1, 1), bias * scale / LEVELS))
+        network = cls(layers[0][0].shape[1], len(layers[-1][1]))
+        with torch.no_grad():
+            for name, (weight, bias) in zip(cls.LAYERS, layers):
+                getattr(network, name).weight.copy_(torch.from_numpy(weight))
+                getattr(network, name).bias.copy_(torch.from_numpy(bias))
+        return network

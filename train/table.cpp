@@ -66,8 +66,8 @@ LinearImage color_of(const Array& array) {
   return out;
 }
 
-/// The typical mean square error of a sequence, by which those of others are divided: filters that change a sequence's
-/// PSNR by equal amounts count the same, as in the training of networks.
+/// The sums of a sequence are divided by its mean square error, relative to a typical one: equal gains in dB count the
+/// same, as in the loss of networks. The smaller constant bounds the weight of sequences almost without error.
 constexpr double typical_error = 0.002, smallest_error = 1e-6;
 
 /// `network`: that of `learned`; null: `taau`.

@@ -168,7 +168,7 @@ struct References {
   std::unique_ptr<BuildReference[]> memory;
   Range all;
 
-  /// Without any, and memory for so many.
+  /// No references yet, and memory for `capacity` of them.
   explicit References(std::size_t capacity) : memory(new BuildReference[capacity]) {
     prefault(memory.get(), capacity * sizeof(BuildReference));
   }
@@ -237,6 +237,7 @@ std::uint32_t append_tree(std::span<const ShadowCaster> casters, References refe
   std::vector<std::uint32_t> roots(jobs.size()), first_leaf(jobs.size());
   parallel_for(jobs.size(), [&](std::size_t i) {
     growing("shadow rays' triangles", [&] {
+      // There are about 12 triangles per node and 4 per leaf.
       parts[i].nodes.reserve(jobs[i].range.size() / 10), parts[i].leaves.reserve(jobs[i].range.size() / 3);
       roots[i] = builder.build(jobs[i].range, jobs[i].depth, parts[i]);
     });

@@ -97,7 +97,7 @@ template <class F, class G>
       on_right.add(Box::load(box[a][of_right - 1])), right_count += count[a][of_right - 1];
     }
     left.set<F, G>(0, on_left, all), right.set<F, G>(0, on_left, all);
-    // Bins beyond the last one are computed with it, and not looked at.
+    // Bins beyond the last one are computed with it, and like bin 0 not looked at.
     for (std::size_t b = bins.count; b % static_cast<std::size_t>(F::lanes) != 0; ++b)
       left.set<F, G>(b, on_left, all), right.set<F, G>(b, on_left, all);
     float cost[capacity];
@@ -139,7 +139,8 @@ template <class F, class G>
         low = i == 0 ? v : min(v, low), high = i == 0 ? v : max(v, high);
         sum = sum + v * G(0.0f);  // NaN unless it is finite
       }
-      const unsigned finite = bits_of(sum == G(0.0f)), needed = k * G::lanes == 3 ? 0 : G::lanes == 1 ? 1 : 7;
+      const unsigned finite = bits_of(sum == G(0.0f));
+      const unsigned needed = 7u >> k * G::lanes & ((1u << G::lanes) - 1);  // x, y and z
       is_finite = is_finite && (finite & needed) == needed;
       low.store(at->box.v + k * G::lanes), (-high).store(at->box.v + BuildBox::negated + k * G::lanes);
     }

@@ -148,7 +148,7 @@ void TableFit::add(const TableFit& other, double weight) {
     for (std::size_t k = 0; k < from.squares.size(); ++k) sums_[i].squares[k] += weight * from.squares[k];
     for (std::size_t k = 0; k < from.changes.size(); ++k) sums_[i].changes[k] += weight * from.changes[k];
   }
-  error_ += weight * other.error_, values_ += other.values_;
+  error_ += other.error_, values_ += other.values_;
 }
 
 std::vector<std::uint8_t> TableFit::bytes() const {

@@ -90,7 +90,7 @@ class TableFit {
   explicit TableFit(FilterTable::Form form);
   /// Adds the pixels of an image that is to become `truth`.
   void add(const LinearImage& image, const Plane<std::uint8_t>& group, const LinearImage& truth);
-  /// Adds the images of another fit of this form, whose squares count so much.
+  /// Adds the images of another fit of this form, whose sums are multiplied by `weight`.
   void add(const TableFit& other, double weight);
   /// The mean square error of the images before they are filtered.
   double error() const { return error_ / static_cast<double>(values_); }
@@ -106,7 +106,7 @@ class TableFit {
   };
   FilterTable::Form form_;
   std::vector<Sums> sums_;
-  double error_ = 0;  ///< the sum of the squares of `values_` differences
+  double error_ = 0;  ///< the sum of `values_` squared differences, without weights
   std::int64_t values_ = 0;
 };
 
