@@ -35,7 +35,8 @@ SampleBin* TileSampleBins::add_part(std::size_t tile, std::int32_t first_id, Are
   return last_[tile] = part;
 }
 
-/// Rewrites the list with only the nearest fragment of each sample. This is repeated when the list has doubled.
+/// Rewrites the list with only the nearest fragment of each sample, in its order. This is repeated when the list has
+/// doubled.
 void TileSampleBins::drop_hidden(std::size_t tile, Arena& arena) {
   compute_nearest(last_[tile]);
   while (SampleBin* const part = last_[tile]) {
@@ -44,34 +45,33 @@ void TileSampleBins::drop_hidden(std::size_t tile, Arena& arena) {
     free_ = part;
   }
   parts_[tile] = 0;
-  // The ids of a part lie within max_ids.
-  std::sort(nearest_.begin(), nearest_.end(),
-            [](const Nearest& p, const Nearest& q) { return p.id != q.id ? p.id < q.id : p.at < q.at; });
   SampleBin* part = nullptr;
-  for (const Nearest& n : nearest_) {
-    if (!part || part->count == SampleBin::capacity || n.id - part->first_id > SampleBin::max_ids)
-      part = add_part(tile, n.id, arena);
-    part->depth[part->count] = n.depth;
-    part->packed[part->count++] = (static_cast<std::uint32_t>(n.id - part->first_id) << 16) + n.at;
+  for (auto n = kept_.rbegin(); n != kept_.rend(); ++n) {
+    // One unsigned comparison for ids on both sides of the part's.
+    const auto after = [&] { return static_cast<std::uint32_t>(n->id) - static_cast<std::uint32_t>(part->first_id); };
+    if (!part || part->count == SampleBin::capacity || after() > SampleBin::max_ids)
+      part = add_part(tile, n->id, arena);
+    part->depth[part->count] = n->depth;
+    part->packed[part->count++] = (after() << 16) + n->at;
   }
   limit_[tile] = std::max(enough, 2 * parts_[tile]);
 }
 
-/// Fills nearest_ with the visible fragment of each sample: the least (-depth, id).
+/// Fills kept_ with the visible fragment of each sample, the least (-depth, id), the last one of the list first.
 void TileSampleBins::compute_nearest(const SampleBin* list) {
-  number_.assign(static_cast<std::size_t>(samples_) * tile_pixels, 0);
-  nearest_.clear();
-  for (; list; list = list->previous)
-    for (std::int32_t i = 0; i < list->count; ++i) {
-      const Nearest found{list->depth[i], list->id(list->packed[i]), SampleBin::at(list->packed[i])};
-      std::uint32_t& number = number_[found.at];
-      if (number == 0) {
-        nearest_.push_back(found);
-        number = static_cast<std::uint32_t>(nearest_.size());
-        continue;
-      }
-      Nearest& before = nearest_[number - 1];
+  nearest_.assign(static_cast<std::size_t>(samples_) * tile_pixels, {});
+  for (const SampleBin* part = list; part; part = part->previous)
+    for (std::int32_t i = 0; i < part->count; ++i) {
+      const Owner found{part->depth[i], part->id(part->packed[i])};
+      Owner& before = nearest_[SampleBin::at(part->packed[i])];
       if (found.depth > before.depth || (found.depth == before.depth && found.id < before.id)) before = found;
+    }
+  kept_.clear();
+  for (const SampleBin* part = list; part; part = part->previous)
+    for (std::int32_t i = part->count - 1; i >= 0; --i) {
+      const std::int32_t id = part->id(part->packed[i]);
+      const std::uint32_t at = SampleBin::at(part->packed[i]);
+      if (nearest_[at].id == id) kept_.push_back({part->depth[i], id, at});
     }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "zoneplate/raster/geometry/arena.h"
@@ -26,10 +27,14 @@ class TileSampleBins {
   static constexpr std::uint32_t enough = 64;  ///< a list of more parts than this is reduced
 
  private:
-  struct Nearest {
-    float depth = 0;
-    std::int32_t id = 0;
-    std::uint32_t at = 0;
+  struct Owner {
+    float depth = -std::numeric_limits<float>::infinity();
+    std::int32_t id = -1;
+  };
+  struct Kept {
+    float depth;
+    std::int32_t id;
+    std::uint32_t at;
   };
   SampleBin* add_part(std::size_t tile, std::int32_t first_id, Arena& arena);
   void drop_hidden(std::size_t tile, Arena& arena);
@@ -41,8 +46,8 @@ class TileSampleBins {
   SampleBin* free_ = nullptr;         ///< unused parts
   int samples_ = 0;                   ///< a pixel
   bool keeps_hidden_ = false;
-  std::vector<std::uint32_t> number_;  ///< by sample of a tile: 1 + the index of its fragment in nearest_, or 0
-  std::vector<Nearest> nearest_;
+  std::vector<Owner> nearest_;  ///< by sample of a tile
+  std::vector<Kept> kept_;
 };
 
 }  // namespace zoneplate
