@@ -158,8 +158,8 @@ TEST_F(Equality, IsOfManyLayersOfWideImages) {
   const ProgramAnswer answer = run("a.exr b.exr --metric psnr");
   EXPECT_EQ(answer.code, 1);
   EXPECT_TRUE(contains(answer.out, "stored values differ: d.59 in 3 pixels")) << answer.out;
-  for (const char* const side : {"the reference", "the test image"})
-    EXPECT_TRUE(contains(answer.out, fmt::format("not finite in {}: d.0 in 1 pixel", side))) << answer.out;
+  for (const char* const of : {"the reference", "the test image"})
+    EXPECT_TRUE(contains(answer.out, fmt::format("not finite in {}: d.0 in 1 pixel", of))) << answer.out;
   const ProgramAnswer same = run("a.exr a.exr --metric psnr");
   EXPECT_TRUE(contains(same.out, "not finite in the test image: d.0 in 1 pixel")) << same.out;
   EXPECT_TRUE(contains(same.out, "d.59")) << same.out;
