@@ -31,6 +31,7 @@ class SceneFragmentShader : public FragmentShader {
   bool needs_derivatives(int material) const override {
     return is_ground(material) ? ground_->needs_derivatives() : surfaces_.needs_derivatives(material);
   }
+  bool needs_coverage() const override { return surfaces_.needs_coverage(); }
   VertexMemory vertex_memory(std::uint32_t instance, int material) const override {
     if (is_ground(material)) return {};
     const std::span<const float> record = surfaces_.vertex_record(instance, material);

@@ -137,6 +137,7 @@ ReceiversOfPixels find_ground(const Scene& scene, const LinesOfSight& lines) {
             to[0][i] = from.x, to[1][i] = from.y, to[2][i] = from.z;
           };
           store(at, out.position), store(square.up, out.face), store(square.up, out.normal);
+          store({}, out.dx), store({}, out.dy);
           out.margin[i] = square.margin;
           store_image_position(256 * pixels[i].x + 128, 256 * pixels[i].y + 128, out, i);
           out.surface[i] = 0;

@@ -62,6 +62,9 @@ struct FragmentBatch {
   alignas(64) std::int32_t x[padded_capacity], y[padded_capacity];       ///< the shading position
   alignas(64) float b[2][padded_capacity];                               ///< weights of the second and third vertex
   alignas(64) float dbdx[2][padded_capacity], dbdy[2][padded_capacity];  ///< derivatives of `b`
+  /// The samples that take the fragment's colour as a part of all samples of the pixel, in (0, 1]; 1 where pixels have
+  /// no samples. Set where the shader needs it.
+  alignas(64) float coverage[padded_capacity];
 
   /// `count`, rounded up to whole groups.
   int padded() const { return (count + group - 1) / group * group; }

@@ -24,6 +24,8 @@ class FragmentShader {
   virtual float brightest() const { return std::numeric_limits<float>::infinity(); }
   /// Whether a material's batches need dbdx and dbdy.
   virtual bool needs_derivatives([[maybe_unused]] int material) const { return true; }
+  /// Whether batches need their coverage.
+  virtual bool needs_coverage() const { return false; }
   /// The memory of an instance's vertices that shading reads: vertex v at first + v × stride. The rasterizer prefetches
   /// it. Null: shading reads none.
   struct VertexMemory {

@@ -15,7 +15,8 @@ FragmentBatcher::FragmentBatcher(const ProjectedDraws& projected, const Fragment
       has_segments_(std::any_of(projected.draws.begin(), projected.draws.end(),
                                 [](const Draw& d) { return d.quads != nullptr; })),
       has_one_material_(std::all_of(projected.draws.begin(), projected.draws.end(),
-                                    [&](const Draw& d) { return d.material == projected.draws[0].material; })) {}
+                                    [&](const Draw& d) { return d.material == projected.draws[0].material; })),
+      needs_coverage_(shader.needs_coverage()) {}
 
 /// The indices of the list, sorted by material.
 template <class T>
@@ -78,6 +79,12 @@ void FragmentBatcher::prefetch_triangle(std::int32_t id) const {
   __builtin_prefetch(&current_.draw->index[3 * static_cast<std::size_t>(id - current_.begin)]);
 }
 
+/// FragmentBatch::coverage of a fragment with this set of a pixel's samples.
+float FragmentBatcher::coverage_of(std::uint64_t samples) const {
+  if (samples == 0) return 1;
+  return static_cast<float>(std::popcount(samples)) / static_cast<float>(target_.samples.size());
+}
+
 /// Stores the values of a triangle at entry i of the batch. Its vertices, a random access, are only prefetched.
 void FragmentBatcher::store_triangle(std::size_t i, std::int32_t id) {
   select_draw(id);
@@ -112,6 +119,7 @@ void FragmentBatcher::fill(std::span<const Fragment> fragments, std::span<const 
     const Fragment& point = fragments[numbers[std::min(i, numbers.size() - 1)]];
     store_triangle(i, point.id);
     batch_->x[i] = point.x, batch_->y[i] = point.y;
+    if (needs_coverage_) batch_->coverage[i] = coverage_of(point.samples);
   }
   interpolate();
 }
@@ -132,6 +140,7 @@ void FragmentBatcher::fill(std::span<const FragmentSpan> rows, std::span<const s
     }
     batch_->run_end[first] = static_cast<std::uint8_t>(i);
   }
+  if (needs_coverage_) std::fill_n(batch_->coverage, batch_->count, target_.is_per_sample ? coverage_of(1) : 1.0f);
   interpolate();
 }
 
@@ -200,6 +209,8 @@ void FragmentBatcher::fill(const FragmentList& list, std::size_t first, std::siz
   copy(list.id + first, batch_->triangle);
   for (std::uint32_t(&v)[FragmentBatch::padded_capacity] : batch_->vertex)
     std::fill(v + count, v + padded, v[count - 1]);
+  for (std::size_t i = 0; needs_coverage_ && i < padded; ++i)
+    batch_->coverage[i] = coverage_of(FragmentList::samples(list.at[first + std::min(i, count - 1)]));
   if (first + count < static_cast<std::size_t>(list.count)) fetch_vertices(list, first + count);
   interpolate();
 }
@@ -220,7 +231,8 @@ void FragmentBatcher::for_batches(std::span<const Fragment> fragments, Use use) 
 void FragmentBatcher::shade_mixed(const FragmentList& list) {
   const auto total = static_cast<std::size_t>(list.count);
   mixed_.clear();
-  for (std::size_t i = 0; i < total; ++i) mixed_.push_back({list.x[i], list.y[i], list.id[i], 0, 0});
+  for (std::size_t i = 0; i < total; ++i)
+    mixed_.push_back({list.x[i], list.y[i], list.id[i], 0, FragmentList::samples(list.at[i])});
   unmixed_.resize((total + FragmentBatch::capacity - 1) / FragmentBatch::capacity);
   for_batches(mixed_, [&](std::span<const std::uint32_t> numbers) {
     shader_.shade(*batch_, {}, shaded_batch_);

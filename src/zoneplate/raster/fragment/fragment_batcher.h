@@ -21,7 +21,7 @@ struct Fragment {
   std::int32_t x, y;      ///< 1/256 pixel from the image's top-left corner
   std::int32_t id;        ///< triangle
   std::uint32_t pixel;    ///< within the tile
-  std::uint64_t samples;  ///< the samples of the pixel that take its colour
+  std::uint64_t samples;  ///< the samples of the pixel that take its colour; none: it is not a matter of samples
 };
 
 /// Eight fragments of one triangle in neighbouring pixels of a row, at the same position in each pixel.
@@ -111,6 +111,7 @@ class FragmentBatcher {
   void fill(std::span<const FragmentSpan> rows, std::span<const std::uint32_t> numbers);
   void fetch_vertices(const FragmentList& list, std::size_t first);
   void fill(const FragmentList& list, std::size_t first, std::size_t count);
+  float coverage_of(std::uint64_t samples) const;
   void store_triangle(std::size_t i, std::int32_t id);
   void interpolate();
   const TriangleFacing& clipped_facing(std::int32_t id);
@@ -127,6 +128,7 @@ class FragmentBatcher {
   const Target& target_;
   const bool has_segments_;      ///< some draw has lines or points
   const bool has_one_material_;  ///< all draws share theirs
+  const bool needs_coverage_;
   std::uint64_t shaded_ = 0, evaluated_ = 0;
 
   std::vector<std::uint32_t> identity_order_;    ///< 0, 1, 2 ...

@@ -80,6 +80,42 @@ std::vector<std::array<float4, 3>> four_triangles() {
           {{{-0.5f, -0.95f, 0.45f, 1}, {0.95f, 0.2f, 0.55f, 1}, {-0.6f, 0.95f, 0.35f, 1}}}};
 }
 
+/// Red is 1, green the coverage.
+class ByCoverage : public Flat {
+ public:
+  ByCoverage() : Flat({}) {}
+  void shade(const FragmentBatch& batch, OutputMask, FragmentOutputs& out) const override {
+    for (int i = 0; i < batch.count; ++i) out.r[i] = out.a[i] = 1, out.g[i] = batch.coverage[i], out.b[i] = 0;
+  }
+  bool needs_coverage() const override { return true; }
+};
+
+TEST(Rasterize, CoverageIsThePartOfThePixelThatAFragmentColours) {
+  // A triangle that covers blocks of the image, and small ones of two materials, no two of which share a pixel.
+  std::vector<std::array<float4, 3>> apart = {
+      {{{-0.97f, -0.9f, 0.2f, 1}, {0.9f, -0.95f, 0.3f, 1}, {-0.1f, 0.2f, 0.4f, 1}}}};
+  for (int i = 0; i < 40; ++i) {
+    const float x = -0.95f + 0.047f * static_cast<float>(i), y = 0.3f + 0.013f * static_cast<float>(i);
+    apart.push_back({{{x, y, 0.3f, 1}, {x + 0.025f, y + 0.005f, 0.3f, 1}, {x + 0.01f, y + 0.03f, 0.3f, 1}}});
+  }
+  std::vector<std::size_t> order(apart.size());
+  std::iota(order.begin(), order.end(), 0);
+  for (const AlphaMode alpha_mode : {AlphaMode::Opaque, AlphaMode::Blend})
+    for (const bool is_per_sample : {false, true})
+      for (const int samples : {1, 4, 8, 16}) {
+        std::vector<Draw> draws = draws_of(apart, order, alpha_mode);
+        for (std::size_t k = 0; k < draws.size(); ++k) draws[k].material = static_cast<int>(k % 2);
+        const LinearImage found = picture(draws, ByCoverage(), standard_pattern(samples), {}, 96, is_per_sample);
+        int parts = 0;
+        for (const Linear& c : found.values()) {
+          const float of_fragment = is_per_sample ? 1 / static_cast<float>(samples) : c.r;
+          ASSERT_NEAR(c.g, c.r * of_fragment, 1e-6f) << samples << ' ' << is_per_sample;
+          parts += c.r > 0 && c.r < 1 ? 1 : 0;
+        }
+        EXPECT_GT(parts, samples == 1 ? -1 : 200);
+      }
+}
+
 TEST(Rasterize, OrderOfDrawingDoesNotMatter) {
   const auto triangles = four_triangles();
   const Flat shader(four_colors);

@@ -79,7 +79,7 @@ void Ground::shade(const FragmentBatch& batch, FragmentOutputs& out) const {
   Receivers receivers;
   ShadingState p;
   p.count = receivers.count = batch.count;
-  receivers.is_ground = true;
+  receivers.is_ground = true, receivers.coverage = batch.coverage;
   for (std::size_t i = 0; i < static_cast<std::size_t>(p.count); ++i) {
     const std::size_t leader = batch.leader(i);
     const auto corner = [&](std::size_t k) { return square_.corner[batch.vertex[k][leader]]; };

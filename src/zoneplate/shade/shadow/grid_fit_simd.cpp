@@ -6,5 +6,5 @@
 
 namespace zoneplate {
 template <>
-const GridFitKernels PerIsa<GridFitKernels>::HWY_NAMESPACE = {.fit = &stages::fit<HWY_NAMESPACE::Float>};
+const GridFitKernels PerIsa<GridFitKernels>::HWY_NAMESPACE = {.fit = &stages::fit<HWY_NAMESPACE::WideFloat>};
 }  // namespace zoneplate

@@ -14,8 +14,18 @@ struct Receivers {
   int count = 0;
   /// Light from below the horizon passes through the surfaces; else of_light may give 0 for it.
   bool is_transmissive = false;
-  bool is_ground = false;      ///< on the plane under the scene
-  bool has_half_rays = false;  ///< the numbers of rays are halved
+  bool is_ground = false;  ///< on the plane under the scene
+  /// FragmentBatch::coverage, set where LightVisibility::needs_coverage is true.
+  const float* coverage = nullptr;
+  /// How often each receiver's numbers of rays are halved, rounding up, while they are greater than min_rays; null:
+  /// never.
+  const std::uint8_t* halvings = nullptr;
+  static constexpr int min_rays = 8;
+  /// `rays`, halved so often.
+  static constexpr int halved(int rays, int times) {
+    for (; times > 0 && rays > min_rays; --times) rays = (rays + 1) / 2;
+    return rays;
+  }
 
   /// On the triangle, or outside of it where interpolated normals describe a convex surface.
   alignas(64) float position[3][capacity];
@@ -51,6 +61,8 @@ class LightVisibility {
   virtual void of_light(int k, const Receivers& receivers, float* visible) const = 0;
   /// Whether of_light averages over the pixel: it then reads dx and dy.
   virtual bool needs_footprint() const = 0;
+  /// Whether either of the others depends on the receivers' coverage.
+  virtual bool needs_coverage() const { return false; }
   /// Whether of_environment is to be called.
   virtual bool has_occlusion() const = 0;
   /// The cosine-weighted part of the hemisphere about `normal`, in [0, 1], that nothing near occludes.

@@ -96,6 +96,7 @@ void make_receiver(const Scene& scene, const RayHit& hit, const float* const (&c
                    const ReceiversViewer& viewer, PixelPosition pixel, Receivers& out, std::size_t i) {
   const float4x4& world = scene.instances[hit.instance].world_from_object;
   store(triangle_of(world, normal_matrix(world), corner, viewer), hit.b1, hit.b2, out, i);
+  store({}, out.dx, i), store({}, out.dy, i);
   store_image_position(256 * pixel.x + 128, 256 * pixel.y + 128, out, i);
   out.surface[i] = hit.instance;
 }
@@ -103,6 +104,7 @@ void make_receiver(const Scene& scene, const RayHit& hit, const float* const (&c
 void make_receivers(const Scene& scene, const FragmentBatch& batch, const ReceiverRecord& record,
                     const ReceiversViewer& viewer, bool has_footprint, Receivers& out) {
   out.count = batch.count;
+  out.coverage = batch.coverage;
   if (!has_footprint) std::memset(out.dx, 0, sizeof out.dx), std::memset(out.dy, 0, sizeof out.dy);
   ReceivingTriangle triangle;
   float4x4 normals;

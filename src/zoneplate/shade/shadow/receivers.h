@@ -30,7 +30,7 @@ using ReceiverRecord = std::function<const float*(std::size_t k, std::size_t i)>
 void make_receivers(const Scene& scene, const FragmentBatch& batch, const ReceiverRecord& record,
                     const ReceiversViewer& viewer, bool has_footprint, Receivers& out);
 
-/// Sets entry i of `out`, but for its footprint, to the point at a pixel's centre where a ray from the viewer meets a
+/// Sets entry i of `out` to the point at a pixel's centre, without a footprint, where a ray from the viewer meets a
 /// triangle: `corner` are the records of its vertices.
 void make_receiver(const Scene& scene, const RayHit& hit, const float* const (&corner)[3],
                    const ReceiversViewer& viewer, PixelPosition pixel, Receivers& out, std::size_t i);

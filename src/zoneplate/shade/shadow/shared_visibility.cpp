@@ -17,6 +17,17 @@ void copy_entry(const Receivers& from, int i, Receivers& to, int k) {
   to.x[k] = from.x[i], to.y[k] = from.y[i];
 }
 
+/// How often the rays of a pixel are halved in a grid of this step. A fragment takes the mean of at least five pixels
+/// of the grid of all pixels, which have the error of one by itself: by a quarter of its rays each it would be greater.
+constexpr std::uint8_t halvings_of_grid(int step) { return step == 1 ? 1 : 0; }
+
+/// How often the rays of a fragment are halved that covers this part of a pixel.
+std::uint8_t halvings_of(float coverage) {
+  std::uint8_t n = 0;
+  for (; coverage <= 0.5f && n < 31; coverage *= 2) ++n;
+  return n;
+}
+
 }  // namespace
 
 SharedVisibility::SharedVisibility(const TracedVisibility& rays, int lights, const ShadowOptions& shadows,
@@ -32,12 +43,13 @@ SharedVisibility::Query SharedVisibility::make_query(int spacing, int samples) c
   // Fewer rays cost less than what is interpolated: 4 of eight lights took 0.23 s by themselves, and 0.89 s shared.
   constexpr int fewest = 16;
   if (samples < fewest || spacing == 1) return query;
-  const auto add = [&](int step, int rays) {
+  const auto add = [&](int step) {
+    const int rays = Receivers::halved(samples, halvings_of_grid(step));
     for (Grids* const grids : {&query.surfaces, &query.ground})
       grids->push_back(std::make_unique<VisibilityGrid>(step, image_.width, image_.height, rays));
   };
-  for (int step = spacing; step > 2; step /= 2) add(step, samples);
-  add(1, (samples + 1) / 2);
+  for (int step = spacing; step > 2; step /= 2) add(step);
+  add(1);
   return query;
 }
 
@@ -56,10 +68,13 @@ void SharedVisibility::of_environment(const Receivers& receivers, float* visible
         visible);
 }
 
-void SharedVisibility::evaluate(bool is_ground, bool has_half_rays, std::span<const PixelPosition> pixels,
+/// The numbers of rays are halved so many times.
+void SharedVisibility::evaluate(bool is_ground, std::uint8_t times, std::span<const PixelPosition> pixels,
                                 const Rays& rays, VisibilityGrid::Value* values) const {
-  Receivers seen{}, lit{};
-  lit.has_half_rays = has_half_rays;
+  Receivers seen, lit;
+  std::array<std::uint8_t, Receivers::capacity> halvings;
+  halvings.fill(times);
+  lit.halvings = halvings.data();
   std::array<bool, FragmentBatch::capacity> found{};
   (is_ground ? image_.ground : image_.surfaces)(pixels, seen, {found.data(), pixels.size()});
   std::array<std::size_t, FragmentBatch::capacity> from;
@@ -76,21 +91,24 @@ void SharedVisibility::evaluate(bool is_ground, bool has_half_rays, std::span<co
     from[static_cast<std::size_t>(lit.count)] = k;
     copy_entry(seen, i, lit, lit.count++);
   }
+  if (lit.count == 0) return;
   float visible[Receivers::capacity];
   rays.trace(lit, visible);
   for (int i = 0; i < lit.count; ++i) values[from[static_cast<std::size_t>(i)]].visible = visible[i];
 }
 
 void SharedVisibility::share(const Query& query, const Receivers& receivers, const Rays& rays, float* visible) const {
+  const Grids& grids = receivers.is_ground ? query.ground : query.surfaces;
+  if (grids.empty()) return rays.trace(receivers, visible);
   std::array<int, Receivers::capacity> open;
   std::size_t count = 0;
   for (int i = 0; i < receivers.count; ++i) {
     visible[i] = 0;
     if (rays.is_lit(receivers, i)) open[count++] = i;
   }
-  for (const auto& grid : receivers.is_ground ? query.ground : query.surfaces) {
+  for (const auto& grid : grids) {
     const auto evaluated = [&](std::span<const PixelPosition> pixels, VisibilityGrid::Value* values) {
-      evaluate(receivers.is_ground, !grid->has_gaps(), pixels, rays, values);
+      evaluate(receivers.is_ground, halvings_of_grid(grid->step()), pixels, rays, values);
     };
     float found[Receivers::capacity];
     grid->interpolate(receivers, {open.data(), count}, evaluated, found);
@@ -104,9 +122,14 @@ void SharedVisibility::share(const Query& query, const Receivers& receivers, con
     count = left;
   }
 
-  Receivers rest{};
-  for (; rest.count < static_cast<int>(count); ++rest.count)
-    copy_entry(receivers, open[static_cast<std::size_t>(rest.count)], rest, rest.count);
+  if (count == 0) return;
+  Receivers rest;
+  std::array<std::uint8_t, Receivers::capacity> halvings;
+  rest.halvings = halvings.data();
+  for (std::size_t k = 0; k < count; ++k) {
+    copy_entry(receivers, open[k], rest, rest.count++);
+    halvings[k] = halvings_of(receivers.coverage[open[k]]);
+  }
   float own[Receivers::capacity];
   rays.trace(rest, own);
   for (std::size_t k = 0; k < count; ++k) visible[open[k]] = own[k];

@@ -20,8 +20,10 @@ using ReceiversOfPixels =
 /// Visibility by rays of some points of each surface, interpolated between them where it is smooth.
 ///
 /// Each light, and the environment, has grids of ever smaller steps (visibility_grid.h), from its option's spacing by
-/// halves down to 3, and one of all pixels, each with half of the rays. A fragment takes the value of the first grid
-/// that determines one, else it has its own rays: at edges of surfaces and of shadows.
+/// halves down to 3, and one of all pixels, each with half of the rays. A fragment takes the value of the first
+/// grid that determines one, else it has its own rays: at edges of surfaces and of shadows. Their number is in
+/// proportion to the part of the pixel that the fragment covers: the pixel's error is then about that of a single
+/// fragment with all rays.
 /// Exact     the same bits for any number of threads, any instruction set and any crop.
 class SharedVisibility : public LightVisibility {
  public:
@@ -37,6 +39,7 @@ class SharedVisibility : public LightVisibility {
 
   void of_light(int k, const Receivers& receivers, float* visible) const override;
   bool needs_footprint() const override { return rays_.needs_footprint(); }
+  bool needs_coverage() const override { return true; }
   bool has_occlusion() const override { return rays_.has_occlusion(); }
   void of_environment(const Receivers& receivers, float* visible) const override;
 
@@ -53,7 +56,7 @@ class SharedVisibility : public LightVisibility {
   /// Without grids if there are few samples.
   Query make_query(int spacing, int samples) const;
   void share(const Query& query, const Receivers& receivers, const Rays& rays, float* visible) const;
-  void evaluate(bool is_ground, bool has_half_rays, std::span<const PixelPosition> pixels, const Rays& rays,
+  void evaluate(bool is_ground, std::uint8_t times, std::span<const PixelPosition> pixels, const Rays& rays,
                 VisibilityGrid::Value* values) const;
 
   const TracedVisibility& rays_;

@@ -26,7 +26,10 @@ Ray make_ray(float3 origin, float3 direction, float end) {
 /// Rays that are traced together.
 constexpr int chunk = HemispherePlaces::capacity;
 
-int number_of(int rays, bool has_half_rays) { return has_half_rays ? (rays + 1) / 2 : rays; }
+/// The number of rays of receiver i.
+int number_of(int rays, const Receivers& receivers, int i) {
+  return Receivers::halved(rays, receivers.halvings == nullptr ? 0 : receivers.halvings[i]);
+}
 
 /// 1 - cos of the angle, without cancellation.
 float height_of(float sine) { return sine * sine / (1 + std::sqrt(std::max(0.0f, 1 - sine * sine))); }
@@ -53,8 +56,6 @@ TracedVisibility::TracedVisibility(const Bvh& bvh, const OpacityOfHits& opacity,
       shadows_(shadows),
       occlusion_(occlusion),
       lattice_(shadows.method == ShadowMethod::Soft ? shadows.samples : 0),
-      hemisphere_(occlusion.samples),
-      half_hemisphere_(number_of(occlusion.samples, true)),
       kernels_(RayKernels::of()) {
   for (std::size_t k = 0; k < lights_.size(); ++k) {
     if (lights_[k].kind != LightKind::Directional) continue;
@@ -64,6 +65,10 @@ TracedVisibility::TracedVisibility(const Bvh& bvh, const OpacityOfHits& opacity,
   }
   if (environment != nullptr && occlusion.samples > 0) environment_.emplace(*environment);
   if (environment_ && environment_->is_uniform()) environment_.reset();
+  for (int rays = occlusion.samples; !environment_; rays = (rays + 1) / 2) {
+    hemispheres_.emplace_back(rays);
+    if (rays <= Receivers::min_rays) break;
+  }
 }
 
 TracedVisibility::SeenLight TracedVisibility::see(std::size_t k, float3 from) const {
@@ -76,16 +81,17 @@ TracedVisibility::SeenLight TracedVisibility::see(std::size_t k, float3 from) co
 }
 
 /// The mean over rays ray(i, 0), ray(i, 1), ... of what each of them sees, for receivers i. The first quarter of all
-/// rays, also where half of them are traced, are the only ones where all of these see the same. Rays of successive
-/// receivers are traced together.
+/// rays, also where fewer are traced, are the only ones where all of these see the same. Rays of successive receivers
+/// are traced together.
 template <class MakeRay>
-void TracedVisibility::compute_means(std::span<const int> which, bool has_half_rays, const MakeRay& ray,
+void TracedVisibility::compute_means(const Receivers& receivers, std::span<const int> which, const MakeRay& ray,
                                      float* visible) const {
   struct Sum {
     float all = 0, least = 1, greatest = 0;
     bool is_even() const { return least == greatest && (least == 0 || least == 1); }
   };
   Sum sums[Receivers::capacity];
+  const auto samples_of = [&](int i) { return number_of(shadows_.samples, receivers, i); };
   const auto trace = [&](std::span<const int> some, int first, int end) {
     Ray rays[chunk];
     int from[chunk];
@@ -102,14 +108,14 @@ void TracedVisibility::compute_means(std::span<const int> which, bool has_half_r
     };
     for (const int i : some) {
       const auto of_receiver = ray(i);
-      for (int s = first; s < end; ++s) {
+      const int last = std::min(end, samples_of(i));
+      for (int s = first; s < last; ++s) {
         from[count] = i, rays[count++] = of_receiver(static_cast<std::uint32_t>(s));
         if (count == chunk) add();
       }
     }
     add();
   };
-  const int samples = number_of(shadows_.samples, has_half_rays);
   const int probes = std::max(1, shadows_.samples / 4);
   trace(which, 0, probes);
   int uneven[Receivers::capacity];
@@ -118,8 +124,9 @@ void TracedVisibility::compute_means(std::span<const int> which, bool has_half_r
     if (!sums[i].is_even()) uneven[count++] = i;
     visible[i] = sums[i].least;
   }
-  trace({uneven, count}, probes, samples);
-  for (std::size_t n = 0; n < count; ++n) visible[uneven[n]] = sums[uneven[n]].all / static_cast<float>(samples);
+  trace({uneven, count}, probes, shadows_.samples);
+  for (std::size_t n = 0; n < count; ++n)
+    visible[uneven[n]] = sums[uneven[n]].all / static_cast<float>(samples_of(uneven[n]));
 }
 
 bool TracedVisibility::is_lit(int k, const Receivers& receivers, int i) const {
@@ -166,7 +173,7 @@ void TracedVisibility::of_light(int k, const Receivers& receivers, float* visibl
                       directions.of_cone(p, seen[i].height), seen[i].distance);
     };
   };
-  compute_means(which, receivers.has_half_rays, ray, visible);
+  compute_means(receivers, which, ray, visible);
 }
 
 /// The mean over directions of a density proportional to the cosine.
@@ -177,7 +184,8 @@ float TracedVisibility::of_uniform_light(const Receivers& receivers, int i, floa
     for (int s = 0; s < count; ++s) rays[s] = make_ray(origin, directions.of_cosine(points[s]), occlusion_.distance);
     kernels_.visibility_below(bvh_, top, rays, static_cast<std::size_t>(count), opacity_, visible);
   };
-  return (receivers.has_half_rays ? half_hemisphere_ : hemisphere_).mean(receivers.seed[i], std::ref(see));
+  const auto halvings = static_cast<std::size_t>(receivers.halvings == nullptr ? 0 : receivers.halvings[i]);
+  return hemispheres_[std::min(halvings, hemispheres_.size() - 1)].mean(receivers.seed[i], std::ref(see));
 }
 
 /// The mean over equal parts of the environment's irradiance.
@@ -186,7 +194,7 @@ float TracedVisibility::of_rays(EnvironmentRays::Hemisphere& light, const Receiv
   Ray rays[chunk];
   float seen[chunk];
   if (!light.is_lit() || top.count == 0) return 1;
-  const int samples = number_of(occlusion_.samples, receivers.has_half_rays);
+  const int samples = number_of(occlusion_.samples, receivers, i);
   light.begin(receivers.seed[i], samples);
   float sum = 0;
   for (int first = 0; first < samples; first += chunk) {

@@ -21,7 +21,7 @@ namespace zoneplate {
 ///
 /// A light with an extent is a sphere (point, spot) or a distant disc (directional), seen from the receiver as a cone
 /// of directions; its part that is visible is the mean over rays of a uniform density in solid angle. The first quarter
-/// of all rays to a light, also where half of them are traced, decides alone where none or all of them are blocked. The
+/// of all rays to a light, also where fewer are traced, decides alone where none or all of them are blocked. The
 /// rays begin all over the part of the pixel that the triangle covers, which filters the edge of a shadow that is
 /// sharper than a pixel.
 /// Exact     the same bits for any number of threads and any instruction set: the rays depend on the receiver's position
@@ -52,7 +52,7 @@ class TracedVisibility : public LightVisibility {
   };
   SeenLight see(std::size_t k, float3 from) const;
   template <class MakeRay>
-  void compute_means(std::span<const int> which, bool has_half_rays, const MakeRay& ray, float* visible) const;
+  void compute_means(const Receivers& receivers, std::span<const int> which, const MakeRay& ray, float* visible) const;
   float of_uniform_light(const Receivers& receivers, int i, float3 origin, const BvhTop& top) const;
   float of_rays(EnvironmentRays::Hemisphere& light, const Receivers& receivers, int i, float3 origin,
                 const BvhTop& top) const;
@@ -67,7 +67,7 @@ class TracedVisibility : public LightVisibility {
   OcclusionOptions occlusion_;
   std::optional<EnvironmentRays> environment_;  ///< none: light from all sides alike
   DiscLattice lattice_;                         ///< of rays to lights
-  AdaptiveDisc hemisphere_, half_hemisphere_;   ///< of rays to light from all sides
+  std::vector<AdaptiveDisc> hemispheres_;       ///< of rays to light from all sides, by halvings of their number
   const RayKernels& kernels_;
 };
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <functional>
 #include <vector>
@@ -274,9 +275,15 @@ TEST(TracedVisibilityBits, AreTheSameForAllInstructionSets) {
 }
 
 /// The receivers `from` and on of those at points of a plane.
-Receivers receivers_at(const PlanePoints& plane, int from, int count, bool is_half) {
+Receivers receivers_at(const PlanePoints& plane, int from, int count, bool is_half = false) {
+  static constexpr auto once = [] {
+    std::array<std::uint8_t, Receivers::capacity> halvings{};
+    halvings.fill(1);
+    return halvings;
+  }();
   Receivers r{};
-  r.count = count, r.has_half_rays = is_half;
+  r.count = count;
+  if (is_half) r.halvings = once.data();
   for (int i = 0; i < count; ++i) {
     const float3 p = plane.points[static_cast<std::size_t>(from + i)];
     r.position[0][i] = p.x, r.position[1][i] = p.y, r.position[2][i] = p.z;
@@ -303,6 +310,43 @@ TEST(TracedVisibilityBits, DoNotDependOnTheOtherReceivers) {
         ASSERT_EQ(alone[0], together[i]) << samples << ' ' << is_half;
       }
     }
+}
+
+// Each receiver of a batch has its own number of rays, no fewer than 8 of 64.
+TEST(TracedVisibility, HalvedRaysAreTheFirstOfALattice) {
+  const TestMesh sphere = standing_sphere(40);
+  const Bvh bvh(std::vector{sphere.caster()});
+  Light light = sun_from({1, 1.5f, -0.4f});
+  light.radius = 0.2f;
+  const PlanePoints plane(15, 1.5f);
+  const auto rays_of = [&](int samples) {
+    return TracedVisibility(bvh, {}, {light}, {.method = ShadowMethod::Soft, .samples = samples},
+                            {.samples = samples, .distance = 1e6f});
+  };
+  std::array<std::uint8_t, Receivers::capacity> halvings{};
+  for (std::size_t i = 0; i < 225; ++i) halvings[i] = static_cast<std::uint8_t>(i % 6);
+  Receivers mixed = receivers_at(plane, 0, 225);
+  mixed.halvings = halvings.data();
+  float of_light[Receivers::capacity], of_environment[Receivers::capacity];
+  rays_of(64).of_light(0, mixed, of_light);
+  rays_of(64).of_environment(mixed, of_environment);
+  int partly = 0;
+  for (int times = 0; times < 6; ++times) {
+    const int samples = std::max(64 >> times, 8);
+    EXPECT_EQ(Receivers::halved(64, times), samples);
+    float light_alone[Receivers::capacity], environment_alone[Receivers::capacity];
+    const Receivers all = receivers_at(plane, 0, 225);
+    rays_of(samples).of_light(0, all, light_alone);
+    rays_of(samples).of_environment(all, environment_alone);
+    for (int i = times; i < 225; i += 6) {
+      EXPECT_EQ(of_environment[i], environment_alone[i]);
+      // A quarter of the rays decides alone where they agree: of fewer rays, fewer.
+      if (light_alone[i] == 0 || light_alone[i] == 1) continue;
+      EXPECT_EQ(of_light[i], light_alone[i]);
+      ++partly;
+    }
+  }
+  EXPECT_GT(partly, 20);
 }
 
 // Fewer rays have the same mean and a greater error.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <memory>
 
 #include "zoneplate/base/out_of_memory.h"
@@ -14,8 +15,9 @@ namespace {
 constexpr int width = GridNeighbours::width;
 /// Cells along a side of a block.
 constexpr int block_side = 16;
-/// The variance of the mean of evenly distributed rays, relative to that of as many independent ones.
-constexpr float evenness = 0.3f;
+/// The variance of the mean of n evenly distributed rays past edges of occluders, relative to that of independent ones,
+/// times the square root of n: Mitchell, Consequences of Stratified Sampling in Graphics, SIGGRAPH 1996.
+constexpr float evenness = 2.4f;
 
 /// Rounds down.
 int quotient(int a, int b) { return a / b - (a % b < 0); }
@@ -54,7 +56,7 @@ VisibilityGrid::VisibilityGrid(int step, int w, int h, int rays)
     : step_(step),
       rise_(step > 1 ? 1 : 0),
       per_cell_(step > 2 ? GridNeighbours::max_per_cell : 1),
-      density_{evenness / static_cast<float>(rays), step > 1},
+      density_{evenness / (static_cast<float>(rays) * std::sqrt(static_cast<float>(rays))), step > 1},
       kernels_(GridFitKernels::of()) {
   const int det = step * step + rise_;
   // Those about the cells of positions in the image, which are half a pixel beyond the outer pixels' centres.
@@ -96,42 +98,62 @@ PixelPosition VisibilityGrid::pixel_of(int i, int j, int n) const {
           rise_ * i + step_ * j + place(0, step_, 1) - step_ / 2};
 }
 
-/// The first thread that needs a block makes it.
-VisibilityGrid::Point& VisibilityGrid::point(int i, int j, int n) {
-  const auto column = static_cast<unsigned>(i - first_i_), row = static_cast<unsigned>(j - first_j_);
-  assert(i >= first_i_ && j >= first_j_ && static_cast<int>(column / block_side) < row_);
+/// The block that contains a cell, which is counted from the first one. The first thread that needs a block makes it.
+VisibilityGrid::Block& VisibilityGrid::block_of(unsigned column, unsigned row) {
   std::atomic<Block*>& block =
       blocks_[std::size_t{row / block_side} * static_cast<std::size_t>(row_) + column / block_side];
   Block* found = block.load(std::memory_order_acquire);
-  if (found == nullptr) {
-    auto made = growing("sharing of visibility", [&] {
-      return std::make_unique<Block>(Block{std::vector<Point>(std::size_t{block_side} * block_side * per_cell())});
-    });
-    if (block.compare_exchange_strong(found, made.get(), std::memory_order_acq_rel)) found = made.release();
-  }
-  return found->points[(row % block_side * block_side + column % block_side) * per_cell() + static_cast<unsigned>(n)];
+  if (found != nullptr) return *found;
+  auto made = growing("sharing of visibility", [&] {
+    return std::make_unique<Block>(Block{std::vector<Point>(std::size_t{block_side} * block_side * per_cell())});
+  });
+  if (block.compare_exchange_strong(found, made.get(), std::memory_order_acq_rel)) found = made.release();
+  return *found;
 }
 
-/// The cells are in order.
-void VisibilityGrid::evaluate_missing(std::span<const Cell> cells, const Evaluate& evaluate) {
+/// use(point, i, j, n) for the pixels of the window's cells, row by row.
+template <class Use>
+void VisibilityGrid::for_points(const Window& window, const Use& use) {
+  assert(window.i >= first_i_ && window.j >= first_j_);
+  for (int j = window.j; j < window.j + window.rows; ++j) {
+    const auto row = static_cast<unsigned>(j - first_j_);
+    Point* of_row = nullptr;
+    for (int i = window.i; i < window.i + window.columns; ++i) {
+      const auto column = static_cast<unsigned>(i - first_i_);
+      assert(static_cast<int>(column / block_side) < row_);
+      if (of_row == nullptr || column % block_side == 0)
+        of_row = block_of(column, row).points.data() + std::size_t{row % block_side} * block_side * per_cell();
+      for (int n = 0; n < per_cell_; ++n)
+        use(of_row[column % block_side * per_cell() + static_cast<unsigned>(n)], i, j, n);
+    }
+  }
+}
+
+/// The receivers of the same cell as the first one. Where all lie at the pixels' centres, as fragments that cover their
+/// pixels do in the grid of all pixels, the last row and column have no weight.
+VisibilityGrid::Group VisibilityGrid::group_at(std::span<const Cell> cells, std::size_t first) const {
+  Group out{first, first, {cells[first].i - 1, cells[first].j - 1, width, width}};
+  bool is_centred = step_ == 1;
+  for (; out.end < cells.size() && cells[out.end].is_that_of(cells[first]); ++out.end)
+    is_centred = is_centred && cells[out.end].u == 0 && cells[out.end].v == 0;
+  if (is_centred) out.window.columns = out.window.rows = width - 1;
+  return out;
+}
+
+void VisibilityGrid::evaluate_missing(std::span<const Group> groups, const Evaluate& evaluate) {
   struct Missing {
     std::uint64_t order;
     int i, j, n;
     Point* point;
   };
   std::vector<Missing> missing;
-  Cell last{first_i_ - width, first_j_ - width, 0, 0, 0};
-  for (const Cell& cell : cells) {
-    if (cell.is_that_of(last)) continue;
-    const auto was_seen = [&](int i, int j) {
-      return static_cast<unsigned>(i - last.i + 1) < width && static_cast<unsigned>(j - last.j + 1) < width;
-    };
-    for (int j = cell.j - 1; j < cell.j - 1 + width; ++j)
-      for (int i = cell.i - 1; i < cell.i - 1 + width; ++i)
-        for (int n = 0; n < per_cell_ && !was_seen(i, j); ++n)
-          if (Point& p = point(i, j, n); !p.is_known.load(std::memory_order_acquire))
-            missing.push_back({order_of(i, j, n), i, j, n, &p});
-    last = cell;
+  Window last{0, 0, 0, 0};
+  for (const Group& group : groups) {
+    for_points(group.window, [&](Point& p, int i, int j, int n) {
+      if (!last.contains(i, j) && !p.is_known.load(std::memory_order_acquire))
+        missing.push_back({order_of(i, j, n), i, j, n, &p});
+    });
+    last = group.window;
   }
   std::sort(missing.begin(), missing.end(), [](const Missing& a, const Missing& b) { return a.order < b.order; });
   missing.erase(std::unique(missing.begin(), missing.end(),
@@ -151,55 +173,69 @@ void VisibilityGrid::evaluate_missing(std::span<const Cell> cells, const Evaluat
   }
 }
 
-GridNeighbours VisibilityGrid::neighbours_of(const Cell& cell) {
+/// The value that all pixels of the window have.
+std::optional<float> VisibilityGrid::even_value(const Window& window) {
+  float least = HUGE_VALF, greatest = -HUGE_VALF;
+  for_points(window, [&](const Point& p, int, int, int) {
+    const float v = p.visible.load(std::memory_order_relaxed);
+    least = std::min(least, v), greatest = std::max(greatest, v);
+  });
+  return least == greatest ? std::optional(least) : std::nullopt;
+}
+
+GridNeighbours VisibilityGrid::neighbours_of(const Window& window, const Cell& cell) {
   GridNeighbours out;
   const float scale = 1 / static_cast<float>(step_ * step_ + rise_);
   int& k = out.count;
-  for (int j = cell.j - 1; j < cell.j - 1 + width; ++j)
-    for (int i = cell.i - 1; i < cell.i - 1 + width; ++i)
-      for (int n = 0; n < per_cell_; ++n, ++k) {
-        const Point& p = point(i, j, n);
-        const int x = p.pixel[0].load(std::memory_order_relaxed), y = p.pixel[1].load(std::memory_order_relaxed);
-        out.x[k] = static_cast<float>(step_ * x + rise_ * y) * scale - static_cast<float>(cell.i);
-        out.y[k] = static_cast<float>(step_ * y - rise_ * x) * scale - static_cast<float>(cell.j);
-        out.surface[k] = static_cast<std::int32_t>(p.surface.load(std::memory_order_relaxed));
-        for (std::size_t c = 0; c < 3; ++c) {
-          out.position[c][k] = p.position[c].load(std::memory_order_relaxed);
-          out.normal[c][k] = p.normal[c].load(std::memory_order_relaxed);
-        }
-        out.bend[k] = p.bend.load(std::memory_order_relaxed);
-        out.visible[k] = p.visible.load(std::memory_order_relaxed);
-      }
+  for_points(window, [&](const Point& p, int, int, int) {
+    const int x = p.pixel[0].load(std::memory_order_relaxed), y = p.pixel[1].load(std::memory_order_relaxed);
+    out.x[k] = static_cast<float>(step_ * x + rise_ * y) * scale - static_cast<float>(cell.i);
+    out.y[k] = static_cast<float>(step_ * y - rise_ * x) * scale - static_cast<float>(cell.j);
+    out.surface[k] = static_cast<std::int32_t>(p.surface.load(std::memory_order_relaxed));
+    for (std::size_t c = 0; c < 3; ++c) {
+      out.position[c][k] = p.position[c].load(std::memory_order_relaxed);
+      out.normal[c][k] = p.normal[c].load(std::memory_order_relaxed);
+    }
+    out.bend[k] = p.bend.load(std::memory_order_relaxed);
+    out.visible[k++] = p.visible.load(std::memory_order_relaxed);
+  });
   return out;
 }
 
 /// Receivers of one cell have the same neighbours.
 void VisibilityGrid::interpolate(const Receivers& receivers, std::span<const int> which, const Evaluate& evaluate,
                                  float* visible) {
+  // Receivers in succession mostly lie in one cell: runs of these are sorted.
   std::array<Cell, Receivers::capacity> places, sorted;
   std::array<std::uint64_t, Receivers::capacity> order;
   static_assert(Receivers::capacity <= 1 << order_bits);
+  std::size_t runs = 0, end = 0;
   for (std::size_t k = 0; k < which.size(); ++k) {
     places[k] = cell_of(receivers, which[k]);
     places[k].receiver = static_cast<int>(k);
-    order[k] = order_of(places[k].i, places[k].j, places[k].receiver);
+    if (k == 0 || !places[k].is_that_of(places[k - 1]))
+      order[runs++] = order_of(places[k].i, places[k].j, places[k].receiver);
   }
-  std::sort(order.begin(), order.begin() + which.size());
-  for (std::size_t k = 0; k < which.size(); ++k) sorted[k] = places[order[k] % (1 << order_bits)];
+  std::sort(order.begin(), order.begin() + runs);
+  for (std::size_t n = 0; n < runs; ++n)
+    for (std::size_t first = order[n] % (1 << order_bits), k = first;
+         k < which.size() && places[k].is_that_of(places[first]); ++k)
+      sorted[end++] = places[k];
   const std::span<const Cell> cells{sorted.data(), which.size()};
-  evaluate_missing(cells, evaluate);
+  std::array<Group, Receivers::capacity> groups;
+  std::size_t count = 0;
+  for (std::size_t first = 0; first < cells.size(); first = groups[count++].end) groups[count] = group_at(cells, first);
+  evaluate_missing({groups.data(), count}, evaluate);
 
   GridReceivers of_cell{};
-  for (std::size_t first = 0, end; first < cells.size(); first = end) {
-    for (end = first + 1; end < cells.size() && cells[end].is_that_of(cells[first]);) ++end;
-    const GridNeighbours near = neighbours_of(cells[first]);
-    const std::span<const Cell> same = cells.subspan(first, end - first);
-    const bool is_even =
-        std::all_of(near.visible, near.visible + near.count, [&](float v) { return v == near.visible[0]; });
-    if (receivers.is_ground && is_even && near.visible[0] >= 0) {
-      for (const Cell& cell : same) visible[cell.receiver] = near.visible[0];
-      continue;
-    }
+  for (const Group& group : std::span(groups.data(), count)) {
+    const std::span<const Cell> same = cells.subspan(group.first, group.end - group.first);
+    if (receivers.is_ground)
+      if (const std::optional<float> even = even_value(group.window); even && *even >= 0) {
+        for (const Cell& cell : same) visible[cell.receiver] = *even;
+        continue;
+      }
+    const GridNeighbours near = neighbours_of(group.window, same[0]);
     of_cell.count = static_cast<int>(same.size());
     for (std::size_t n = 0; n < same.size(); ++n) {
       const int k = which[static_cast<std::size_t>(same[n].receiver)];

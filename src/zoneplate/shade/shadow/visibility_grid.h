@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -50,8 +51,7 @@ class VisibilityGrid {
   VisibilityGrid(const VisibilityGrid&) = delete;
   VisibilityGrid& operator=(const VisibilityGrid&) = delete;
 
-  /// Whether it does not have all pixels.
-  bool has_gaps() const { return density_.has_gaps; }
+  int step() const { return step_; }
 
   /// Stores the interpolated values at these receivers, Value::nothing where the points around one do not determine it.
   /// Points that are not known yet are evaluated. Any thread may call it at any time.
@@ -68,15 +68,32 @@ class VisibilityGrid {
     int receiver;
     bool is_that_of(const Cell& other) const { return i == other.i && j == other.j; }
   };
+  /// The cells whose pixels may have weight for receivers in one cell, i to i + columns and j to j + rows.
+  struct Window {
+    int i, j, columns, rows;
+    bool contains(int column, int row) const {
+      return static_cast<unsigned>(column - i) < static_cast<unsigned>(columns) &&
+             static_cast<unsigned>(row - j) < static_cast<unsigned>(rows);
+    }
+  };
+  /// Receivers of one cell: entries first and on of the ordered cells.
+  struct Group {
+    std::size_t first, end;
+    Window window;
+  };
   static constexpr int order_bits = 10;
   /// Cells by row and then by column, and `k`, of that many bits, within one.
   std::uint64_t order_of(int i, int j, int k) const;
   std::size_t per_cell() const { return static_cast<std::size_t>(per_cell_); }
   Cell cell_of(const Receivers& receivers, int i) const;
   PixelPosition pixel_of(int i, int j, int n) const;
-  Point& point(int i, int j, int n);
-  void evaluate_missing(std::span<const Cell> cells, const Evaluate& evaluate);
-  GridNeighbours neighbours_of(const Cell& cell);
+  Block& block_of(unsigned column, unsigned row);
+  template <class Use>
+  void for_points(const Window& window, const Use& use);
+  Group group_at(std::span<const Cell> cells, std::size_t first) const;
+  void evaluate_missing(std::span<const Group> groups, const Evaluate& evaluate);
+  std::optional<float> even_value(const Window& window);
+  GridNeighbours neighbours_of(const Window& window, const Cell& cell);
 
   int step_, rise_, per_cell_;  ///< pixels between the lattice's points; the rise of its rows; pixels of a cell
   GridDensity density_;

@@ -235,6 +235,21 @@ TEST(VisibilityGridBits, DoNotDependOnTheOrder) {
   EXPECT_GT(pixels, side * side * 9 / 10u);
   EXPECT_LE(pixels, (side + 4) * (side + 4));
 
+  // A fragment at its pixel's centre asks for nine pixels, one beside it for sixteen, whatever the others ask for.
+  const auto pixels_of = [&](float2 place) {
+    VisibilityGrid one(1, side, side, rays);
+    return ask(one, surface, {place}).evaluated.size();
+  };
+  EXPECT_EQ(pixels_of({20.5f, 30.5f}), 9u);
+  EXPECT_EQ(pixels_of({20.75f, 30.5f}), 16u);
+  const std::vector<float2> centres = {{20.5f, 30.5f}, {23.75f, 30.5f}, {21.5f, 30.5f}};
+  VisibilityGrid together(1, side, side, rays);
+  const std::vector<float> values = ask(together, surface, centres).values;
+  for (std::size_t i = 0; i < centres.size(); ++i) {
+    VisibilityGrid one(1, side, side, rays);
+    EXPECT_EQ(ask(one, surface, {centres[i]}).values[0], values[i]);
+  }
+
   // Two pixels of a cell of 17 are evaluated, once.
   EXPECT_EQ(asked.evaluated.size(), reversed.evaluated.size());
   EXPECT_LT(asked.evaluated.size(), 2 * (side + 24) * (side + 24) / 17u);

@@ -127,6 +127,11 @@ bool SurfaceShader::needs_derivatives(int material) const {
          (visibility != nullptr && visibility->needs_footprint());
 }
 
+bool SurfaceShader::needs_coverage() const {
+  const LightVisibility* const visibility = constants_->view.visibility;
+  return visibility != nullptr && visibility->needs_coverage();
+}
+
 std::span<const float> SurfaceShader::vertex_record(std::uint32_t instance, int material) const {
   return {constants_->records.of_instance(instance),
           static_cast<std::size_t>(constants_->records.layout(material).floats)};

@@ -75,6 +75,8 @@ class SurfaceShader {
 
   /// Whether a material's batches need dbdx and dbdy.
   bool needs_derivatives(int material) const;
+  /// Whether batches need their coverage.
+  bool needs_coverage() const;
 
   /// The record of an instance's first vertex, which shading reads; those of the other vertices follow.
   std::span<const float> vertex_record(std::uint32_t instance, int material) const;
