@@ -21,7 +21,7 @@ struct Fragment {
   std::int32_t x, y;      ///< 1/256 pixel from the image's top-left corner
   std::int32_t id;        ///< triangle
   std::uint32_t pixel;    ///< within the tile
-  std::uint64_t samples;  ///< the samples of the pixel that take its colour; none: it is not a matter of samples
+  std::uint64_t samples;  ///< the samples of the pixel that take its colour; 0: the pixel has none
 };
 
 /// Eight fragments of one triangle in neighbouring pixels of a row, at the same position in each pixel.

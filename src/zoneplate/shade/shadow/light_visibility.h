@@ -21,7 +21,7 @@ struct Receivers {
   /// never.
   const std::uint8_t* halvings = nullptr;
   static constexpr int min_rays = 8;
-  /// `rays`, halved so often.
+  /// A number of rays after that many halvings.
   static constexpr int halved(int rays, int times) {
     for (; times > 0 && rays > min_rays; --times) rays = (rays + 1) / 2;
     return rays;
@@ -61,7 +61,7 @@ class LightVisibility {
   virtual void of_light(int k, const Receivers& receivers, float* visible) const = 0;
   /// Whether of_light averages over the pixel: it then reads dx and dy.
   virtual bool needs_footprint() const = 0;
-  /// Whether either of the others depends on the receivers' coverage.
+  /// Whether of_light or of_environment reads the receivers' coverage.
   virtual bool needs_coverage() const { return false; }
   /// Whether of_environment is to be called.
   virtual bool has_occlusion() const = 0;

@@ -68,7 +68,7 @@ void SharedVisibility::of_environment(const Receivers& receivers, float* visible
         visible);
 }
 
-/// The numbers of rays are halved so many times.
+/// `times`: how often each pixel's number of rays is halved.
 void SharedVisibility::evaluate(bool is_ground, std::uint8_t times, std::span<const PixelPosition> pixels,
                                 const Rays& rays, VisibilityGrid::Value* values) const {
   Receivers seen, lit;

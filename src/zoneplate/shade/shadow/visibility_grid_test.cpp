@@ -235,7 +235,8 @@ TEST(VisibilityGridBits, DoNotDependOnTheOrder) {
   EXPECT_GT(pixels, side * side * 9 / 10u);
   EXPECT_LE(pixels, (side + 4) * (side + 4));
 
-  // A fragment at its pixel's centre asks for nine pixels, one beside it for sixteen, whatever the others ask for.
+  // A receiver at its pixel's centre needs the values of nine pixels, any other of sixteen; its own value does not
+  // depend on the receivers with it.
   const auto pixels_of = [&](float2 place) {
     VisibilityGrid one(1, side, side, rays);
     return ask(one, surface, {place}).evaluated.size();
